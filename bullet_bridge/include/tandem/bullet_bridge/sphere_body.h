@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "tandem/coordination/types.h"
+
+class btDiscreteDynamicsWorld;
+class btRigidBody;
+
+namespace tandem {
+
+class HapticBody;
+
+/// A sphere that is put into a host's world and taken out again: the Bullet body of a remote user.
+///
+/// It has no weight, meets moving bodies natively, and passes static ones: those the island keeps
+/// it out of. The world must outlive it. Taking it out of the world is noticed by
+/// haptic().isInWorld().
+class SphereBody {
+ public:
+  SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W);
+  ~SphereBody();
+  SphereBody(const SphereBody&) = delete;
+  SphereBody& operator=(const SphereBody&) = delete;
+
+  [[nodiscard]] btRigidBody& rigid() const noexcept;
+  [[nodiscard]] HapticBody& haptic() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tandem

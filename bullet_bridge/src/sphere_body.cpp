@@ -1,0 +1,55 @@
+#include "tandem/bullet_bridge/sphere_body.h"
+
+#include <optional>
+
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+#include "tandem/bullet_bridge/convert.h"
+#include "tandem/bullet_bridge/haptic_body.h"
+
+namespace tandem {
+namespace {
+
+constexpr int kAllButStatic = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
+
+btRigidBody::btRigidBodyConstructionInfo makeInfo(btSphereShape& shape, double mass,
+                                                  const Vec3& p_W) {
+  btVector3 inertia;
+  shape.calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, &shape,
+                                                inertia);
+  info.m_startWorldTransform.setIdentity();
+  info.m_startWorldTransform.setOrigin(toBullet(p_W));
+  return info;
+}
+
+}  // namespace
+
+struct SphereBody::Impl {
+  Impl(btDiscreteDynamicsWorld& host, double radius, double mass, const Vec3& p_W)
+      : world(host), shape(static_cast<btScalar>(radius)), rigid(makeInfo(shape, mass, p_W)) {
+    rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);
+    world.addRigidBody(&rigid, btBroadphaseProxy::DefaultFilter, kAllButStatic);
+    haptic.emplace(world, rigid);
+  }
+  ~Impl() {
+    const bool present = haptic->isInWorld();
+    haptic.reset();
+    if (present) world.removeRigidBody(&rigid);
+  }
+
+  btDiscreteDynamicsWorld& world;
+  btSphereShape shape;
+  btRigidBody rigid;
+  std::optional<HapticBody> haptic;
+};
+
+SphereBody::SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W)
+    : impl_(std::make_unique<Impl>(world, radius, mass, p_W)) {}
+SphereBody::~SphereBody() = default;
+
+btRigidBody& SphereBody::rigid() const noexcept { return impl_->rigid; }
+HapticBody& SphereBody::haptic() const noexcept { return *impl_->haptic; }
+
+}  // namespace tandem

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+
+namespace tandem {
+
+/// Where `object` stands in the world's list, or -1 if the world does not have it. Compares
+/// addresses only: the object may have been deleted. `hint` is where it stood last time, which
+/// saves the search.
+[[nodiscard]] inline int findInWorld(const btCollisionWorld& world, const btCollisionObject* object,
+                                     int hint = -1) noexcept {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  if (hint >= 0 && hint < objects.size() && objects[hint] == object) return hint;
+  for (int i = 0; i < objects.size(); ++i) {
+    if (objects[i] == object) return i;
+  }
+  return -1;
+}
+
+}  // namespace tandem

@@ -1,0 +1,55 @@
+# How every target of the project is compiled: warnings are errors on our own code only, floating
+# point is strict so that equal inputs give equal bits in Debug and Release, symbols are hidden.
+
+add_library(tandem_compile_options INTERFACE)
+target_compile_features(tandem_compile_options INTERFACE cxx_std_20)
+target_compile_options(tandem_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
+  -Woverloaded-virtual -Werror -ffp-contract=off -fno-math-errno)
+# GCC 12's optimiser warns of std::string and std::vector where nothing is wrong (GCC bugs 105651, 105329,
+# 105562); Clang, which CI builds with, too, has no such warnings. They stay visible but do not stop a build.
+target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:
+  -Wno-restrict -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow>)
+# Clang's -Wconversion includes the sign of indices, GCC's does not.
+target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
+if(TANDEM_SANITIZE)
+  target_compile_options(tandem_compile_options INTERFACE
+    -fsanitize=${TANDEM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(tandem_compile_options INTERFACE -fsanitize=${TANDEM_SANITIZE})
+endif()
+
+# tandem_precompile(TARGET headers...): headers that nearly every source of a target reads, compiled once. What a
+# header of ours needs it must still include itself: tests/house compiles each alone.
+option(TANDEM_PRECOMPILE "Precompile common headers: halves the time of a full build" ON)
+function(tandem_precompile target)
+  if(TANDEM_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+# tandem_add_library(NAME FOLDER folder SOURCES ... PUBLIC libs... PRIVATE libs...)
+# One library of the house: public headers in <folder>/include, private sources in <folder>/src.
+function(tandem_add_library name)
+  cmake_parse_arguments(arg "" "FOLDER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(folder "${PROJECT_SOURCE_DIR}/${arg_FOLDER}")
+  file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/tandem/${arg_FOLDER}/*.h")
+  add_library(tandem_${name} STATIC ${arg_SOURCES})
+  add_library(tandem::${name} ALIAS tandem_${name})
+  target_sources(tandem_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${folder}/include" FILES ${headers})
+  target_include_directories(tandem_${name} PRIVATE "${folder}/src")
+  target_compile_features(tandem_${name} PUBLIC cxx_std_17)
+  target_link_libraries(tandem_${name} PUBLIC ${arg_PUBLIC}
+    PRIVATE $<BUILD_INTERFACE:tandem_compile_options> ${arg_PRIVATE})
+  set_target_properties(tandem_${name} PROPERTIES
+    CXX_STANDARD 20 CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON)
+  tandem_precompile(tandem_${name} <Eigen/Core> <Eigen/Geometry>)
+endfunction()
+
+# tandem_add_program(NAME SOURCES ... LIBRARIES ...): an executable of ours.
+function(tandem_add_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} tandem_compile_options)
+  set_target_properties(${name} PROPERTIES CXX_STANDARD 20 CXX_EXTENSIONS OFF)
+endfunction()

@@ -1,0 +1,25 @@
+#pragma once
+
+/// \file
+/// TANDEM_ASSERT(condition): a bug in the caller or in Tandem, not bad input. On in builds without
+/// NDEBUG; calls the handler, which by default prints one line and aborts.
+namespace tandem {
+
+using AssertHandler = void (*)(const char* condition, const char* file, int line);
+
+/// Replaces the handler; returns the one before. Not thread safe: call before the first tick.
+AssertHandler setAssertHandler(AssertHandler handler) noexcept;
+
+namespace detail {
+void failAssert(const char* condition, const char* file, int line) noexcept;
+}
+
+}  // namespace tandem
+
+#ifdef NDEBUG
+#define TANDEM_ASSERT(condition) static_cast<void>(sizeof(!(condition)))
+#else
+#define TANDEM_ASSERT(condition)      \
+  ((condition) ? static_cast<void>(0) \
+               : ::tandem::detail::failAssert(#condition, __FILE__, __LINE__))
+#endif

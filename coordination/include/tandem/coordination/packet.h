@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tandem/coordination/types.h"
+
+namespace tandem {
+
+/// Identity of a shared object, agreed between the peers (its place in the scenario).
+using ObjectId = std::uint32_t;
+
+/// Shared objects that fit one packet.
+inline constexpr int kMaxObjectsPerPacket = 8;
+
+/// One shared object's copy at the sender.
+struct ObjectState {
+  ObjectId id = 0;
+  RigidState state;
+};
+
+/// What a peer tells the others `network.rate` times a second: kinematic state, never forces. Every
+/// receiver computes its own forces from its own gains. Latest wins; nothing is sent again.
+struct StatePacket {
+  PeerId sender{};
+  std::uint64_t sequence = 0;  ///< counts the sender's packets from 0
+  double time = 0.0;           ///< sender's time of the state below [s]
+  PointState user;             ///< the sender's haptic interface point
+  std::uint32_t object_count = 0;
+  std::array<ObjectState, kMaxObjectsPerPacket> objects;
+};
+
+/// False if anything in the packet is not finite, a quaternion is not of unit length within 1e-6,
+/// or there are more objects than fit. Entries from `object_count` on are no part of the packet.
+/// Bytes from the network are never trusted: a receiver drops and counts such a packet.
+[[nodiscard]] bool isSane(const StatePacket& packet) noexcept;
+
+}  // namespace tandem

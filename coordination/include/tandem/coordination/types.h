@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+/// \file
+/// The words that all of Tandem shares. SI units everywhere. Frames: W is the world, the same for
+/// all peers, right-handed; B a body (origin at its centre of mass); D the device.
+namespace tandem {
+
+using Vec3 = Eigen::Vector3d;
+using Quat = Eigen::Quaterniond;
+
+/// A user together with the computer that runs that user's copy of the virtual environment.
+enum class PeerId : std::uint32_t {};
+
+/// Counts haptic periods since the start; time is `tick * haptic_period`, never an accumulated sum.
+using Tick = std::uint64_t;
+
+/// Position and velocity of a point in W [m, m/s].
+struct PointState {
+  Vec3 p_W = Vec3::Zero();
+  Vec3 v_W = Vec3::Zero();
+};
+
+/// Pose and velocity of a rigid body in W: centre of mass, orientation, linear [m/s] and angular
+/// velocity [rad/s].
+struct RigidState {
+  Vec3 p_W = Vec3::Zero();
+  Quat q_WB = Quat::Identity();
+  Vec3 v_W = Vec3::Zero();
+  Vec3 w_W = Vec3::Zero();
+
+  [[nodiscard]] PointState point() const { return {p_W, v_W}; }
+};
+
+[[nodiscard]] inline bool isFinite(const PointState& s) noexcept {
+  return s.p_W.allFinite() && s.v_W.allFinite();
+}
+
+[[nodiscard]] inline bool isFinite(const RigidState& s) noexcept {
+  return s.p_W.allFinite() && s.v_W.allFinite() && s.w_W.allFinite() && s.q_WB.coeffs().allFinite();
+}
+
+/// Running a set-up that cannot work: the message is one line and names the value and the remedy.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace tandem

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "tandem/coordination/types.h"
+
+namespace tandem {
+
+/// Gains of one spring-damper; checked where they enter (Island::addCoupler, Island::addContact).
+struct CouplerGains {
+  double stiffness = 0.0;  ///< [N/m], >= 0; higher feels stiffer and needs a shorter delay
+  double damping = 0.0;    ///< [N s/m], >= 0; higher calms the coupling, too high rings with delay
+};
+
+/// Force that pulls `follower` towards `leader`, expressed in W [N]:
+///
+///   f = K (p_leader - p_follower) + B (v_leader - v_follower)
+///
+/// The reaction on the leader is -f. Pure; real-time safe.
+/// Source: Li & Constantinescu 2009, eqs (9), (10), (13), (14).
+[[nodiscard]] inline Vec3 computeCouplerForce(const CouplerGains& gains, const PointState& leader,
+                                              const PointState& follower) noexcept {
+  return gains.stiffness * (leader.p_W - follower.p_W) +
+         gains.damping * (leader.v_W - follower.v_W);
+}
+
+/// Force that a unilateral coupler pushes two overlapping bodies apart with [N]:
+///
+///   f = [K overlap + B overlap_rate]+   while overlap > 0, else 0
+///
+/// `overlap` [m] is how deep they are in each other, `overlap_rate` [m/s] how fast that grows. A
+/// contact cannot pull. Pure; real-time safe. Source: Li & Constantinescu 2009, eqs (7), (8), (11),
+/// (12).
+[[nodiscard]] inline double computeContactForce(const CouplerGains& gains, double overlap,
+                                                double overlap_rate) noexcept {
+  if (!(overlap > 0.0)) return 0.0;
+  const double force = gains.stiffness * overlap + gains.damping * overlap_rate;
+  return force > 0.0 ? force : 0.0;
+}
+
+}  // namespace tandem

@@ -1,0 +1,26 @@
+#include "tandem/coordination/packet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem {
+namespace {
+
+constexpr double kUnitTolerance = 1e-6;
+
+bool isSane(const ObjectState& object) noexcept {
+  // Written so that the norm of huge but finite coefficients, infinite, is refused as well.
+  return isFinite(object.state) && std::abs(object.state.q_WB.norm() - 1.0) <= kUnitTolerance;
+}
+
+}  // namespace
+
+bool isSane(const StatePacket& packet) noexcept {
+  if (packet.object_count > packet.objects.size()) return false;
+  if (!std::isfinite(packet.time) || !isFinite(packet.user)) return false;
+  const auto* const first = packet.objects.data();
+  return std::all_of(first, first + packet.object_count,
+                     [](const ObjectState& object) { return isSane(object); });
+}
+
+}  // namespace tandem

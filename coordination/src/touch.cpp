@@ -1,0 +1,39 @@
+#include "touch.h"
+
+namespace tandem {
+
+TouchState computeTouchState(const IslandModel& model, const Touch& touch,
+                             const States& states) noexcept {
+  const RigidState& sphere = states[touch.sphere];
+  const double radius = std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius;
+  TouchState state;
+  if (touch.obstacle) {
+    state.geometry = findSphereContact(sphere.p_W, radius, touch.obstacle->shape,
+                                       touch.obstacle->p_WB, touch.obstacle->q_WB);
+    state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W);
+    return state;
+  }
+  const RigidState& other = states[touch.other];
+  state.geometry = findSphereContact(sphere.p_W, radius, model.bodies[touch.other].settings.shape,
+                                     other.p_W, other.q_WB);
+  const Vec3 v_point_W = other.v_W + other.w_W.cross(state.geometry.p_W - other.p_W);
+  state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W - v_point_W);
+  return state;
+}
+
+double computePush(const Touch& touch, const TouchState& state) noexcept {
+  return computeContactForce(touch.gains, state.overlap(), state.overlap_rate);
+}
+
+void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
+             const States& states, std::vector<Wrench>& wrenches) noexcept {
+  // The line of force passes through the sphere's centre: no torque on the sphere.
+  const Vec3 f_sphere_W = push * state.geometry.n_W;
+  wrenches[touch.sphere].f_W += f_sphere_W;
+  if (touch.obstacle) return;
+  wrenches[touch.other].f_W -= f_sphere_W;
+  if (model.bodies[touch.other].rotates())
+    wrenches[touch.other].t_W -= (state.geometry.p_W - states[touch.other].p_W).cross(f_sphere_W);
+}
+
+}  // namespace tandem

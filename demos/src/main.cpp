@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "plot/plot.h"
+#include "run_output.h"
+#include "scenario.h"
+#include "usage_error.h"
+#include "virtual_run.h"
+
+namespace tandem::demos {
+namespace {
+
+constexpr int kDone = 0, kFailed = 1, kBadUse = 2;
+
+struct RunOptions {
+  std::string scenario;
+  std::vector<std::string> overrides;
+  std::optional<std::string> folder;
+  bool json = false;
+  bool quiet = false;
+};
+
+void printSummary(const nlohmann::json& s) {
+  fmt::print("{:<34}{:>12.3f} mm\n", "coherency error, mean",
+             1e3 * s["coherency"]["mean_abs"].get<double>());
+  fmt::print("{:<34}{:>12.3f} mm\n", "coherency error, largest",
+             1e3 * s["coherency"]["max_abs"].get<double>());
+  for (const char* site : {"site1", "site2"}) {
+    const nlohmann::json& one = s[site];
+    fmt::print("{} force, mean / largest         {:>12.3f} / {:.3f} N\n", site,
+               one["force"]["mean"].get<double>(), one["force"]["max"].get<double>());
+    fmt::print("{} contact changes, device end   {:>12} , {:.4f} m\n", site,
+               one["contact_transitions"].get<int>(), one["device_end"].get<double>());
+  }
+  fmt::print("state hash {}, {:.0f} times real time\n", s["state_hash"].get<std::string>(),
+             s["real_time_factor"].get<double>());
+}
+
+int runScenario(const RunOptions& options) {
+  const Scenario scenario = loadScenario(options.scenario, options.overrides);
+  if (options.folder) prepareFolder(*options.folder);
+
+  VirtualRun run(scenario);
+  const bool shows_progress = !options.quiet && isatty(STDERR_FILENO);
+  run.run([&](double share) {
+    if (shows_progress) fmt::print(stderr, "\r{:3.0f} % of {} s", 100.0 * share, scenario.duration);
+  });
+  if (shows_progress) fmt::print(stderr, "\r\033[K");
+
+  const nlohmann::json summary = makeSummary(scenario, run);
+  if (options.folder) writeRun(*options.folder, summary, run);
+  if (options.json) {
+    fmt::print("{}\n", summary.dump(2));
+  } else if (!options.quiet) {
+    printSummary(summary);
+  }
+  if (std::fflush(stdout) != 0)
+    throw Error("cannot write to the standard output: is its disk full?");
+  return kDone;
+}
+
+int runProgram(int argc, char** argv) {
+  CLI::App app{"Tandem: networked haptic cooperation in Bullet Physics by remote dynamic proxies.",
+               "tandem"};
+  app.require_subcommand(0, 1);
+
+  RunOptions run_options;
+  CLI::App* run = app.add_subcommand("run", "run all sites of a scenario in virtual time");
+  run->add_option("scenario", run_options.scenario, "scenario file (TOML)")->required();
+  run->add_option("--set", run_options.overrides, "override a key, e.g. --set network.delay=0.1")
+      ->allow_extra_args(false)
+      ->take_all();
+  run->add_option("--out", run_options.folder,
+                  "folder for site1.csv, site2.csv, scene.csv, summary.json");
+  run->add_flag("--json", run_options.json, "print summary.json to stdout");
+  run->add_flag("--quiet", run_options.quiet, "print nothing but errors");
+
+  std::vector<std::string> plot_folders;
+  CLI::App* plot =
+      app.add_subcommand("plot", "figures and report.html of one run, or of several compared");
+  plot->add_option("folders", plot_folders, "folders of runs; the report goes into the first")
+      ->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    if (app.get_subcommands().empty() && !app.remaining().empty())
+      throw UsageError(app.remaining().front() +
+                       ": no such command; allowed: run, plot; see tandem --help");
+    throw UsageError(fmt::format("{}; see tandem --help", error.what()));
+  }
+  if (app.get_subcommands().empty())
+    throw UsageError("a command is missing; allowed: run, plot; see tandem --help");
+  if (run->parsed()) return runScenario(run_options);
+  plotRuns({plot_folders.begin(), plot_folders.end()});
+  return kDone;
+}
+
+/// One line, whatever file names and values are quoted in it.
+int reportError(std::string message, int status) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; },
+      ' ');
+  std::fprintf(stderr, "tandem: %s\n", message.c_str());
+  return status;
+}
+
+}  // namespace
+}  // namespace tandem::demos
+
+int main(int argc, char** argv) {
+  using namespace tandem::demos;
+  try {
+    return runProgram(argc, argv);
+  } catch (const UsageError& error) {
+    return reportError(error.what(), kBadUse);
+  } catch (const std::invalid_argument& error) {
+    return reportError(error.what(), kBadUse);
+  } catch (const std::exception& error) {
+    return reportError(error.what(), kFailed);
+  }
+}

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tandem/coordination/simulated_link.h"
+#include "tandem/coordination/types.h"
+#include "tandem/coordination/virtual_coupler.h"
+
+namespace tandem::demos {
+
+/// What a simulated user's hand does; vectors in the scene's own frame.
+struct HandScenario {
+  std::string kind = "constant";                 ///< constant, sine, minimum_jerk, csv
+  Vec3 force = Vec3::Zero();                     ///< constant force, or amplitude of the sine [N]
+  double frequency = 1.0;                        ///< of the sine [Hz]
+  double stiffness = 300.0;                      ///< of the hand that follows waypoints [N/m]
+  double damping = 5.0;                          ///< [N s/m]
+  std::vector<std::array<double, 4>> waypoints;  ///< t, and displacement from the start [s, m]
+  std::string file;                              ///< of the csv hand, relative to the scenario
+  Vec3 start_offset =
+      Vec3::Zero();  ///< where the device starts, from "just in contact on the axis" [m]
+};
+
+/// A box of a site's own world that is not shared.
+struct NeighbourBox {
+  Vec3 position = Vec3::Zero();  ///< centre, scene frame [m]
+  double size = 0.04;            ///< edge [m]
+  double mass = 0.1;             ///< [kg]; 0: static
+};
+
+/// A scenario file, checked. Keys, meanings and units: docs/scenarios.md.
+struct Scenario {
+  std::string title;
+  std::filesystem::path file;
+
+  std::string kind = "cooperative_manipulation";
+  std::string scheme = "remote_dynamic_proxy";
+  double duration = 1.0;
+  Vec3 axis = Vec3::UnitX();
+  bool guide = true;
+
+  CouplerGains contact{4000.0, 1.0};
+  CouplerGains coordination{200.0, 30.0};
+  double angular_stiffness = -1.0;  ///< below 0: from the linear gains, as SiteSettings says
+  double angular_damping = -1.0;
+
+  double object_mass = 0.2;
+  double object_damping = 0.0;
+  double object_size = 0.04;
+  double proxy_mass = 0.1;
+  double proxy_damping = 0.0;
+  double proxy_radius = 0.01;
+  double device_mass = 0.1;
+  double device_damping = 0.5;
+  double encoder_resolution = 0.0;
+  double device_max_force = 0.0;  ///< 0: no limit
+
+  std::array<HandScenario, 2> hands;
+  Impairments network{0.05};
+  double packet_rate = 128.0;
+  double haptic_rate = 1000.0;
+  double host_rate = 240.0;
+  std::string injection = "handoff";
+  double inner_rate = 4000.0;
+
+  double gravity = 0.0;   ///< along -z of the scene [m/s^2]
+  bool floor = false;     ///< under the object
+  double friction = 0.5;  ///< of all bodies of the world
+  std::vector<NeighbourBox> boxes;
+
+  [[nodiscard]] bool hasObject() const { return kind != "user_contact"; }
+};
+
+/// Reads a scenario and applies `overrides` ("key=value", dotted key). Throws UsageError, one line:
+/// file, key, value, what is allowed.
+[[nodiscard]] Scenario loadScenario(const std::filesystem::path& file,
+                                    const std::vector<std::string>& overrides);
+
+/// The same from text, for tests and fuzzing; `name` stands for the file in messages.
+[[nodiscard]] Scenario parseScenario(const std::string& text, const std::string& name,
+                                     const std::vector<std::string>& overrides);
+
+/// All keys with their values, nested as in the file.
+[[nodiscard]] nlohmann::json describeScenario(const Scenario& scenario);
+
+}  // namespace tandem::demos

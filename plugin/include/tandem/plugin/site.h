@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/bullet_bridge/bullet_abi.h"
+#include "tandem/coordination/link.h"
+#include "tandem/falcon/haptic_device.h"
+#include "tandem/plugin/site_settings.h"
+
+class btDiscreteDynamicsWorld;
+class btRigidBody;
+
+namespace tandem {
+
+class Recording;
+
+/// What a tick has to report; each bit says what to do.
+enum TickStatus : std::uint32_t {
+  kTickOk = 0,
+  kDeviceInvalid =
+      1u << 0,  ///< the device gave nothing usable: check its cable; no force until it does
+  kBodyMissing =
+      1u << 1,  ///< a body of ours was taken out of the host's world: put it back, make a new Site
+  kPacketRefused =
+      1u << 2,  ///< a packet held nonsense (not finite, no unit quaternion): check the sender
+  kHostStepWrong = 1u << 3,  ///< impulse injection, but the host does not step at the haptic rate:
+                             ///< make it, or hand off
+  kStateNotFinite =
+      1u << 4,  ///< the island blew up: lower gains or inner_step; the force stays at zero
+};
+
+/// Counts since the start.
+struct SiteCounters {
+  std::uint64_t packets_sent = 0;
+  std::uint64_t packets_taken = 0;
+  std::uint64_t packets_stale = 0;    ///< older than what was there already: dropped
+  std::uint64_t packets_refused = 0;  ///< not sane: dropped
+};
+
+/// One user's side of a networked haptic cooperation, attached to a host's Bullet world.
+///
+/// A tick reads the device, takes in what has arrived, renders the force, advances the island -
+/// taking in what arrives and sending what is due at its moment - and Bullet gets its share in the
+/// host's step. Shared objects and remote users are ordinary btRigidBodys of the host's world.
+///
+/// Set-up calls may allocate and throw; tick() does neither. One thread calls everything of one
+/// site, the one that steps the world. World, device, links and shared bodies must outlive the
+/// site; destroying the site gives the host everything back as it was.
+class Site {
+ public:
+  /// Throws std::invalid_argument for settings out of range; tandem::Error if the device gives no
+  /// position, the world is attached already or the host was compiled for another Bullet than this
+  /// library.
+  Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
+       BulletAbi host = bulletAbiOfThisCode());
+  ~Site();
+  Site(const Site&) = delete;
+  Site& operator=(const Site&) = delete;
+
+  /// Shares a dynamic box, sphere or capsule of the host's world: its mass and inertia become m/N
+  /// of what they are, until the site ends. `damping` b acts on this copy [N s/m]. Every peer
+  /// shares the same objects in the same order: that is their identity. Throws tandem::Error for a
+  /// body that cannot be shared, with the reason.
+  ObjectId share(btRigidBody& body, double damping = 0.0);
+
+  /// Connects a remote user whose device starts at `start_W`. The scheme decides what stands for
+  /// the user here.
+  void connect(PeerId remote, Link& link, const Vec3& start_W);
+
+  /// One haptic period from `now` [s]; the first call starts the clock. Returns TickStatus bits.
+  /// Real-time safe. Only with TickSource::kCaller.
+  std::uint32_t tick(double now) noexcept;
+
+  /// All status bits since the start.
+  [[nodiscard]] std::uint32_t status() const noexcept;
+  [[nodiscard]] const SiteCounters& counters() const noexcept;
+  [[nodiscard]] std::uint64_t tickCount() const noexcept;
+
+  /// FNV-1a over the bits of time, force and all island states of all ticks: equal runs have equal
+  /// hashes.
+  [[nodiscard]] std::uint64_t stateHash() const noexcept;
+
+  /// Things a user should know about what was attached, one line each.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
+  /// The latest tick's force on the device, in W [N], and whether it is a contact force above 0.
+  [[nodiscard]] const Vec3& force() const noexcept;
+  /// Haptic interface point, shared object and proxy in the island, now.
+  [[nodiscard]] const RigidState& hip() const noexcept;
+  [[nodiscard]] const RigidState& object(ObjectId id) const noexcept;
+  [[nodiscard]] int objectCount() const noexcept;
+  [[nodiscard]] int remoteCount() const noexcept;
+  /// Null where the scheme has no body for a remote user.
+  [[nodiscard]] const RigidState* proxy(int remote) const noexcept;
+  [[nodiscard]] btRigidBody* proxyBody(int remote) const noexcept;
+  [[nodiscard]] btRigidBody& objectBody(ObjectId id) const noexcept;
+  /// The newest state received from a remote; nothing is known before the first packet.
+  [[nodiscard]] const StatePacket& latest(int remote) const noexcept;
+
+  /// Records each tick from now on; null stops. Must outlive the site or be taken away before.
+  void record(Recording* recording) noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tandem

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include "tandem/coordination/scheme.h"
+
+namespace tandem {
+
+/// How forces reach the host's bodies.
+enum class Injection {
+  kHandoff,  ///< the island moves its bodies exactly; Bullet gets their average velocity at any
+             ///< host rate
+  kImpulse,  ///< Bullet moves them under impulses F dt; the host must step at the haptic rate
+};
+
+/// Who calls Site::tick().
+enum class TickSource {
+  kHostStep,  ///< the site itself, from the host's stepSimulation(): nothing else to do for the
+              ///< host
+  kCaller,    ///< whoever made the site: virtual time with several sites, or a haptic thread
+};
+
+/// All numbers of a site. Checked by Site's constructor.
+struct SiteSettings {
+  PeerId self{1};
+  int peers = 2;                      ///< N: every shared object is carried by N copies of mass m/N
+  double haptic_rate = 1000.0;        ///< device loop [Hz]; higher renders stiffer contact
+  double packet_rate = 128.0;         ///< states sent per second [Hz], at most the haptic rate
+  double host_step = 0.0;             ///< expected first step of the host [s]; 0: learnt from it
+  CouplerGains contact{4000.0, 1.0};  ///< K_vc, B_vc of every contact of spheres
+  CouplerGains coordination{200.0,
+                            30.0};  ///< K_t, B_t: proxies to users, object copies to each other
+  /// Turns object copies towards each other [N m/rad, N m s/rad]. Nothing: K_t J/m and B_t J/m, as
+  /// if each bit of mass were tied to its own copy.
+  std::optional<CouplerGains> angular_coordination;
+  ProxySettings proxy;             ///< m_h, b_h and size of what stands for a remote user
+  double hip_radius = 0.01;        ///< sphere of the local haptic interface point [m]
+  const Scheme* scheme = nullptr;  ///< null: remote_dynamic_proxy
+  Injection injection = Injection::kHandoff;
+  TickSource tick_source = TickSource::kHostStep;
+  std::optional<Vec3> guide;  ///< unit vector in W: a slot that leaves bodies this direction only
+  double inner_step = 1.0 / 4000.0;  ///< where motion is not linear [s]; smaller is more exact
+  double fault_slew = 2000.0;        ///< after a fault the force fades by this [N/s]
+};
+
+/// Throws std::invalid_argument, naming the value and what is allowed.
+void checkSiteSettings(const SiteSettings& settings);
+
+}  // namespace tandem

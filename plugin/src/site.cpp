@@ -1,0 +1,219 @@
+#include "tandem/plugin/site.h"
+
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "tandem/bullet_bridge/shapes.h"
+
+#include "site_impl.h"
+
+namespace tandem {
+namespace {
+
+SiteSettings checked(const SiteSettings& settings) {
+  checkSiteSettings(settings);
+  return settings;
+}
+
+IslandSettings makeIslandSettings(const SiteSettings& settings) {
+  IslandSettings island;
+  island.haptic_period = 1.0 / settings.haptic_rate;
+  island.inner_step = settings.inner_step;
+  island.guide = settings.guide;
+  island.obstacle_contact = settings.contact;
+  return island;
+}
+
+}  // namespace
+
+Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& host, HapticDevice& hand,
+                 BulletAbi abi)
+    : settings(checked(wanted)),
+      scheme(wanted.scheme ? *wanted.scheme : findScheme("remote_dynamic_proxy")),
+      device(hand),
+      host_world(host, *this, abi),
+      obstacles(host),
+      island(makeIslandSettings(settings)),
+      guard(hand.capabilities().max_force, settings.fault_slew / settings.haptic_rate),
+      host_step(settings.host_step) {
+  IslandBody body;
+  body.shape = Sphere{settings.hip_radius};
+  body.motion = Motion::kPrescribed;
+  body.feels_obstacles = true;
+  sample = device.read(0.0);
+  if (!sample.valid || !isFinite(sample.hip))
+    throw Error("the device gives no position; check its cable, or wait until it is homed");
+  body.start.p_W = sample.hip.p_W;
+  hip = island.addBody(body);
+  obstacles.addSphere(hip, settings.hip_radius);
+  if (isHandoff()) island.setRigidContacts(&obstacles);
+  handoff_due = host_step > 0.0 ? host_step : std::numeric_limits<double>::infinity();
+  finishSetUp();
+}
+
+Site::Impl::~Impl() {
+  for (Remote& remote : remotes)
+    for (SharedObject& object : objects)
+      if (remote.proxy)
+        filterNativeContact(host_world.world(), object.bullet->body(), remote.proxy->rigid(),
+                            false);
+}
+
+ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
+  if (objects.size() == kMaxObjectsPerPacket)
+    throw Error("a site shares at most " + std::to_string(kMaxObjectsPerPacket) + " objects");
+  const Shape shape = getShareableShape(rigid);
+
+  SharedObject object;
+  object.id = static_cast<ObjectId>(objects.size());
+  object.damping = damping;
+  object.bullet = std::make_unique<HapticBody>(host_world.world(), rigid,
+                                               1.0 / static_cast<double>(settings.peers));
+  object.body.bullet = object.bullet.get();
+  const HapticBody& bullet = *object.bullet;
+
+  IslandBody body;
+  body.shape = shape;
+  body.mass = bullet.mass();
+  body.inertia_B = bullet.inertia();
+  body.damping = damping;
+  body.is_rigid = true;
+  body.start = bullet.state();
+  checkInjectionStable("shared object",
+                       settings.contact.stiffness + settings.coordination.stiffness,
+                       settings.contact.damping + settings.coordination.damping, body.mass);
+  object.body.index = island.addBody(body);
+  if (isHandoff() && !settings.guide) obstacles.addBody(object.body.index, rigid);
+
+  island.addContact(hip, object.body.index, settings.contact);
+  for (Remote& remote : remotes) {
+    if (!remote.proxy) continue;
+    island.addContact(*remote.user.body, object.body.index, settings.contact);
+    filterNativeContact(host_world.world(), rigid, remote.proxy->rigid(), true);
+  }
+  coordinate(object);
+  objects.push_back(std::move(object));
+  finishSetUp();
+  return objects.back().id;
+}
+
+void Site::Impl::connect(PeerId peer, Link& link, const Vec3& start_W) {
+  if (peer == settings.self)
+    throw std::invalid_argument("a site cannot be its own remote; give each peer its own id");
+  Remote remote;
+  remote.id = peer;
+  remote.link = &link;
+  remote.user =
+      scheme.makeRemoteUser(island, settings.proxy, settings.coordination, {start_W, Vec3::Zero()});
+  if (remote.user.body) {
+    const BodyIndex index = *remote.user.body;
+    checkInjectionStable("proxy", settings.contact.stiffness + settings.coordination.stiffness,
+                         settings.contact.damping + settings.coordination.damping,
+                         settings.proxy.mass);
+    remote.proxy = std::make_unique<SphereBody>(host_world.world(), settings.proxy.radius,
+                                                settings.proxy.mass, start_W);
+    remote.body.bullet = &remote.proxy->haptic();
+    remote.body.index = index;
+    obstacles.addSphere(index, settings.proxy.radius);
+    island.addContact(hip, index, settings.contact);
+    for (SharedObject& object : objects) {
+      island.addContact(index, object.body.index, settings.contact);
+      filterNativeContact(host_world.world(), object.bullet->body(), remote.proxy->rigid(), true);
+    }
+  }
+  remotes.push_back(std::move(remote));
+  for (SharedObject& object : objects) coordinate(object);
+  finishSetUp();
+}
+
+/// Ties an object copy to the copies of all remotes: eqs (9), (10).
+void Site::Impl::coordinate(SharedObject& object) {
+  const HapticBody& bullet = *object.bullet;
+  CouplerSettings coupler{settings.coordination, {}};
+  const double radius_squared = bullet.inertia().maxCoeff() / bullet.mass();
+  coupler.angular = settings.angular_coordination.value_or(
+      CouplerGains{settings.coordination.stiffness * radius_squared,
+                   settings.coordination.damping * radius_squared});
+  while (object.couplers.size() < remotes.size())
+    object.couplers.push_back(island.addCoupler(object.body.index, coupler));
+}
+
+void Site::Impl::checkInjectionStable(const char* what, double stiffness, double damping,
+                                      double mass) const {
+  const double limit = computeInjectionStepLimit(stiffness, damping, mass);
+  if (isHandoff() || period() < limit) return;
+  std::ostringstream message;
+  message << "impulse injection is unstable for the " << what << ": the step of " << period()
+          << " s is above its limit of " << limit << " s for K = " << stiffness
+          << " N/m, B = " << damping << " N s/m, m = " << mass
+          << " kg; use hand-off, lower the gains or raise the haptic rate";
+  throw std::invalid_argument(message.str());
+}
+
+void Site::Impl::finishSetUp() {
+  island.prepare();
+  const auto count = static_cast<std::size_t>(island.bodyCount());
+  snapshots.setBodyCount(count);
+  tick_start_states.resize(count);
+  scratch_states.resize(count);
+  object_records.resize(objects.size());
+  proxy_records.resize(remotes.size());
+  forEachBody([&](SiteBody& body) {
+    body.bullet->remember();
+    body.f_gravity_W = body.bullet->gravityForce();
+    island.setExternalWrench(body.index, isHandoff() ? body.f_gravity_W : Vec3::Zero(),
+                             Vec3::Zero());
+  });
+  updateObstacles(host_step);
+}
+
+Site::Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
+           BulletAbi host)
+    : impl_(std::make_unique<Impl>(settings, world, device, host)) {}
+Site::~Site() = default;
+
+ObjectId Site::share(btRigidBody& body, double damping) { return impl_->share(body, damping); }
+void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
+  impl_->connect(remote, link, start_W);
+}
+std::uint32_t Site::tick(double now) noexcept { return impl_->tick(now); }
+std::uint32_t Site::status() const noexcept { return impl_->status_ever; }
+const SiteCounters& Site::counters() const noexcept { return impl_->counters; }
+std::uint64_t Site::tickCount() const noexcept { return impl_->ticks; }
+std::uint64_t Site::stateHash() const noexcept { return impl_->hash.value(); }
+const Vec3& Site::force() const noexcept { return impl_->force_W; }
+const RigidState& Site::hip() const noexcept { return impl_->island.state(impl_->hip); }
+int Site::objectCount() const noexcept { return static_cast<int>(impl_->objects.size()); }
+int Site::remoteCount() const noexcept { return static_cast<int>(impl_->remotes.size()); }
+void Site::record(Recording* recording) noexcept { impl_->recording = recording; }
+
+const RigidState& Site::object(ObjectId id) const noexcept {
+  return impl_->island.state(impl_->objects[id].body.index);
+}
+
+const RigidState* Site::proxy(int remote) const noexcept {
+  const Remote& r = impl_->remotes[remote];
+  return r.proxy ? &impl_->island.state(r.body.index) : nullptr;
+}
+
+btRigidBody* Site::proxyBody(int remote) const noexcept {
+  const Remote& r = impl_->remotes[remote];
+  return r.proxy ? &r.proxy->rigid() : nullptr;
+}
+
+btRigidBody& Site::objectBody(ObjectId id) const noexcept {
+  return impl_->objects[id].bullet->body();
+}
+const StatePacket& Site::latest(int remote) const noexcept { return impl_->remotes[remote].latest; }
+
+std::vector<std::string> Site::warnings() const {
+  std::vector<std::string> all;
+  impl_->forEachBody([&](SiteBody& body) {
+    const auto& own = body.bullet->warnings();
+    all.insert(all.end(), own.begin(), own.end());
+  });
+  return all;
+}
+
+}  // namespace tandem

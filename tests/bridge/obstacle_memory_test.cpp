@@ -1,0 +1,88 @@
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "bridge/obstacle_scene.h"
+
+namespace tandem {
+namespace {
+
+int allocations = 0;
+
+void* countingAllocate(std::size_t size, int alignment) {
+  ++allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  return std::aligned_alloc(step, (size + step - 1) / step * step);
+}
+void countingFree(void* memory) { std::free(memory); }
+
+/// Bullet's allocator counts from here on. Bullet frees with the functions set at that time, so
+/// objects made before must not be freed while this lives; it stays for the rest of the process.
+void countBulletAllocations() {
+  static const bool once = [] {
+    btAlignedAllocSetCustomAligned(countingAllocate, countingFree);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+/// A cube that touches, slides and tips on a floor; how often Bullet allocates after it has settled
+/// once.
+int countWhileSliding(test::ObstacleScene& scene) {
+  scene.start(Vec3(0, test::ObstacleScene::kHalf, 0));
+  const RigidState start = scene.state;
+  const auto play = [&] {
+    for (const double lift : {0.0, 0.01}) {
+      scene.state = start;
+      scene.state.p_W.y() += lift;
+      scene.state.w_W = Vec3(0, 0, 50 * lift);
+      for (int i = 0; i < 400; ++i) {
+        RigidState after = scene.state;
+        after.v_W += Vec3(5, -9.81, 1) / 4000.0;
+        if (!scene.obstacles.isNear(0, scene.state, 0.01)) ADD_FAILURE() << "left the floor";
+        scene.obstacles.predict(0, scene.state, after);
+        scene.obstacles.solve(1.0 / 4000.0);
+        static_cast<void>(scene.obstacles.correct(0, after));
+        scene.state = after;
+      }
+    }
+  };
+  play();  // warm-up
+  allocations = 0;
+  play();
+  return allocations;
+}
+
+TEST(ObstacleMemory, SeesAllocations) {
+  countBulletAllocations();
+  allocations = 0;
+  btAlignedFree(btAlignedAlloc(64, 16));
+  EXPECT_EQ(allocations, 1);
+}
+
+TEST(ObstacleMemory, PlaneContactDoesNotAllocateAfterWarmUp) {
+  countBulletAllocations();
+  test::ObstacleScene scene;
+  scene.addPlane(0.3);
+  EXPECT_EQ(countWhileSliding(scene), 0);
+}
+
+TEST(ObstacleMemory, BoxContactDoesNotAllocateAfterWarmUp) {
+  countBulletAllocations();
+  test::ObstacleScene scene;
+  scene.addBoxFloor(0.3);
+  EXPECT_EQ(countWhileSliding(scene), 0);
+}
+
+TEST(ObstacleMemory, MeshContactDoesNotAllocateAfterWarmUp) {
+  countBulletAllocations();
+  btTriangleMesh triangles;
+  triangles.addTriangle(btVector3(-1, 0, -1), btVector3(-1, 0, 1), btVector3(1, 0, 1));
+  triangles.addTriangle(btVector3(-1, 0, -1), btVector3(1, 0, 1), btVector3(1, 0, -1));
+  test::ObstacleScene scene;
+  scene.addObstacle(scene.rig.makeShape<btBvhTriangleMeshShape>(&triangles, true), 0.3);
+  EXPECT_EQ(countWhileSliding(scene), 0);
+}
+
+}  // namespace
+}  // namespace tandem

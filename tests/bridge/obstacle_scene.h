@@ -1,0 +1,95 @@
+#pragma once
+
+#include <vector>
+
+#include "tandem/bullet_bridge/obstacles.h"
+
+#include "bridge/bullet_rig.h"
+
+namespace tandem::test {
+
+/// A 4 cm cube of 0.1 kg with friction 1 among obstacles, moved as an island would: gravity and a
+/// force by semi-implicit Euler at the inner step, obstacles searched for at 240 Hz.
+class ObstacleScene {
+ public:
+  static constexpr double kHalf = 0.02;  // [m]
+  static constexpr double kMass = 0.1;   // [kg]
+  static constexpr double kGravity = 9.81;
+
+  explicit ObstacleScene(const Vec3& origin = Vec3::Zero()) : origin_(origin) {}
+
+  btRigidBody& addObstacle(btCollisionShape& shape, double friction, const Vec3& p = Vec3::Zero(),
+                           const Quat& q = Quat::Identity()) {
+    btRigidBody& body = rig.addBody(shape, 0.0, origin_ + p, q);
+    body.setFriction(static_cast<btScalar>(friction));
+    return body;
+  }
+  /// A floor with its surface at y = 0.
+  btRigidBody& addPlane(double friction) {
+    return addObstacle(rig.makeShape<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)),
+                       friction);
+  }
+  btRigidBody& addBoxFloor(double friction) {
+    return addObstacle(rig.makeShape<btBoxShape>(btVector3(5, btScalar(0.5), 5)), friction,
+                       Vec3(0, -0.5, 0));
+  }
+
+  /// Puts the cube there and starts looking for obstacles.
+  void start(const Vec3& p, const Quat& q = Quat::Identity(), double restitution = 0.0) {
+    btRigidBody& cube = rig.addCube(kMass, kHalf, origin_ + p, q);
+    cube.setFriction(1);
+    cube.setRestitution(static_cast<btScalar>(restitution));
+    inertia = fromBullet(cube.getLocalInertia()).x();
+    obstacles.addBody(0, cube);
+    state.p_W = fromBullet(cube.getCenterOfMassPosition());
+    state.q_WB = fromBullet(cube.getOrientation());
+    search();
+  }
+
+  void search() { obstacles.update({state}, 0.04); }
+
+  /// Moves the cube for `duration` [s] under its weight (unless `weightless`) and `force`. Calls
+  /// `each` after every inner step.
+  template <typename Each>
+  void run(double duration, double dt, const Vec3& force, Each each) {
+    const int steps = static_cast<int>(duration / dt + 0.5);
+    const int per_search = static_cast<int>(1.0 / 240.0 / dt + 0.5);
+    for (int i = 0; i < steps; ++i) {
+      if (i % std::max(per_search, 1) == 0) search();
+      RigidState after = state;
+      after.v_W += dt * (force / kMass + (weightless ? Vec3(0, 0, 0) : Vec3(0, -kGravity, 0)));
+      after.p_W += dt * after.v_W;
+      after.q_WB = rotate(after.q_WB, dt * after.w_W);
+      obstacles.predict(0, state, after);
+      obstacles.solve(dt);
+      touched = obstacles.correct(0, after);
+      state = after;
+      each();
+    }
+  }
+  void run(double duration, double dt, const Vec3& force = Vec3::Zero()) {
+    run(duration, dt, force, [] {});
+  }
+
+  [[nodiscard]] Vec3 position() const { return state.p_W - origin_; }
+  [[nodiscard]] double energy() const {
+    return 0.5 * kMass * state.v_W.squaredNorm() + 0.5 * inertia * state.w_W.squaredNorm() +
+           kMass * kGravity * position().y();
+  }
+
+  BulletRig rig;
+  Obstacles obstacles{rig.world};
+  RigidState state;
+  double inertia = 0.0;
+  bool touched = false;
+  bool weightless = false;
+
+ private:
+  static Quat rotate(const Quat& q, const Vec3& by) {
+    const double angle = by.norm();
+    return angle > 0.0 ? (turn(angle, by) * q).normalized() : q;
+  }
+  Vec3 origin_;
+};
+
+}  // namespace tandem::test

@@ -1,0 +1,120 @@
+// Sphere against every other shape, at places, attitudes and sizes that any finite double may ask
+// for.
+//
+// Input: one byte for the shape, then doubles: the sphere's centre and radius, the shape's three
+// sizes, its position and its quaternion. Missing bytes are zeros.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+#include "tandem/coordination/contact_geometry.h"
+
+namespace tandem {
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+/// Takes doubles off the front of the input.
+class Reader {
+ public:
+  Reader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+
+  std::uint8_t byte() {
+    std::uint8_t value = 0;
+    take(&value, sizeof value);
+    return value;
+  }
+
+  /// Any finite number.
+  double number() {
+    double value = 0.0;
+    take(&value, sizeof value);
+    return std::isfinite(value) ? value : 0.0;
+  }
+
+  Vec3 vector() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+
+  /// A unit quaternion; none where the four numbers give no direction.
+  Quat attitude() {
+    const double w = number();
+    const Vec3 v = vector();
+    const double size = std::max({std::abs(w), std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
+    if (size == 0.0) return Quat::Identity();
+    return Quat(w / size, v.x() / size, v.y() / size, v.z() / size).normalized();
+  }
+
+ private:
+  void take(void* value, std::size_t size) {
+    const std::size_t count = std::min(size, size_);
+    if (count > 0) std::memcpy(value, data_, count);
+    data_ += count;
+    size_ -= count;
+  }
+
+  const std::uint8_t* data_;
+  std::size_t size_;
+};
+
+double clampSize(double value) { return std::clamp(std::abs(value), 1e-6, 1e3); }
+
+Vec3 clampPlace(const Vec3& place) { return place.cwiseMin(1e3).cwiseMax(-1e3); }
+
+Shape makeShape(std::uint8_t kind, const Vec3& sizes, const Vec3& direction) {
+  switch (kind % 4) {
+    case 0:
+      return Sphere{sizes.x()};
+    case 1:
+      return Box{sizes};
+    case 2:
+      return Capsule{sizes.x(), sizes.y()};
+    default:
+      return Plane{direction, sizes.z()};
+  }
+}
+
+/// What findSphereContact() promises for things of a micrometre to a kilometre within a kilometre.
+void requireContact(const SphereContact& contact, const Vec3& centre, double radius) {
+  // Of the largest numbers that take part (1e3 m, through sums of three) some 1e-12 are rounding.
+  constexpr double kRounding = 1e-8;  // [m]
+  require(std::isfinite(contact.gap) && contact.p_W.allFinite());
+  require(std::abs(contact.n_W.norm() - 1.0) < 1e-9);
+  const Vec3 along_normal = contact.p_W + (contact.gap + radius) * contact.n_W;
+  require((along_normal - centre).norm() < kRounding);
+}
+
+void test(Reader input) {
+  const std::uint8_t kind = input.byte();
+  const Vec3 centre = input.vector();
+  const double radius = input.number();
+  const Vec3 sizes = input.vector();
+  const Vec3 place = input.vector();
+  const Quat attitude = input.attitude();
+  const Vec3 direction = attitude * Vec3::UnitX();
+
+  // As they come: any answer will do, as long as there is one.
+  static_cast<void>(
+      findSphereContact(centre, radius, makeShape(kind, sizes, direction), place, attitude));
+
+  const Shape shape = makeShape(kind, sizes.unaryExpr(&clampSize), direction);
+  const Vec3 near_centre = clampPlace(centre);
+  requireContact(
+      findSphereContact(near_centre, clampSize(radius), shape, clampPlace(place), attitude),
+      near_centre, clampSize(radius));
+}
+
+}  // namespace
+}  // namespace tandem
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  tandem::test({data, size});
+  return 0;
+}

@@ -1,0 +1,12 @@
+# Runs FUZZER on SEEDS and RUNS inputs made from them, the same ones each time; what it finds goes to FOUND.
+file(REMOVE_RECURSE "${FOUND}")
+file(MAKE_DIRECTORY "${FOUND}")
+execute_process(
+  COMMAND "${FUZZER}" -runs=${RUNS} -seed=2009 -max_len=4096 -timeout=20 -print_final_stats=1
+    "-artifact_prefix=${FOUND}/" "${FOUND}" "${SEEDS}"
+  RESULT_VARIABLE status ERROR_VARIABLE log)
+if(NOT status EQUAL 0)
+  message(NOTICE "${log}")  # as it is; an error's text would be laid out anew
+  message(FATAL_ERROR "An input was handled wrongly. To see it again: ${FUZZER} FILE, with the file named above")
+endif()
+message("${RUNS} inputs, none refused wrongly")

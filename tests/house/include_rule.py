@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Reads every #include and names the rule of the house that a line breaks.
+
+    demos --> plugin --+--> bullet_bridge --+
+                       +--------------------+--> coordination      (arrow: may include)
+                       +--> falcon ---------+          tests --> everything
+
+Usage: include_rule.py CHECKOUT     Ends with 1 when a line breaks a rule.
+"""
+
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+LIBRARIES = ("coordination", "bullet_bridge", "falcon", "plugin")
+FOLDERS = LIBRARIES + ("demos", "tests")
+SUFFIXES = {".h", ".cpp", ".in"}
+
+THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token",
+           "semaphore", "latch", "barrier", "pthread.h"}
+LOCKS = {"mutex", "shared_mutex"}
+CLOCKS = {"chrono", "ctime", "time.h", "sys/time.h", "sys/timerfd.h"}
+FILES = {"fstream", "filesystem", "iostream", "syncstream", "fcntl.h", "unistd.h", "sys/stat.h"}
+SOCKETS = {"netdb.h", "poll.h", "sys/epoll.h", "sys/un.h"}
+SOCKET_FOLDERS = ("sys/socket", "netinet/", "arpa/", "net/")
+
+# Headers of dependencies, by how they begin.
+DEPENDENCIES = {
+    "Bullet": re.compile(r"(bt[A-Z]|Bullet[A-Z]?\w*/|LinearMath/|bullet/)"),
+    "Eigen": re.compile(r"(unsupported/)?Eigen/"),
+    "fmt": re.compile(r"fmt/"),
+    "nlohmann-json": re.compile(r"nlohmann/"),
+    "toml++": re.compile(r"toml\+\+/"),
+    "CLI11": re.compile(r"CLI/"),
+    "hidapi": re.compile(r"hidapi"),
+    "libftdi1": re.compile(r"(ftdi\.h|libftdi1/)"),
+    "libsodium": re.compile(r"sodium(\.h|/)"),
+    "GoogleTest": re.compile(r"(gtest|gmock)/"),
+    "Google Benchmark": re.compile(r"benchmark/"),
+    "rapidcheck": re.compile(r"rapidcheck"),
+    "libFuzzer": re.compile(r"fuzzer/"),
+}
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What one folder may include besides its own headers."""
+
+    libraries: tuple       # whose public headers
+    dependencies: tuple    # None: any
+    never: tuple = ()      # (what, headers of the standard library and the system)
+
+
+RULES = {
+    "coordination": Rule((), ("Eigen",), (
+        ("thread", THREADS), ("clock", CLOCKS), ("file", FILES), ("socket", SOCKETS))),
+    "bullet_bridge": Rule(("coordination",), ("Eigen", "Bullet"), (
+        ("thread", THREADS - LOCKS), ("clock", CLOCKS), ("file", FILES), ("socket", SOCKETS))),
+    "falcon": Rule(("coordination",), ("Eigen", "hidapi", "libftdi1")),
+    "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
+    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11")),
+    "tests": Rule(LIBRARIES + ("demos",), None),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+PUBLIC = re.compile(r"tandem/(\w+)/")
+
+
+@dataclass(frozen=True)
+class Break:
+    file: Path
+    line: int
+    header: str
+    rule: str
+
+    def __str__(self):
+        return f"{self.file}:{self.line}: #include {self.header}: {self.rule}"
+
+
+def dependency_of(header):
+    """The dependency that a header belongs to, or None: standard library, system, or ours."""
+    for name, pattern in DEPENDENCIES.items():
+        if pattern.match(header):
+            return name
+    return None
+
+
+class House:
+    """The folders of one checkout, and who owns which private header."""
+
+    def __init__(self, checkout):
+        self.checkout = Path(checkout)
+        self.files = sorted(path for folder in FOLDERS for path in (self.checkout / folder).rglob("*")
+                            if path.suffix in SUFFIXES and path.is_file())
+
+    def breaks(self):
+        return [found for path in self.files for found in self.breaks_of_file(path)]
+
+    def breaks_of_file(self, path):
+        file = path.relative_to(self.checkout)
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            rule = self.broken_rule(path, file.parts[0], match[1] == '"', match[2])
+            if rule:
+                yield Break(file, number, match[2], rule)
+
+    def broken_rule(self, path, folder, quoted, header):
+        """The rule that one include breaks, in words; None when it breaks none."""
+        public = PUBLIC.match(header)
+        if public:
+            return self.broken_by_public(path, folder, public[1], header)
+        if quoted:
+            return self.broken_by_private(path, folder, header)
+        return broken_by_outside(folder, header)
+
+    def broken_by_public(self, path, folder, owner, header):
+        if owner not in LIBRARIES:
+            return f"there is no library folder {owner}/"
+        if not (self.checkout / owner / "include" / header).is_file():
+            return f"{owner}/include has no such header"
+        if owner != folder and owner not in RULES[folder].libraries:
+            return f"{folder}/ may not include {owner}/"
+        return None
+
+    def broken_by_private(self, path, folder, header):
+        if dependency_of(header):
+            return broken_by_outside(folder, header)
+        target = self.find_private(path, folder, header)
+        if target is None:
+            return "no such header in this folder; a dependency's header stands in <>"
+        owner = target.relative_to(self.checkout.resolve()).parts[0]
+        if is_public_header(path.relative_to(self.checkout)):
+            return 'a public header includes public headers only, as "tandem/<folder>/<name>.h"'
+        if owner == folder or folder == "tests":
+            return None
+        if owner == "tests":
+            return f"{folder}/ may not include tests/"
+        if owner == "demos":
+            return "nothing but tests/ includes demos/"
+        return f"{owner}'s private header: other folders see include/tandem/{owner} only"
+
+    def find_private(self, path, folder, header):
+        """The file behind a quoted include: beside the includer, in the folder's sources, then anywhere."""
+        places = [path.parent, self.checkout / folder / "src", self.checkout / folder]
+        places += [self.checkout / other / "src" for other in FOLDERS]
+        for place in places:
+            target = (place / header).resolve()
+            if target.is_file() and self.checkout.resolve() in target.parents:
+                return target
+        return None
+
+
+def is_public_header(file):
+    return len(file.parts) > 1 and file.parts[1] == "include"
+
+
+def broken_by_outside(folder, header):
+    """Rules on the standard library, the system and the dependencies."""
+    rule = RULES[folder]
+    dependency = dependency_of(header)
+    if dependency:
+        if rule.dependencies is None or dependency in rule.dependencies:
+            return None
+        if dependency == "Bullet" and folder in LIBRARIES:
+            return "bullet_bridge/ is the only library folder with Bullet's headers"
+        return f"{folder}/ may not use {dependency}; it may use {', '.join(rule.dependencies)}"
+    for what, headers in rule.never:
+        if header in headers or (what == "socket" and header.startswith(SOCKET_FOLDERS)):
+            return f"{folder}/ has no {what}"
+    return None
+
+
+def main(arguments):
+    if len(arguments) != 1 or not Path(arguments[0]).is_dir():
+        print(__doc__, file=sys.stderr)
+        return 2
+    house = House(arguments[0])
+    if not house.files:
+        print(f"{arguments[0]}: no sources here; give the folder of the checkout", file=sys.stderr)
+        return 2
+    breaks = house.breaks()
+    for found in breaks:
+        print(found)
+    print(f"{len(house.files)} files, {len(breaks)} broken include rules")
+    return 1 if breaks else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

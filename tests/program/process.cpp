@@ -1,0 +1,120 @@
+#include "program/process.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tandem::test {
+namespace {
+
+/// In the child: a file in place of an output.
+void redirect(const std::string& path, int output) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (file < 0 || dup2(file, output) < 0) _exit(126);
+  close(file);
+}
+
+/// In the child: a write beyond the limit fails with an error instead of a signal.
+void limitFiles(long long bytes) {
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
+  if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
+}
+
+}  // namespace
+
+Outcome runProgram(const std::string& program, const std::vector<std::string>& arguments,
+                   const Start& start) {
+  const TempFolder outputs;
+  const std::string out = start.stdout_path.empty() ? outputs / "out" : start.stdout_path;
+  const std::string err = outputs / "err";
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot start a process");
+  if (child == 0) {
+    redirect(out, STDOUT_FILENO);
+    redirect(err, STDERR_FILENO);
+    if (start.largest_file >= 0) limitFiles(start.largest_file);
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost a child process");
+
+  Outcome outcome;
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (start.stdout_path.empty()) outcome.out = readFile(out);
+  outcome.err = readFile(err);
+  return outcome;
+}
+
+Outcome runTandem(const std::vector<std::string>& arguments, const Start& start) {
+  return runProgram(TANDEM_PROGRAM, arguments, start);
+}
+
+std::string scenarioPath(std::string_view name) {
+  return std::string(TANDEM_SCENARIOS "/") + std::string(name);
+}
+
+TempFolder::TempFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "tandem-test-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder like " + name);
+  path_ = name;
+}
+
+TempFolder::~TempFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TempFolder::write(std::string_view name, std::string_view text) const {
+  const std::string path = *this / name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+std::string readFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> listFolder(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  if (!std::filesystem::is_directory(folder)) return names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Columns readColumns(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line, cell;
+  std::vector<std::string> names;
+  std::getline(file, line);
+  for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
+  Columns columns;
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    for (const std::string& name : names) {
+      if (!std::getline(row, cell, ',')) throw std::runtime_error(path.string() + ": short row");
+      columns[name].push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  }
+  return columns;
+}
+
+}  // namespace tandem::test

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "tandem/coordination/link.h"
+#include "tandem/falcon/haptic_device.h"
+
+namespace tandem::testing {
+
+/// A device that stands where the test says, and remembers the forces written to it.
+class FakeDevice final : public HapticDevice {
+ public:
+  FakeDevice() = default;
+  explicit FakeDevice(const Vec3& p_W) { sample = {{p_W, Vec3::Zero()}, true}; }
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override { return limits; }
+  [[nodiscard]] DeviceSample read(double) noexcept override { return sample; }
+  void write(const Vec3& f_W) noexcept override { force_W = f_W; }
+
+  DeviceCapabilities limits{"fake"};
+  DeviceSample sample{{}, true};
+  Vec3 force_W = Vec3::Zero();
+};
+
+/// A link whose arrivals the test puts in, ordered by time; what is sent is kept (as many as
+/// `room`).
+class FakeLink final : public Link {
+ public:
+  explicit FakeLink(std::size_t room = 0) { sent.reserve(room); }
+  void send(const StatePacket& packet, double) noexcept override {
+    if (sent.size() < sent.capacity()) sent.push_back(packet);
+  }
+  [[nodiscard]] std::optional<Arrival> receive(double, double until) noexcept override {
+    if (arrivals.empty() || arrivals.front().time >= until) return std::nullopt;
+    const Arrival arrival = arrivals.front();
+    arrivals.pop_front();
+    return arrival;
+  }
+
+  std::deque<Arrival> arrivals;
+  std::vector<StatePacket> sent;
+};
+
+/// A sane packet of a user at rest at `p_W`.
+inline StatePacket makePacket(PeerId sender, std::uint64_t sequence, const Vec3& p_W) {
+  StatePacket packet;
+  packet.sender = sender;
+  packet.sequence = sequence;
+  packet.user.p_W = p_W;
+  return packet;
+}
+
+}  // namespace tandem::testing

@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tandem/coordination/contact_geometry.h"
+
+// What must hold for any shape in any pose. Scenes are about 1 m large, so that rounding is near
+// 1e-15.
+
+namespace tandem {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRounding = 1e-13;
+constexpr std::uint64_t kSeed = 20090201;
+
+/// Own distributions: the standard ones differ between libraries.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
+  }
+  Vec3 inCube(double half) {
+    const double x = uniform(-half, half), y = uniform(-half, half), z = uniform(-half, half);
+    return {x, y, z};
+  }
+  Vec3 direction() {
+    const double z = uniform(-1.0, 1.0), angle = uniform(0.0, 2.0 * kPi);
+    const double across = std::sqrt(1.0 - z * z);
+    return {across * std::cos(angle), across * std::sin(angle), z};
+  }
+  Quat rotation() {
+    const Vec3 axis = direction();
+    return Quat(Eigen::AngleAxisd(uniform(-kPi, kPi), axis));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+Shape makeShape(std::size_t kind, Random& random) {
+  const double a = random.uniform(0.05, 0.5), b = random.uniform(0.05, 0.5);
+  const double c = random.uniform(0.05, 0.5);
+  switch (kind) {
+    case 0:
+      return Sphere{a};
+    case 1:
+      return Box{{a, b, c}};
+    case 2:
+      return Capsule{a, b};
+    default:
+      return Plane{random.direction(), c - a};
+  }
+}
+
+struct Scene {
+  Shape shape;
+  Vec3 p_WB;
+  Quat q_WB;
+  double radius;  // of the sphere [m]
+  Vec3 p_W;       // its centre
+
+  SphereContact find() const { return findAt(p_W); }
+  SphereContact findAt(const Vec3& centre) const {
+    return findSphereContact(centre, radius, shape, p_WB, q_WB);
+  }
+};
+
+class ContactProperties : public ::testing::TestWithParam<std::size_t> {
+ protected:
+  void forEachScene(int count, const std::function<void(const Scene&)>& check) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed));
+    for (int i = 0; i < count && !HasFailure(); ++i) {
+      SCOPED_TRACE("scene " + std::to_string(i));
+      const Vec3 p_WB = random_.inCube(1.0);
+      check({makeShape(GetParam(), random_), p_WB, random_.rotation(), random_.uniform(0.0, 0.1),
+             p_WB + random_.inCube(0.8)});
+    }
+  }
+
+  Random random_{kSeed};
+};
+
+TEST_P(ContactProperties, CentreIsReachedFromTheSurfaceAlongTheNormal) {
+  forEachScene(20000, [](const Scene& scene) {
+    const SphereContact contact = scene.find();
+    EXPECT_NEAR(contact.n_W.norm(), 1.0, 1e-15);
+    const Vec3 reached = contact.p_W + contact.n_W * (contact.gap + scene.radius);
+    EXPECT_NEAR((reached - scene.p_W).norm(), 0.0, kRounding);
+  });
+}
+
+TEST_P(ContactProperties, NearestPointLiesOnTheSurface) {
+  forEachScene(20000, [](const Scene& scene) {
+    const SphereContact contact = scene.find();
+    // Seen from the surface itself, the gap of a point is 0.
+    const double gap = findSphereContact(contact.p_W, 0.0, scene.shape, scene.p_WB, scene.q_WB).gap;
+    EXPECT_NEAR(gap, 0.0, kRounding);
+  });
+}
+
+// No move changes the gap by more than its own length: what event location relies on.
+TEST_P(ContactProperties, GapIsOneLipschitz) {
+  forEachScene(20000, [this](const Scene& scene) {
+    const double reach = std::pow(10.0, random_.uniform(-9.0, 0.0));  // [m]
+    const Vec3 moved = scene.p_W + random_.inCube(reach);
+    const double change = std::abs(scene.findAt(moved).gap - scene.find().gap);
+    EXPECT_LE(change, (moved - scene.p_W).norm() + kRounding);
+  });
+}
+
+TEST_P(ContactProperties, ResultMovesWithTheWholeScene) {
+  forEachScene(20000, [this](const Scene& scene) {
+    const Quat turn = random_.rotation();
+    const Vec3 shift = random_.inCube(1.0);
+    Scene moved = scene;
+    moved.p_W = turn * scene.p_W + shift;
+    moved.p_WB = turn * scene.p_WB + shift;
+    moved.q_WB = turn * scene.q_WB;
+
+    const SphereContact before = scene.find();
+    const SphereContact after = moved.find();
+    EXPECT_NEAR(after.gap, before.gap, kRounding);
+    // A direction from a core or an edge at distance d carries rounding / d; d > 1e-4 m in these
+    // scenes.
+    EXPECT_NEAR((after.n_W - turn * before.n_W).norm(), 0.0, 1e-10);
+    EXPECT_NEAR((after.p_W - (turn * before.p_W + shift)).norm(), 0.0, 1e-10);
+  });
+}
+
+// Where n is continuous it is the gradient of the gap: by the mean value theorem the difference
+// quotient is one of the normals in between, so that it is as near to n as those are.
+TEST_P(ContactProperties, NormalIsTheGradientOfTheGap) {
+  static constexpr double kStep = 1e-6;           // [m]
+  static constexpr double kQuotientError = 1e-9;  // rounding 1e-15 over the step
+  constexpr int kScenes = 20000;
+  int smooth = 0;
+  forEachScene(kScenes, [&smooth](const Scene& scene) {
+    const Vec3 n = scene.find().n_W;
+    Vec3 gradient;
+    double spread = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const SphereContact ahead = scene.findAt(scene.p_W + kStep * Vec3::Unit(axis));
+      const SphereContact behind = scene.findAt(scene.p_W - kStep * Vec3::Unit(axis));
+      gradient[axis] = (ahead.gap - behind.gap) / (2.0 * kStep);
+      spread = std::max({spread, (ahead.n_W - n).norm(), (behind.n_W - n).norm()});
+    }
+    if (spread > 1e-2) return;  // a step across a ridge
+    ++smooth;
+    EXPECT_NEAR((gradient - n).norm(), 0.0, 2.0 * spread + kQuotientError);
+  });
+  EXPECT_GT(smooth, kScenes * 99 / 100);
+}
+
+/// Distance from a point to the nearest of many points that cover a surface, and how far any point
+/// of the surface is from the nearest of those at most.
+class SampledSurface {
+ public:
+  explicit SampledSurface(const Vec3& from) : from_(from) {}
+
+  double distance() const { return distance_; }
+  double coveringRadius() const { return covering_radius_; }
+
+  /// Parallelogram `origin` + [-1, 1] u + [-1, 1] v with u across v.
+  void addRectangle(const Vec3& origin, const Vec3& u, const Vec3& v) {
+    for (int i = 0; i < kSteps; ++i)
+      for (int j = 0; j < kSteps; ++j) add(origin + middle(i) * u + middle(j) * v);
+    cover(u.norm(), v.norm());
+  }
+
+  /// A capsule's surface about y, by angle around the axis and along the side, then up both caps.
+  void addCapsule(double radius, double half_length) {
+    for (int i = 0; i < kSteps; ++i) {
+      const double around = kPi * middle(i);
+      const Vec3 across = radius * Vec3(std::cos(around), 0.0, std::sin(around));
+      for (int j = 0; j < kSteps; ++j) {
+        add(across + half_length * middle(j) * Vec3::UnitY());
+        const double up = kPi / 2 * middle(j);
+        const double end = up < 0.0 ? -half_length : half_length;
+        add(std::cos(up) * across + (end + radius * std::sin(up)) * Vec3::UnitY());
+      }
+    }
+    cover(kPi * radius, half_length);
+    cover(kPi * radius, kPi / 2 * radius);
+  }
+
+ private:
+  static constexpr int kSteps = 200;
+
+  /// Middles of kSteps equal cells of [-1, 1].
+  static double middle(int i) { return (2.0 * i + 1.0) / kSteps - 1.0; }
+
+  void add(const Vec3& p) { distance_ = std::min(distance_, (p - from_).norm()); }
+
+  /// Half the diagonal of a cell, for half-lengths u and v of the whole patch.
+  void cover(double u, double v) {
+    covering_radius_ = std::max(covering_radius_, std::hypot(u, v) / kSteps);
+  }
+
+  Vec3 from_;
+  double distance_ = std::numeric_limits<double>::infinity();
+  double covering_radius_ = 0.0;
+};
+
+void addSurface(SampledSurface& surface, const Sphere& sphere) {
+  surface.addCapsule(sphere.radius, 0.0);
+}
+
+void addSurface(SampledSurface& surface, const Capsule& capsule) {
+  surface.addCapsule(capsule.radius, capsule.half_length);
+}
+
+void addSurface(SampledSurface& surface, const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const double side : {-1.0, 1.0})
+      surface.addRectangle(side * box.half_extents[axis] * Vec3::Unit(axis),
+                           box.half_extents[u] * Vec3::Unit(u),
+                           box.half_extents[v] * Vec3::Unit(v));
+  }
+}
+
+void addSurface(SampledSurface& surface, const Plane& plane) {
+  // The centre is within 0.8 sqrt(3) m of the body's origin, and so is its foot of the plane's.
+  const Vec3 u = plane.normal_B.unitOrthogonal();
+  surface.addRectangle(plane.offset * plane.normal_B, 1.5 * u, 1.5 * plane.normal_B.cross(u));
+}
+
+bool isInside(const Vec3& p, const Sphere& s) { return p.norm() < s.radius; }
+bool isInside(const Vec3& p, const Box& s) {
+  return (p.cwiseAbs().array() < s.half_extents.array()).all();
+}
+bool isInside(const Vec3& p, const Capsule& s) {
+  const bool in_side = std::hypot(p.x(), p.z()) < s.radius && std::abs(p.y()) < s.half_length;
+  const Vec3 end = s.half_length * Vec3::UnitY();
+  return in_side || (p - end).norm() < s.radius || (p + end).norm() < s.radius;
+}
+bool isInside(const Vec3& p, const Plane& s) { return s.normal_B.dot(p) < s.offset; }
+
+TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
+  forEachScene(100, [](const Scene& scene) {
+    const Vec3 p_B = scene.q_WB.conjugate() * (scene.p_W - scene.p_WB);
+    SampledSurface surface(p_B);
+    std::visit([&surface](const auto& s) { addSurface(surface, s); }, scene.shape);
+    const bool inside = std::visit([&p_B](const auto& s) { return isInside(p_B, s); }, scene.shape);
+
+    const double signed_distance = scene.find().gap + scene.radius;
+    EXPECT_EQ(signed_distance < 0.0, inside);
+    // No sample is nearer than the surface, and one is nearly as near.
+    EXPECT_LE(std::abs(signed_distance), surface.distance() + kRounding);
+    EXPECT_GE(std::abs(signed_distance), surface.distance() - surface.coveringRadius());
+  });
+}
+
+std::string nameShape(const ::testing::TestParamInfo<std::size_t>& kind) {
+  return std::array{"Sphere", "Box", "Capsule", "Plane"}.at(kind.param);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 4), nameShape);
+
+}  // namespace
+}  // namespace tandem

@@ -1,0 +1,536 @@
+#include "tandem/falcon/simulated_device.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace tandem {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPeriod = 1e-3;  // haptic period [s]
+
+SimulatedDevice makeDevice(const SimulatedDeviceSettings& settings, const Vec3& hand_force) {
+  return {settings, makeConstantHand(hand_force)};
+}
+
+/// Reads at every haptic period from 0 to `ticks`; gives the last sample.
+DeviceSample readTicks(HapticDevice& device, int ticks) {
+  DeviceSample sample;
+  for (int i = 0; i <= ticks; ++i) sample = device.read(i * kPeriod);
+  return sample;
+}
+
+/// Even on [low, high); own, so that a seed means the same everywhere.
+double draw(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+Vec3 drawVector(std::mt19937_64& random, double size) {
+  return {draw(random, -size, size), draw(random, -size, size), draw(random, -size, size)};
+}
+
+/// Scalar closed form of m x'' + b x' = f from rest, b > 0, in extended precision:
+/// x = f/b (t - tau (1 - e^-t/tau)), v = f/b (1 - e^-t/tau), tau = m/b.
+struct ClosedForm {
+  long double x;
+  long double v;
+};
+ClosedForm fromRest(double m, double b, double f, double t) {
+  const long double a = static_cast<long double>(b) * t / m;  // t / tau
+  const long double risen = -std::expm1(-a);
+  long double run = a - risen;  // for small a it cancels; then its series a^2/2! - a^3/3! + ...
+  if (a < 0.1L) {
+    run = 0.0L;
+    long double term = -a;
+    for (int n = 2; n < 20; ++n) run += (term *= -a / n);
+  }
+  const long double terminal = static_cast<long double>(f) / b;
+  return {terminal * m / b * run, terminal * risen};
+}
+
+// --- motion under a constant hand --------------------------------------------------------------
+
+TEST(SimulatedDevice, FirstReadAtTimeZeroGivesTheStartAtRest) {
+  SimulatedDeviceSettings settings;
+  settings.start_W = Vec3(0.1, -0.2, 0.3);
+  SimulatedDevice device = makeDevice(settings, Vec3(5, 0, 0));
+  EXPECT_EQ(device.handle().p_W, settings.start_W);
+  const DeviceSample sample = device.read(0.0);
+  EXPECT_TRUE(sample.valid);
+  EXPECT_EQ(sample.hip.p_W, settings.start_W);
+  EXPECT_EQ(sample.hip.v_W, Vec3::Zero());
+}
+
+TEST(SimulatedDevice, UndampedHandleFollowsTheParabola) {
+  SimulatedDeviceSettings settings;
+  settings.mass = 0.25;
+  settings.damping = 0.0;
+  const Vec3 f(5.0, -1.0, 0.5);
+  SimulatedDevice device = makeDevice(settings, f);
+  const PointState hip = readTicks(device, 1000).hip;
+  const Vec3 a = f / settings.mass;
+  // 4000 sub-steps, each rounding x and v once: at most 4000 eps, relative.
+  EXPECT_LT((hip.v_W - a).norm(), 4000 * kEps * a.norm());
+  EXPECT_LT((hip.p_W - 0.5 * a).norm(), 4000 * kEps * a.norm());
+}
+
+// From a damping that only shows in the last digits to one that stops the handle within a sub-step.
+class DampedHandle : public ::testing::TestWithParam<double> {};
+
+TEST_P(DampedHandle, FollowsTheClosedFormToRounding) {
+  SimulatedDeviceSettings settings;
+  settings.damping = GetParam();
+  const double f = 3.0;
+  SimulatedDevice device = makeDevice(settings, Vec3(f, 0, 0));
+  for (int i = 1; i <= 1000; ++i) {
+    const double t = i * kPeriod;
+    const PointState hip = device.read(t).hip;
+    const ClosedForm expected = fromRest(settings.mass, settings.damping, f, t);
+    const double tolerance = (4.0 * i + 16.0) * kEps;  // four roundings a tick
+    ASSERT_NEAR(hip.p_W.x() / static_cast<double>(expected.x), 1.0, tolerance) << t;
+    ASSERT_NEAR(hip.v_W.x() / static_cast<double>(expected.v), 1.0, tolerance) << t;
+  }
+}
+// b [N s/m]; with m = 0.1 kg and h = 0.25 ms, b h / m crosses 1/2, where the series ends, at 200.
+INSTANTIATE_TEST_SUITE_P(Damping, DampedHandle,
+                         ::testing::Values(1e-4, 0.01, 0.5, 20.0, 190.0, 199.9, 200.0, 200.1, 399.9,
+                                           400.1, 2000.0, 1e6, 1e12));
+
+TEST(SimulatedDevice, VanishingDampingMeetsNoDamping) {
+  SimulatedDeviceSettings settings;
+  settings.damping = 0.0;
+  SimulatedDevice free_handle = makeDevice(settings, Vec3(1, 0, 0));
+  const PointState free_hip = readTicks(free_handle, 100).hip;
+  for (const double damping : {5e-324, 1e-300, 1e-20, 1e-15}) {
+    settings.damping = damping;
+    SimulatedDevice device = makeDevice(settings, Vec3(1, 0, 0));
+    const PointState hip = readTicks(device, 100).hip;
+    // Damping takes the fraction b t / m = 1e-15 at most; the rest is rounding.
+    EXPECT_NEAR(hip.p_W.x(), free_hip.p_W.x(), 400 * kEps * free_hip.p_W.x()) << damping;
+    EXPECT_NEAR(hip.v_W.x(), free_hip.v_W.x(), 400 * kEps * free_hip.v_W.x()) << damping;
+  }
+}
+
+TEST(SimulatedDevice, ReachesTheTerminalVelocity) {
+  SimulatedDeviceSettings settings;
+  settings.damping = 2.0;
+  SimulatedDevice device = makeDevice(settings, Vec3(0, 3, 0));
+  // After 2 s = 40 time constants, e^-40 = 4e-18 is left of the difference.
+  const PointState hip = readTicks(device, 2000).hip;
+  EXPECT_NEAR(hip.v_W.y(), 1.5, 100 * kEps);
+}
+
+TEST(SimulatedDevice, StateDoesNotDependOnHowReadsAreGrouped) {
+  const std::uint64_t seed = 20090201;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (const double damping : {0.0, 0.5, 300.0}) {
+    SimulatedDeviceSettings settings;
+    settings.damping = damping;
+    const Vec3 f = drawVector(random, 5.0);
+    SimulatedDevice once = makeDevice(settings, f);
+    SimulatedDevice often = makeDevice(settings, f);
+    const PointState expected = once.read(1.0).hip;
+    for (double t = 0.0; t < 1.0; t += draw(random, 0.0, 0.02)) (void)often.read(t);
+    const PointState hip = often.read(1.0).hip;
+    // At most 4000 sub-steps in either way, each within one rounding of the exact map.
+    EXPECT_LT((hip.p_W - expected.p_W).norm(), 8000 * kEps * expected.p_W.norm()) << damping;
+    EXPECT_LT((hip.v_W - expected.v_W).norm(), 8000 * kEps * expected.v_W.norm()) << damping;
+  }
+}
+
+TEST(SimulatedDevice, SameCallsGiveTheSameBits) {
+  SimulatedDeviceSettings settings;
+  settings.guide = Vec3(1, 2, 3).normalized();
+  settings.encoder_resolution = 1e-5;
+  const auto run = [&settings] {
+    SimulatedDevice device(settings, makeSineHand(Vec3(1, 2, 3), 3.0, 0.1));
+    for (int i = 0; i < 500; ++i) device.write(-100.0 * device.read(i * kPeriod).hip.p_W);
+    return device.handle();
+  };
+  const PointState first = run();
+  const PointState second = run();
+  EXPECT_EQ(first.p_W, second.p_W);
+  EXPECT_EQ(first.v_W, second.v_W);
+}
+
+TEST(SimulatedDevice, TimeThatStandsStillOrRunsBackMovesNothing) {
+  SimulatedDevice device = makeDevice({}, Vec3(5, 0, 0));
+  const PointState before = device.read(0.25).hip;
+  for (const double now : {0.25, 0.1, -1.0, kNan, kInfinity, -kInfinity}) {
+    const DeviceSample sample = device.read(now);
+    EXPECT_TRUE(sample.valid) << now;
+    EXPECT_EQ(sample.hip.p_W, before.p_W) << now;
+    EXPECT_EQ(sample.hip.v_W, before.v_W) << now;
+  }
+  // ... and the clock is still at 0.25 s.
+  SimulatedDevice other = makeDevice({}, Vec3(5, 0, 0));
+  (void)other.read(0.25);
+  EXPECT_EQ(device.read(0.5).hip.p_W, other.read(0.5).hip.p_W);
+}
+
+// --- a hand that depends on the state ----------------------------------------------------------
+
+/// Largest error of a handle let go 1 cm from the rest of a hand spring, over 1 s, against the
+/// closed form x = d (1 - e^-ct (cos wt + c/w sin wt)), c = total damping / 2 m.
+double springError(double device_damping, double hand_damping, double period) {
+  constexpr double m = 0.1;     // [kg]
+  constexpr double K = 1000.0;  // [N/m]
+  constexpr double d = 0.01;    // [m]
+  SimulatedDeviceSettings settings;
+  settings.mass = m;
+  settings.damping = device_damping;
+  SimulatedDevice device(settings, makeMinimumJerkHand({{0.0, Vec3(d, 0, 0)}}, K, hand_damping));
+  const double c = (device_damping + hand_damping) / (2.0 * m);
+  const double w = std::sqrt(K / m - c * c);
+  double largest = 0.0;
+  for (int i = 0; i * period <= 1.0; ++i) {
+    const double t = i * period;
+    const double expected =
+        d * (1.0 - std::exp(-c * t) * (std::cos(w * t) + c / w * std::sin(w * t)));
+    largest = std::max(largest, std::abs(device.read(t).hip.p_W.x() - expected));
+  }
+  return largest;
+}
+
+TEST(SimulatedDevice, StiffHandSpringIsAccurateAtOneKilohertz) {
+  // The frequency is off by the fraction (w h)^2 / 24 with w = 100 rad/s, h = 0.25 ms: over 1 s the
+  // phase by 2.6e-3 rad, on 1 cm 26 um. Amplitude errors, (w h)^2 / 8, are bounded and add 1 um.
+  EXPECT_LT(springError(0.0, 0.0, 1e-3), 28e-6);
+  EXPECT_LT(springError(0.5, 0.0, 1e-3), 28e-6);
+  EXPECT_LT(springError(0.5, 2.0, 1e-3), 28e-6);
+}
+
+TEST(SimulatedDevice, HandSpringDamperConvergesWithSecondOrder) {
+  for (const double device_damping : {0.0, 0.5}) {
+    for (const double hand_damping : {0.0, 2.0}) {
+      // Periods of 1 ms and below, with four sub-steps each. Higher orders are (w h)^2 < 1e-3 of
+      // it.
+      const double coarse = springError(device_damping, hand_damping, 0x1p-10);
+      const double fine = springError(device_damping, hand_damping, 0x1p-11);
+      EXPECT_NEAR(coarse / fine, 4.0, 0.1) << device_damping << ", " << hand_damping;
+    }
+  }
+}
+
+TEST(SimulatedDevice, UndampedHandSpringNeitherGainsNorLosesEnergy) {
+  constexpr double K = 1000.0;  // [N/m]
+  SimulatedDeviceSettings settings;
+  settings.damping = 0.0;
+  SimulatedDevice device(settings, makeMinimumJerkHand({{0.0, Vec3(0.01, 0, 0)}}, K, 0.0));
+  const double start = 0.5 * K * 0.01 * 0.01;
+  for (int i = 0; i <= 10000; ++i) {  // 10 s, 159 swings
+    const PointState hip = device.read(i * kPeriod).hip;
+    const double stretch = 0.01 - hip.p_W.x();
+    const double energy = 0.5 * K * stretch * stretch + 0.5 * settings.mass * hip.v_W.squaredNorm();
+    // A symplectic map's energy swings about its mean by the fraction (w h)^2 / 4 = 1.6e-4.
+    ASSERT_NEAR(energy / start, 1.0, 1.7e-4) << i;
+  }
+}
+
+TEST(SimulatedDevice, SpringSurvivesALateRead) {
+  // 200 ms without a read: the sub-steps stay at 0.25 ms, so the answer is the same as at 1 kHz.
+  const auto makeSpring = [] {
+    return SimulatedDevice({}, makeMinimumJerkHand({{0.0, Vec3(0.01, 0, 0)}}, 1000.0, 0.0));
+  };
+  SimulatedDevice punctual = makeSpring();
+  SimulatedDevice late = makeSpring();
+  const PointState expected = readTicks(punctual, 200).hip;
+  EXPECT_LT((late.read(0.2).hip.p_W - expected.p_W).norm(), 1e-13);
+}
+
+TEST(SimulatedDevice, TimeVaryingHandIsSecondOrder) {
+  // m x'' = f sin(wt), b = 0: x = f / (m w) (t - sin(wt) / w).
+  const double f = 2.0, frequency = 5.0, w = 2.0 * 3.14159265358979323846 * frequency;
+  const auto error = [&](int reads_per_second) {
+    SimulatedDeviceSettings settings;
+    settings.damping = 0.0;
+    SimulatedDevice device(settings, makeSineHand(Vec3(f, 0, 0), frequency, 0.0));
+    double x = 0.0;
+    for (int i = 0; i <= reads_per_second; ++i) {
+      x = device.read(static_cast<double>(i) / reads_per_second).hip.p_W.x();
+    }
+    return std::abs(x - f / (settings.mass * w) * (1.0 - std::sin(w) / w));
+  };
+  EXPECT_LT(error(1024), 0.64 * std::pow(w / 4096.0, 2) / 24.0 * 1.1);  // f / (m w) = 0.64 m/s
+  EXPECT_NEAR(error(1024) / error(2048), 4.0, 0.1);
+}
+
+class BrokenHand final : public Hand {
+ public:
+  Vec3 computeForce(double /*t*/, const PointState& /*handle*/) const noexcept override {
+    return Vec3::Constant(kNan);
+  }
+};
+
+TEST(SimulatedDevice, HandThatBreaksItsPromiseMakesReadingsInvalid) {
+  for (const double resolution : {0.0, 1e-5}) {
+    SimulatedDeviceSettings settings;
+    settings.encoder_resolution = resolution;
+    SimulatedDevice device(settings, std::make_unique<BrokenHand>());
+    EXPECT_TRUE(device.read(0.0).valid);
+    EXPECT_FALSE(device.read(kPeriod).valid);
+  }
+}
+
+// --- the rendered force ------------------------------------------------------------------------
+
+TEST(SimulatedDevice, HoldsTheWrittenForceUntilTheNextWrite) {
+  SimulatedDeviceSettings settings;
+  settings.damping = 0.0;
+  const double m = settings.mass;
+  SimulatedDevice device = makeDevice(settings, Vec3(5, 0, 0));
+  device.write(Vec3(-2, 1, 0));
+  (void)device.read(0.1);
+  (void)device.read(0.2);  // still held
+  device.write(Vec3(7, 7, 7));
+  device.write(Vec3(-5, 0, 0));  // only the last write counts
+  const PointState coasting = device.read(0.3).hip;
+  // 0.2 s under (3, 1, 0) N, then 0.1 s without force; 1200 sub-steps of rounding.
+  const Vec3 v = Vec3(3, 1, 0) * 0.2 / m;
+  EXPECT_LT((coasting.v_W - v).norm(), 1200 * kEps * v.norm());
+  EXPECT_LT((coasting.p_W - v * (0.1 + 0.1)).norm(), 1200 * kEps * v.norm());
+}
+
+TEST(SimulatedDevice, ForceWrittenNowDoesNotActOnThePast) {
+  SimulatedDevice device = makeDevice({}, Vec3::Zero());
+  (void)device.read(0.5);
+  device.write(Vec3(100, 0, 0));
+  EXPECT_EQ(device.read(0.5).hip.p_W, Vec3::Zero());
+  EXPECT_GT(device.read(0.501).hip.p_W.x(), 0.0);
+}
+
+TEST(SimulatedDevice, NonFiniteForceIsZero) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 f(1, 1, 1);
+      f[axis] = bad;
+      SimulatedDevice device = makeDevice({}, Vec3::Zero());
+      device.write(Vec3(3, 0, 0));
+      device.write(f);  // takes the earlier force away as well
+      const DeviceSample sample = device.read(0.1);
+      EXPECT_TRUE(sample.valid);
+      EXPECT_EQ(sample.hip.p_W, Vec3::Zero());
+      EXPECT_EQ(sample.hip.v_W, Vec3::Zero());
+    }
+  }
+}
+
+/// The force that the motors give for `f`, measured by the velocity of a free 1 kg handle after 1
+/// s.
+Vec3 measureForce(double max_force, const Vec3& f) {
+  SimulatedDeviceSettings settings;
+  settings.mass = 1.0;
+  settings.damping = 0.0;
+  settings.max_force = max_force;
+  SimulatedDevice device = makeDevice(settings, Vec3::Zero());
+  device.write(f);
+  return device.read(1.0).hip.v_W;
+}
+
+TEST(SimulatedDevice, ForceSaturatesAndKeepsItsDirection) {
+  const double tolerance = 4000 * kEps;
+  const Vec3 direction = Vec3(3, -2, 6) / 7.0;
+  EXPECT_LT((measureForce(8.0, 7.9 * direction) - 7.9 * direction).norm(), 8 * tolerance);
+  for (const double size : {8.1, 100.0, 1e200, 1.7e308}) {
+    EXPECT_LT((measureForce(8.0, size * direction) - 8.0 * direction).norm(), 8 * tolerance)
+        << size;
+  }
+  EXPECT_LT((measureForce(1e-3, 1e-2 * direction) - 1e-3 * direction).norm(), 1e-3 * tolerance);
+  EXPECT_LT((measureForce(kInfinity, 1e9 * direction) - 1e9 * direction).norm(), 1e9 * tolerance);
+  EXPECT_EQ(measureForce(0.0, direction), Vec3::Zero());
+  EXPECT_EQ(measureForce(8.0, Vec3::Zero()), Vec3::Zero());
+}
+
+TEST(SimulatedDevice, TellsItsCapabilities) {
+  SimulatedDeviceSettings settings;
+  settings.max_force = 8.0;
+  settings.guide = Vec3(0, 1, 0);
+  const SimulatedDevice device = makeDevice(settings, Vec3::Zero());
+  EXPECT_EQ(device.capabilities().name, "simulated");
+  EXPECT_EQ(device.capabilities().degrees_of_freedom, 3);
+  EXPECT_EQ(device.capabilities().max_force, 8.0);
+}
+
+// --- the guide ---------------------------------------------------------------------------------
+
+TEST(SimulatedDevice, GuideKeepsTheMotionOnItsLine) {
+  const std::uint64_t seed = 5;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < 20; ++round) {
+    SimulatedDeviceSettings settings;
+    const Vec3 axis = drawVector(random, 1.0).normalized();
+    settings.guide = axis;
+    settings.start_W = drawVector(random, 0.5);
+    settings.encoder_resolution = round % 2 == 0 ? 0.0 : 1e-4;
+    SimulatedDevice device(settings, makeSineHand(drawVector(random, 5.0), 2.0, 0.4));
+    for (int i = 0; i <= 2000; ++i) {
+      const PointState hip = device.read(i * kPeriod).hip;
+      // One rounding of start + s * guide per component, whatever has happened before.
+      const Vec3 moved = hip.p_W - settings.start_W;
+      const double tolerance = 4.0 * kEps * (settings.start_W.norm() + moved.norm());
+      ASSERT_LE(moved.cross(axis).norm(), tolerance) << i;
+      ASSERT_LE(hip.v_W.cross(axis).norm(), 4.0 * kEps * hip.v_W.norm()) << i;
+      device.write(drawVector(random, 3.0));
+    }
+  }
+}
+
+TEST(SimulatedDevice, GuideLetsThroughTheForceAlongIt) {
+  const std::uint64_t seed = 6;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < 20; ++round) {
+    const Vec3 axis = drawVector(random, 1.0).normalized();
+    const Vec3 hand = drawVector(random, 5.0);
+    const Vec3 rendered = drawVector(random, 5.0);
+    SimulatedDeviceSettings settings;
+    settings.guide = axis;
+    SimulatedDevice device = makeDevice(settings, hand);
+    device.write(rendered);
+    const PointState hip = readTicks(device, 100).hip;
+    const double f = axis.dot(hand + rendered);
+    const ClosedForm along = fromRest(settings.mass, settings.damping, f, 0.1);
+    // 400 sub-steps of rounding; the projection itself may cancel down from 10 N.
+    const double tolerance = (400.0 + 40.0 / std::abs(f)) * kEps;
+    EXPECT_LT((hip.p_W - static_cast<double>(along.x) * axis).norm(),
+              tolerance * std::abs(static_cast<double>(along.x)));
+    EXPECT_LT((hip.v_W - static_cast<double>(along.v) * axis).norm(),
+              tolerance * std::abs(static_cast<double>(along.v)));
+  }
+}
+
+TEST(SimulatedDevice, GuideAlongAnAxisLeavesTheOthersUntouched) {
+  SimulatedDeviceSettings settings;
+  settings.guide = Vec3(1, 0, 0);
+  settings.start_W = Vec3(0.1, 0.2, 0.3);
+  SimulatedDevice device = makeDevice(settings, Vec3(5, 100, -100));
+  const PointState hip = readTicks(device, 1000).hip;
+  EXPECT_GT(hip.p_W.x(), 1.0);
+  EXPECT_EQ(hip.p_W.tail<2>(), settings.start_W.tail<2>());
+  EXPECT_EQ(hip.v_W.tail<2>(), Eigen::Vector2d::Zero());
+}
+
+// --- the encoder -------------------------------------------------------------------------------
+
+TEST(SimulatedDevice, EncoderIsOffByHalfAStepAtMost) {
+  const std::uint64_t seed = 7;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  SimulatedDeviceSettings settings;
+  settings.start_W = Vec3(0.01234, -0.2, 0.3);
+  settings.encoder_resolution = 6e-5;
+  SimulatedDevice device(settings, makeSineHand(Vec3(3, 2, -1), 1.5, 0.2));
+  for (int i = 0; i <= 2000; ++i) {
+    const Vec3 reading = device.read(i * kPeriod).hip.p_W;
+    const Vec3 error = reading - device.handle().p_W;
+    ASSERT_LE(error.cwiseAbs().maxCoeff(), 0.5 * settings.encoder_resolution + 4 * kEps) << i;
+    // A whole number of steps from the start; the subtraction is off by eps / resolution steps.
+    const Vec3 steps = (reading - settings.start_W) / settings.encoder_resolution;
+    ASSERT_LE((steps - steps.array().round().matrix()).cwiseAbs().maxCoeff(), 1e-10) << i;
+    device.write(drawVector(random, 1.0));
+  }
+}
+
+TEST(SimulatedDevice, EncoderVelocityIsTheFirstDifferenceOfReadings) {
+  SimulatedDeviceSettings settings;
+  settings.encoder_resolution = 1e-4;
+  SimulatedDevice device = makeDevice(settings, Vec3(2, -1, 0));
+  DeviceSample last = device.read(0.05);
+  EXPECT_EQ(last.hip.v_W, Vec3::Zero()) << "the first read has nothing to compare with";
+  double last_time = 0.05;
+  for (const double now : {0.051, 0.052, 0.06, 0.0600001, 0.2}) {
+    const DeviceSample sample = device.read(now);
+    const Vec3 expected = (sample.hip.p_W - last.hip.p_W) / (now - last_time);
+    EXPECT_LT((sample.hip.v_W - expected).norm(), 8 * kEps / (now - last_time)) << now;
+    const DeviceSample again = device.read(now);
+    EXPECT_EQ(again.hip.p_W, sample.hip.p_W) << now;
+    EXPECT_EQ(again.hip.v_W, sample.hip.v_W) << now;
+    last = sample;
+    last_time = now;
+  }
+}
+
+TEST(SimulatedDevice, EncoderStandsStillBelowHalfAStep) {
+  SimulatedDeviceSettings settings;
+  settings.damping = 0.0;
+  settings.encoder_resolution = 1e-3;
+  SimulatedDevice device = makeDevice(settings, Vec3(0.1, 0, 0));  // 1 m/s^2
+  for (int i = 0; i <= 31; ++i) {                                  // 0.48 mm
+    const PointState hip = device.read(i * kPeriod).hip;
+    EXPECT_EQ(hip.p_W, Vec3::Zero()) << i;
+    EXPECT_EQ(hip.v_W, Vec3::Zero()) << i;
+  }
+  EXPECT_EQ(device.read(0.032).hip.p_W, Vec3(1e-3, 0, 0));  // 0.512 mm
+}
+
+TEST(SimulatedDevice, EncoderDoesNotChangeTheMotion) {
+  SimulatedDeviceSettings settings;
+  SimulatedDevice exact = makeDevice(settings, Vec3(5, 0, 0));
+  settings.encoder_resolution = 1e-3;
+  SimulatedDevice coarse = makeDevice(settings, Vec3(5, 0, 0));
+  (void)readTicks(exact, 100);
+  (void)readTicks(coarse, 100);
+  EXPECT_EQ(coarse.handle().p_W, exact.handle().p_W);
+  EXPECT_EQ(coarse.handle().v_W, exact.handle().v_W);
+}
+
+// --- settings ----------------------------------------------------------------------------------
+
+std::string refusal(void (*change)(SimulatedDeviceSettings&)) {
+  SimulatedDeviceSettings settings;
+  change(settings);
+  try {
+    (void)makeDevice(settings, Vec3::Zero());
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SimulatedDevice, RefusesBadSettingsByName) {
+  struct Case {
+    void (*change)(SimulatedDeviceSettings&);
+    const char* begins;
+  };
+  using Settings = SimulatedDeviceSettings;
+  const Case cases[] = {
+      {[](Settings& s) { s.mass = 0.0; }, "mass of the simulated device is 0,"},
+      {[](Settings& s) { s.mass = -0.1; }, "mass of the simulated device is -0.1,"},
+      {[](Settings& s) { s.mass = kNan; }, "mass of the simulated device is nan,"},
+      {[](Settings& s) { s.mass = kInfinity; }, "mass of the simulated device is inf,"},
+      {[](Settings& s) { s.damping = -1e-9; }, "damping of the simulated device is -1e-09,"},
+      {[](Settings& s) { s.damping = kNan; }, "damping of the simulated device is nan,"},
+      {[](Settings& s) { s.start_W.y() = kNan; },
+       "start_W of the simulated device is [0, nan, 0],"},
+      {[](Settings& s) { s.guide = Vec3(0, 0, 0); }, "guide of the simulated device is [0, 0, 0],"},
+      {[](Settings& s) { s.guide = Vec3(1, 1, 0); }, "guide of the simulated device is [1, 1, 0],"},
+      {[](Settings& s) { s.guide = Vec3(kNan, 0, 0); },
+       "guide of the simulated device is [nan, 0, 0],"},
+      {[](Settings& s) { s.encoder_resolution = -1.0; },
+       "encoder_resolution of the simulated device is -1,"},
+      {[](Settings& s) { s.encoder_resolution = kInfinity; },
+       "encoder_resolution of the simulated device is inf,"},
+      {[](Settings& s) { s.max_force = -8.0; }, "max_force of the simulated device is -8,"},
+      {[](Settings& s) { s.max_force = kNan; }, "max_force of the simulated device is nan,"},
+  };
+  for (const Case& c : cases) {
+    const std::string text = refusal(c.change);
+    EXPECT_EQ(text.rfind(c.begins, 0), 0U) << c.begins << " in: " << text;
+    EXPECT_NE(text.find("must be"), std::string::npos) << text;
+  }
+  EXPECT_THROW(SimulatedDevice({}, nullptr), std::invalid_argument);
+  EXPECT_EQ(refusal([](Settings& s) { s.guide = Vec3(0.6, 0.8, 0); }), "accepted");
+}
+
+}  // namespace
+}  // namespace tandem
