@@ -5,17 +5,19 @@
 #   scripts/packages.sh missing build demo   prints what of it is not installed
 #   scripts/packages.sh install build demo   installs what is missing; needs no network when all is there
 #
-# Groups: build (library and program), demo (figures), test, ci (Clang, sanitizers, fuzzing, format).
+# Groups: build (library and program), demo (figures), test, bench (other engines that tandem bench compares
+# with, and valgrind for instruction counts; optional), ci (Clang, sanitizers, fuzzing, format).
 set -euo pipefail
 
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libbullet-dev libeigen3-dev libfmt-dev \
-                nlohmann-json3-dev libtomlplusplus-dev libcli11-dev ;;
+                nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev ;;
     demo)  echo gnuplot-nox fonts-dejavu-core ;;
     test)  echo libgtest-dev python3 ;;
+    bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;
     ci)    echo clang libclang-rt-14-dev llvm clang-format clang-tidy ;;
-    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, test, ci" >&2; return 2 ;;
+    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, test, bench, ci" >&2; return 2 ;;
   esac
 }
 
@@ -84,7 +86,7 @@ main() {
     list)    packages_of_all "$@" ;;
     missing) missing_of "$@" ;;
     install) install_missing "$@" ;;
-    *)       sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; return 2 ;;
+    *)       sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; return 2 ;;
   esac
 }
 

@@ -1,5 +1,7 @@
 #include "tandem/bullet_bridge/host_world.h"
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
@@ -60,23 +62,38 @@ struct WorldSlots {
 class AttachedWorlds {
  public:
   WorldSlots* find(const btDynamicsWorld* world) {
+    // A thread mostly steps one world, twice per step.
+    thread_local Found last;
+    const std::uint64_t changes = changes_.load(std::memory_order_acquire);
+    if (last.world == world && last.changes == changes) return last.slots;
     const std::shared_lock lock(mutex_);
     const auto found = worlds_.find(world);
-    return found == worlds_.end() ? nullptr : found->second.get();
+    last = {world, found == worlds_.end() ? nullptr : found->second.get(), changes};
+    return last.slots;
   }
   WorldSlots& findOrAdd(const btDynamicsWorld* world) {
     const std::unique_lock lock(mutex_);
+    changes_.fetch_add(1, std::memory_order_release);
     std::unique_ptr<WorldSlots>& slots = worlds_[world];
     if (!slots) slots = std::make_unique<WorldSlots>();
     return *slots;
   }
   void forget(const btDynamicsWorld* world) {
     const std::unique_lock lock(mutex_);
+    changes_.fetch_add(1, std::memory_order_release);
     worlds_.erase(world);
   }
 
  private:
+  /// What a thread found last, good until the table changes.
+  struct Found {
+    const btDynamicsWorld* world = nullptr;
+    WorldSlots* slots = nullptr;
+    std::uint64_t changes = 0;
+  };
+
   std::shared_mutex mutex_;
+  std::atomic<std::uint64_t> changes_{1};
   std::unordered_map<const btDynamicsWorld*, std::unique_ptr<WorldSlots>> worlds_;
 };
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/shapes.h"
 
 namespace tandem {
 namespace {
@@ -40,26 +38,6 @@ class Collector final : public btBroadphaseAabbCallback {
   std::vector<btCollisionObject*>& found_;
 };
 
-/// The rotation that lays the island's capsule, along y, along the axis of Bullet's.
-Quat turnFromYTo(int axis) {
-  if (axis == 1) return Quat::Identity();
-  return Quat::FromTwoVectors(Vec3::UnitY(), axis == 0 ? Vec3::UnitX() : Vec3::UnitZ());
-}
-
-/// Adds the obstacle if the island knows its shape.
-void appendKnown(const btCollisionShape& shape, const btTransform& pose,
-                 std::vector<Obstacle>& obstacles) {
-  const Vec3 p_WB = fromBullet(pose.getOrigin());
-  const Quat q_WB = fromBullet(pose.getRotation());
-  if (shape.getShapeType() == CAPSULE_SHAPE_PROXYTYPE) {
-    const auto& capsule = static_cast<const btCapsuleShape&>(shape);
-    obstacles.push_back({Capsule{capsule.getRadius(), capsule.getHalfHeight()}, p_WB,
-                         q_WB * turnFromYTo(capsule.getUpAxis())});
-  } else if (const std::optional<Shape> known = convertShape(shape)) {
-    obstacles.push_back({*known, p_WB, q_WB});
-  }
-}
-
 }  // namespace
 
 void findStaticObjects(btCollisionWorld& world, const Region& region,
@@ -75,13 +53,14 @@ void sortAsAdded(std::vector<btCollisionObject*>& objects) {
             });
 }
 
-void appendObstacles(const btCollisionShape& shape, const btTransform& pose,
-                     const std::vector<Region>& regions, std::vector<Obstacle>& obstacles) {
+void appendObstacles(const btCollisionObject& object, const btCollisionShape& shape,
+                     const btTransform& pose, const std::vector<Region>& regions,
+                     KnownShapes& known, std::vector<Obstacle>& obstacles) {
   if (shape.isCompound()) {
     const auto& compound = static_cast<const btCompoundShape&>(shape);
     for (int i = 0; i < compound.getNumChildShapes(); ++i) {
-      appendObstacles(*compound.getChildShape(i), pose * compound.getChildTransform(i), regions,
-                      obstacles);
+      appendObstacles(object, *compound.getChildShape(i), pose * compound.getChildTransform(i),
+                      regions, known, obstacles);
     }
     return;
   }
@@ -89,7 +68,9 @@ void appendObstacles(const btCollisionShape& shape, const btTransform& pose,
   const bool is_near = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
     return mayReach(shape, pose, bounds, region);
   });
-  if (is_near) appendKnown(shape, pose, obstacles);
+  if (!is_near) return;
+  if (const std::optional<Shape> own = known.find(object, shape))
+    obstacles.push_back({*own, fromBullet(pose.getOrigin()), fromBullet(pose.getRotation())});
 }
 
 }  // namespace tandem

@@ -6,6 +6,7 @@
 
 #include "tandem/coordination/island.h"
 
+#include "known_shapes.h"
 #include "regions.h"
 
 namespace tandem {
@@ -20,9 +21,10 @@ void findStaticObjects(btCollisionWorld& world, const Region& region,
 /// broadphase does.
 void sortAsAdded(std::vector<btCollisionObject*>& objects);
 
-/// Adds to `obstacles` what of a shape at a pose the island knows itself and reaches into one of
-/// the regions: sphere, box, capsule, plane, and those inside compounds. Other shapes are skipped.
-void appendObstacles(const btCollisionShape& shape, const btTransform& pose,
-                     const std::vector<Region>& regions, std::vector<Obstacle>& obstacles);
+/// Adds to `obstacles` what of a shape of `object` at a pose the island knows itself and reaches
+/// into one of the regions, also inside compounds. Other shapes are skipped.
+void appendObstacles(const btCollisionObject& object, const btCollisionShape& shape,
+                     const btTransform& pose, const std::vector<Region>& regions,
+                     KnownShapes& known, std::vector<Obstacle>& obstacles);
 
 }  // namespace tandem

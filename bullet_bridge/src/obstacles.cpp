@@ -8,7 +8,8 @@
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/bullet_bridge/haptic_body.h"
 
-#include "contact_solver.h"
+#include "contact_search.h"
+#include "known_shapes.h"
 #include "obstacle_search.h"
 #include "world_lookup.h"
 
@@ -17,52 +18,75 @@ namespace {
 
 /// Beyond this distance from the first body the private origin follows it [m].
 constexpr double kOriginReach = 0.25;
-constexpr std::size_t kNoSlot = static_cast<std::size_t>(-1);
 
 /// Whether the host lets the two touch, by groups, masks and ignored pairs.
-bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btRigidBody& body,
-                   const btCollisionObject& object) {
-  const btBroadphaseProxy* a = body.getBroadphaseHandle();
-  const btBroadphaseProxy* b = object.getBroadphaseHandle();
-  if (a == nullptr || b == nullptr) return false;
-  return host.getPairCache()->needsBroadphaseCollision(const_cast<btBroadphaseProxy*>(a),
-                                                       const_cast<btBroadphaseProxy*>(b)) &&
-         body.checkCollideWith(&object) && object.checkCollideWith(&body);
+bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btCollisionObject& a,
+                   const btCollisionObject& b) {
+  auto* proxy_a = const_cast<btBroadphaseProxy*>(a.getBroadphaseHandle());
+  auto* proxy_b = const_cast<btBroadphaseProxy*>(b.getBroadphaseHandle());
+  if (proxy_a == nullptr || proxy_b == nullptr) return false;
+  return host.getPairCache()->needsBroadphaseCollision(proxy_a, proxy_b) &&
+         a.checkCollideWith(&b) && b.checkCollideWith(&a);
 }
+
+/// Which of two copies' originals remembers that native contact is off: what stands, else who came
+/// later.
+bool isKeeper(const PrivateCopy& copy, const PrivateCopy& other) {
+  return copy.index == kStanding || (other.index != kStanding && copy.index > other.index);
+}
+
+/// Filters whose keeper left the host's world are kept for its return, the latest of them.
+constexpr std::size_t kMostOrphans = 64;
 
 }  // namespace
 
 struct Obstacles::Impl {
-  struct HostBody {
-    BodyIndex index;
-    btRigidBody* body;
-  };
   struct Ball {
     BodyIndex index;
     btScalar radius;
   };
+  /// A filter that could not be taken back: its keeper is not in the world. Addresses only.
+  struct Orphan {
+    btCollisionObject* keeper;
+    btCollisionObject* other;
+  };
 
   explicit Impl(btDiscreteDynamicsWorld& world)
-      : host(world), solver(world.getSolverInfo().m_restitutionVelocityThreshold) {}
+      : host(world),
+        search(static_cast<double>(world.getSolverInfo().m_restitutionVelocityThreshold)) {}
 
-  [[nodiscard]] std::size_t findSlot(BodyIndex index) const noexcept {
-    const auto i = static_cast<std::size_t>(index);
-    return index >= 0 && i < slots.size() ? slots[i] : kNoSlot;
-  }
-  void filter(btCollisionObject* obstacle, const std::vector<bool>& meets, bool filtered);
-  void dropAll();
+  [[nodiscard]] btCollisionObject* findBody(BodyIndex index) const;
+  void remove(btCollisionObject* original);
+  void unfilter(const PrivateCopy& keeper, const PrivateCopy& other);
+  void forgetOrphans();
   void moveOrigin(const std::vector<RigidState>& states);
-  void findForBodies(const std::vector<RigidState>& states, btScalar margin);
+  void findForBodies(const std::vector<RigidState>& states, btScalar margin,
+                     const std::vector<char>* moves);
   void findForSpheres(const std::vector<RigidState>& states, btScalar margin);
+  void dropMissingBodies();
   void dropLost();
   void takeFound();
+  /// Pairs that the host lets touch are the island's from now on.
+  [[nodiscard]] auto takeOver() {
+    return [this](const PrivateCopy& a, const PrivateCopy& b) {
+      if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
+      // Of two that no force moves, neither can be pushed.
+      if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
+        return false;
+      if (!hostLetsTouch(host, *a.original, *b.original)) return false;
+      const bool a_keeps = isKeeper(a, b);
+      filterNativeContact(host, *(a_keeps ? a : b).original, *(a_keeps ? b : a).original, true);
+      return true;
+    };
+  }
 
   btDiscreteDynamicsWorld& host;
-  ContactSolver solver;
-  std::vector<HostBody> bodies;    // by slot
-  std::vector<std::size_t> slots;  // by body index
+  ContactSearch search;
   std::vector<Ball> balls;
   std::vector<Obstacle> near_spheres;
+  KnownShapes known_shapes;
+  std::vector<Orphan> orphans;
+  bool changed = false;
   // Work space of update().
   std::vector<btCollisionObject*> found;
   std::vector<Region> regions;
@@ -70,131 +94,156 @@ struct Obstacles::Impl {
 
 Obstacles::Obstacles(btDiscreteDynamicsWorld& host) : impl_(std::make_unique<Impl>(host)) {}
 
-Obstacles::~Obstacles() { impl_->dropAll(); }
+Obstacles::~Obstacles() {
+  while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
+}
 
 void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
-  if (impl_->findSlot(index) != kNoSlot)
+  if (impl_->findBody(index) != nullptr)
     throw Error("island body " + std::to_string(index) + " has a rigid body already; add it once");
-  if (index < 0 || body.isStaticOrKinematicObject())
-    throw Error("only a dynamic body with an index of its island can be held by obstacles");
+  if (index < 0 || body.isStaticObject())
+    throw Error("only a moving body with an index of its island can be held by obstacles");
   const btCollisionShape& shape = *body.getCollisionShape();
-  if (!shape.isConvex() && !shape.isCompound())
+  const bool is_driven = body.isKinematicObject();
+  if (!shape.isConvex() && !shape.isCompound() &&
+      !(is_driven && shape.getShapeType() != STATIC_PLANE_PROXYTYPE))
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
                 "; use a convex shape or a compound of them");
-  impl_->dropAll();
-  const std::size_t slot = impl_->solver.addBody(body);
-  impl_->bodies.push_back({index, &body});
-  const auto i = static_cast<std::size_t>(index);
-  if (impl_->slots.size() <= i) impl_->slots.resize(i + 1, kNoSlot);
-  impl_->slots[i] = slot;
+  impl_->search.addBody(index, body, impl_->takeOver());
+}
+
+void Obstacles::removeBody(BodyIndex index) {
+  if (btCollisionObject* body = impl_->findBody(index)) impl_->remove(body);
 }
 
 void Obstacles::addSphere(BodyIndex index, double radius) {
   impl_->balls.push_back({index, static_cast<btScalar>(radius)});
 }
 
-void Obstacles::update(const std::vector<RigidState>& states, double margin) {
+bool Obstacles::update(const std::vector<RigidState>& states, double margin,
+                       const std::vector<char>* moves) {
   const auto reach = static_cast<btScalar>(margin);
+  impl_->changed = false;
+  impl_->dropMissingBodies();
+  impl_->forgetOrphans();
   impl_->moveOrigin(states);
-  impl_->findForBodies(states, reach);
+  impl_->findForBodies(states, reach, moves);
   impl_->dropLost();
   impl_->takeFound();
+  impl_->search.copySurfaces();
   impl_->findForSpheres(states, reach);
+  return impl_->changed;
 }
 
 const std::vector<Obstacle>& Obstacles::nearSpheres() const noexcept { return impl_->near_spheres; }
 
-bool Obstacles::isNear(BodyIndex body, const RigidState& state, double reach) const noexcept {
-  const std::size_t slot = impl_->findSlot(body);
-  return slot != kNoSlot && impl_->solver.isNear(slot, state, reach);
+void Obstacles::lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
+                           std::vector<char>& awake, std::vector<char>& near) noexcept {
+  impl_->search.lookAround(states, reach, awake, near);
 }
 
-void Obstacles::predict(BodyIndex body, const RigidState& before,
-                        const RigidState& after) noexcept {
-  const std::size_t slot = impl_->findSlot(body);
-  if (slot != kNoSlot) impl_->solver.predict(slot, before, after);
+void Obstacles::find(const std::vector<RigidState>& states,
+                     std::vector<RigidContact>& contacts) noexcept {
+  impl_->search.find(states, contacts);
 }
 
-void Obstacles::solve(double dt) noexcept { impl_->solver.solve(dt); }
+std::uint64_t Obstacles::searches() const noexcept { return impl_->search.searches(); }
 
-bool Obstacles::correct(BodyIndex body, RigidState& after) noexcept {
-  const std::size_t slot = impl_->findSlot(body);
-  return slot != kNoSlot && impl_->solver.correct(slot, after);
+btCollisionObject* Obstacles::Impl::findBody(BodyIndex index) const {
+  for (const auto& body : search.bodies())
+    if (body->index == index) return body->original;
+  return nullptr;
 }
 
-/// Native contact of an obstacle with all bodies that meet it, off or on. Either may have left the
-/// host's world, and be deleted: then it has no contact there.
-void Obstacles::Impl::filter(btCollisionObject* obstacle, const std::vector<bool>& meets,
-                             bool filtered) {
-  const bool obstacle_present = findInWorld(host, obstacle) >= 0;
-  for (std::size_t slot = 0; slot < meets.size(); ++slot) {
-    if (!meets[slot]) continue;
-    btRigidBody* body = bodies[slot].body;
-    const bool body_present = findInWorld(host, body) >= 0;
-    if (obstacle_present && body_present) {
-      filterNativeContact(host, *body, *obstacle, filtered);
-    } else if (body_present) {
-      body->setIgnoreCollisionCheck(obstacle, filtered);
-    } else if (obstacle_present) {
-      obstacle->setIgnoreCollisionCheck(body, filtered);
-    }
+void Obstacles::Impl::remove(btCollisionObject* original) {
+  changed = true;
+  search.remove(original, [&](const PrivateCopy& removed, const PrivateCopy& partner) {
+    const bool it_keeps = isKeeper(removed, partner);
+    unfilter(it_keeps ? removed : partner, it_keeps ? partner : removed);
+  });
+}
+
+/// Gives native contact back. Either may have left the host's world, and be deleted.
+void Obstacles::Impl::unfilter(const PrivateCopy& keeper, const PrivateCopy& other) {
+  if (findInWorld(host, keeper.original) < 0) {
+    if (orphans.size() == kMostOrphans) orphans.erase(orphans.begin());
+    orphans.push_back({keeper.original, other.original});
+  } else if (findInWorld(host, other.original) < 0) {
+    keeper.original->setIgnoreCollisionCheck(other.original, false);
+  } else {
+    filterNativeContact(host, *keeper.original, *other.original, false);
   }
 }
 
-void Obstacles::Impl::dropAll() {
-  found.clear();
-  dropLost();
+/// Who is back in the world still remembers what was filtered when it left.
+void Obstacles::Impl::forgetOrphans() {
+  std::erase_if(orphans, [&](const Orphan& orphan) {
+    if (findInWorld(host, orphan.keeper) < 0) return false;
+    orphan.keeper->setIgnoreCollisionCheck(orphan.other, false);
+    return true;
+  });
 }
 
 void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {
-  if (bodies.empty()) return;
-  const Vec3& p_W = states[static_cast<std::size_t>(bodies.front().index)].p_W;
-  if ((p_W - solver.origin()).norm() > kOriginReach) solver.setOrigin(p_W);
+  if (search.bodies().empty()) return;
+  const Vec3& p_W = states[static_cast<std::size_t>(search.bodies().front()->index)].p_W;
+  if ((p_W - search.origin()).norm() <= kOriginReach) return;
+  search.setOrigin(p_W);
+  search.placeAll(states);
 }
 
-void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btScalar margin) {
+void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btScalar margin,
+                                    const std::vector<char>* moves) {
   found.clear();
-  for (const HostBody& entry : bodies) {
-    if (findInWorld(host, entry.body) < 0) continue;
-    const RigidState& state = states[static_cast<std::size_t>(entry.index)];
-    const Region region =
-        computeRegion(*entry.body->getCollisionShape(), toBullet(state.p_W, state.q_WB));
+  // What is known already stays near those that stand.
+  if (moves)
+    for (const auto& copy : search.standing())
+      if (findInWorld(host, copy->original, copy->world_index) >= 0)
+        found.push_back(copy->original);
+  for (const auto& body : search.bodies()) {
+    if (body->original->isKinematicObject()) continue;
+    if (moves && !(*moves)[static_cast<std::size_t>(body->index)]) continue;
+    const RigidState& state = states[static_cast<std::size_t>(body->index)];
+    const Region region = computeRegion(*body->host_shape, toBullet(state.p_W, state.q_WB));
     findStaticObjects(host, growRegion(region, margin), found);
   }
   sortAsAdded(found);
 }
 
+/// The host may take a body out of its world, and delete it.
+void Obstacles::Impl::dropMissingBodies() {
+  for (std::size_t i = search.bodies().size(); i-- > 0;) {
+    PrivateCopy& copy = *search.bodies()[i];
+    copy.world_index = findInWorld(host, copy.original, copy.world_index);
+    if (copy.world_index < 0) remove(copy.original);
+  }
+}
+
 void Obstacles::Impl::dropLost() {
-  const auto& obstacles = solver.obstacles();
-  for (std::size_t i = obstacles.size(); i-- > 0;) {
-    btCollisionObject* original = obstacles[i]->original;
+  const auto& standing = search.standing();
+  for (std::size_t i = standing.size(); i-- > 0;) {
+    btCollisionObject* original = standing[i]->original;
     const bool is_found = std::find(found.begin(), found.end(), original) != found.end();
-    if (is_found && original->getCollisionShape() == obstacles[i]->host_shape) continue;
-    filter(original, obstacles[i]->meets, false);
-    solver.removeObstacle(original);
+    if (!is_found || original->getCollisionShape() != standing[i]->host_shape) remove(original);
   }
 }
 
 void Obstacles::Impl::takeFound() {
   for (btCollisionObject* object : found) {
-    const auto& known = solver.obstacles();
+    const auto& known = search.standing();
     const auto copy = std::find_if(known.begin(), known.end(),
                                    [&](const auto& entry) { return entry->original == object; });
     if (copy != known.end()) {
-      (*copy)->place(solver.origin());
-      continue;
+      changed |= (*copy)->placeAsOriginal(search.origin());
+    } else {
+      changed = true;
+      search.addStanding(*object, takeOver());
     }
-    std::vector<bool> meets;
-    for (const HostBody& entry : bodies) {
-      meets.push_back(findInWorld(host, entry.body) >= 0 &&
-                      hostLetsTouch(host, *entry.body, *object));
-    }
-    filter(object, meets, true);
-    solver.addObstacle(*object, std::move(meets));
   }
 }
 
 void Obstacles::Impl::findForSpheres(const std::vector<RigidState>& states, btScalar margin) {
+  known_shapes.forgetLost(host);
   found.clear();
   regions.clear();
   for (const Ball& ball : balls) {
@@ -205,8 +254,8 @@ void Obstacles::Impl::findForSpheres(const std::vector<RigidState>& states, btSc
   sortAsAdded(found);
   near_spheres.clear();
   for (const btCollisionObject* object : found) {
-    appendObstacles(*object->getCollisionShape(), object->getWorldTransform(), regions,
-                    near_spheres);
+    appendObstacles(*object, *object->getCollisionShape(), object->getWorldTransform(), regions,
+                    known_shapes, near_spheres);
   }
 }
 

@@ -1,55 +1,61 @@
 #include "private_copies.h"
 
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+
 #include "tandem/bullet_bridge/convert.h"
 
 namespace tandem {
 namespace {
 
-void copySurface(const btCollisionObject& original, btCollisionObject& copy) {
-  copy.setFriction(original.getFriction());
-  copy.setRollingFriction(original.getRollingFriction());
-  copy.setSpinningFriction(original.getSpinningFriction());
-  copy.setRestitution(original.getRestitution());
-  // The setter switches the kind of anisotropy on unless the scale is (1, 1, 1).
-  int mode = btCollisionObject::CF_ANISOTROPIC_FRICTION_DISABLED;
-  for (const int kind : {btCollisionObject::CF_ANISOTROPIC_FRICTION,
-                         btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION}) {
-    if (original.hasAnisotropicFriction(kind)) mode |= kind;
+/// Bullet finds no contact of two boxes at any gap. Boxes that rest on each other open and close by
+/// rounding, so their copies are larger by this, and distances are put right [m]. Far above the
+/// way of an inner step at rest, g h^2 = 6e-7, far below what a corner's place matters by.
+constexpr btScalar kBoxSkin = btScalar(5e-6);
+
+std::unique_ptr<btCollisionShape> makeOwnShape(const btCollisionShape& shape) {
+  if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+    const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
+    return std::make_unique<btStaticPlaneShape>(plane.getPlaneNormal(), btScalar(0));
   }
-  copy.setAnisotropicFriction(original.getAnisotropicFriction(), mode);
-  copy.setUserPointer(original.getUserPointer());
-  copy.setUserIndex(original.getUserIndex());
-  copy.setUserIndex2(original.getUserIndex2());
-  copy.setUserIndex3(original.getUserIndex3());
+  if (shape.getShapeType() == BOX_SHAPE_PROXYTYPE) {
+    const auto& box = static_cast<const btBoxShape&>(shape);
+    const btVector3 skin(kBoxSkin, kBoxSkin, kBoxSkin);
+    auto copy = std::make_unique<btBoxShape>(box.getHalfExtentsWithMargin() + skin);
+    copy->setMargin(box.getMargin());
+    return copy;
+  }
+  return nullptr;
 }
 
 }  // namespace
 
-std::unique_ptr<btRigidBody> copyBody(const btRigidBody& original) {
-  // Bullet's bodies share shapes by non-const pointer; nothing here changes them.
-  auto* shape = const_cast<btCollisionShape*>(original.getCollisionShape());
-  auto copy =
-      std::make_unique<btRigidBody>(original.getMass(), nullptr, shape, original.getLocalInertia());
-  copySurface(original, *copy);
-  copy->setFlags(0);
-  copy->setLinearFactor(original.getLinearFactor());
-  copy->setAngularFactor(original.getAngularFactor());
-  return copy;
+PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
+    : original(&host_object),
+      host_shape(host_object.getCollisionShape()),
+      index(body),
+      own_shape(makeOwnShape(*host_object.getCollisionShape())) {
+  copySurface();
+  if (host_shape->getShapeType() == STATIC_PLANE_PROXYTYPE)
+    plane = static_cast<const btStaticPlaneShape*>(own_shape.get());
+  if (host_shape->getShapeType() == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
+  // Bullet's objects share shapes by non-const pointer; nothing here changes them.
+  object.setCollisionShape(own_shape ? own_shape.get() : host_object.getCollisionShape());
+  place(btTransform::getIdentity());
 }
 
-ObstacleCopy::ObstacleCopy(btCollisionObject& host_object)
-    : original(&host_object), host_shape(host_object.getCollisionShape()) {
-  copySurface(host_object, object);
-  btCollisionShape* shape = host_object.getCollisionShape();
-  if (shape->getShapeType() == STATIC_PLANE_PROXYTYPE) {
-    const auto& host_plane = static_cast<const btStaticPlaneShape&>(*shape);
-    plane = std::make_unique<btStaticPlaneShape>(host_plane.getPlaneNormal(), btScalar(0));
-    shape = plane.get();
-  }
-  object.setCollisionShape(shape);
+void PrivateCopy::copySurface() {
+  object.setFriction(original->getFriction());
+  object.setRollingFriction(original->getRollingFriction());
+  object.setSpinningFriction(original->getSpinningFriction());
+  object.setRestitution(original->getRestitution());
+  object.setUserPointer(original->getUserPointer());
+  object.setUserIndex(original->getUserIndex());
+  object.setUserIndex2(original->getUserIndex2());
+  object.setUserIndex3(original->getUserIndex3());
 }
 
-void ObstacleCopy::place(const Vec3& origin_W) {
+bool PrivateCopy::placeAsOriginal(const Vec3& origin_W) {
   const btTransform& host_pose = original->getWorldTransform();
   Vec3 p = fromBullet(host_pose.getOrigin()) - origin_W;
   if (plane) {
@@ -59,8 +65,15 @@ void ObstacleCopy::place(const Vec3& origin_W) {
     const Vec3 normal = fromBullet(host_pose.getBasis() * host_plane.getPlaneNormal());
     p = (normal.dot(p) + static_cast<double>(host_plane.getPlaneConstant())) * normal;
   }
-  object.setWorldTransform(btTransform(host_pose.getBasis(), toBullet(p)));
-  bounds = computeRegion(*object.getCollisionShape(), object.getWorldTransform());
+  const btTransform pose(host_pose.getBasis(), toBullet(p));
+  const bool moved = !(pose == object.getWorldTransform());
+  if (moved) place(pose);
+  return moved;
+}
+
+void PrivateCopy::place(const btTransform& pose) {
+  object.setWorldTransform(pose);
+  bounds = computeRegion(*object.getCollisionShape(), pose);
 }
 
 }  // namespace tandem

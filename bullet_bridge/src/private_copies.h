@@ -1,40 +1,42 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
-#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletCollision/CollisionShapes/btConvexShape.h>
 
-#include "tandem/coordination/types.h"
+#include "tandem/coordination/contact_finder.h"
 
 #include "regions.h"
 
-class btCollisionAlgorithm;
+class btStaticPlaneShape;
 
 namespace tandem {
 
-/// A dynamic body of the host as the private solver has it: same shape, mass, friction and factors;
-/// neither damping nor gyroscopic term nor forces, which the island's prediction has.
-[[nodiscard]] std::unique_ptr<btRigidBody> copyBody(const btRigidBody& original);
+/// An object of the host's world as the private contact search has it: same shape and surface, at a
+/// place of its own.
+struct PrivateCopy {
+  /// `index`: of the island's body, or kStanding.
+  PrivateCopy(btCollisionObject& host_object, BodyIndex index);
 
-/// A static object of the host as the private solver has it.
-struct ObstacleCopy {
-  explicit ObstacleCopy(btCollisionObject& host_object);
-
-  /// Puts the copy where the original is, seen from `origin_W`.
-  void place(const Vec3& origin_W);
+  /// Puts the copy where a standing original is, seen from `origin_W`. Returns whether that moved
+  /// it.
+  bool placeAsOriginal(const Vec3& origin_W);
+  void place(const btTransform& pose);
+  /// Friction and restitution as the original has them now.
+  void copySurface();
 
   btCollisionObject* original;         ///< the host may have deleted it: compare, do not read
   const btCollisionShape* host_shape;  ///< another one: another object at the same address
-  std::unique_ptr<btStaticPlaneShape>
-      plane;  ///< own shape for a plane, through its object's origin
+  BodyIndex index;
+  std::unique_ptr<btCollisionShape> own_shape;  ///< where the host's does not do
+  const btStaticPlaneShape* plane = nullptr;    ///< own_shape of a plane: through its origin
+  btScalar skin = 0;  ///< by which own_shape is larger all round than the host's [m]
   btCollisionObject object;
-  Region bounds;            ///< around the copy
-  std::vector<bool> meets;  ///< by body: the host lets them touch
-  std::vector<btCollisionAlgorithm*>
-      algorithms;  ///< by body: Bullet's narrowphase while they are near
+  int world_index = -1;          ///< of the original in the host's world, last time
+  Vec3 p_placed = Vec3::Zero();  ///< of a body: where it was placed last, from the private origin
+  Quat q_placed = Quat::Identity();
+  Region bounds;  ///< around the copy where it was placed last
 };
 
 }  // namespace tandem

@@ -27,10 +27,14 @@ btRigidBody::btRigidBodyConstructionInfo makeInfo(btSphereShape& shape, double m
 }  // namespace
 
 struct SphereBody::Impl {
-  Impl(btDiscreteDynamicsWorld& host, double radius, double mass, const Vec3& p_W)
+  Impl(btDiscreteDynamicsWorld& host, double radius, double mass, const Vec3& p_W,
+       SphereMeets meets)
       : world(host), shape(static_cast<btScalar>(radius)), rigid(makeInfo(shape, mass, p_W)) {
     rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);
-    world.addRigidBody(&rigid, btBroadphaseProxy::DefaultFilter, kAllButStatic);
+    const bool meets_all = meets == SphereMeets::kAllBodies;
+    if (meets_all) rigid.setFriction(0);
+    world.addRigidBody(&rigid, btBroadphaseProxy::DefaultFilter,
+                       meets_all ? btBroadphaseProxy::AllFilter : kAllButStatic);
     haptic.emplace(world, rigid);
   }
   ~Impl() {
@@ -45,8 +49,9 @@ struct SphereBody::Impl {
   std::optional<HapticBody> haptic;
 };
 
-SphereBody::SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W)
-    : impl_(std::make_unique<Impl>(world, radius, mass, p_W)) {}
+SphereBody::SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
+                       SphereMeets meets)
+    : impl_(std::make_unique<Impl>(world, radius, mass, p_W, meets)) {}
 SphereBody::~SphereBody() = default;
 
 btRigidBody& SphereBody::rigid() const noexcept { return impl_->rigid; }

@@ -1,13 +1,17 @@
 #include "tandem/coordination/island.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tandem/coordination/assert.h"
 
 #include "bad_value.h"
 #include "island_model.h"
+#include "rest.h"
 #include "slot_motion.h"
 #include "spatial_motion.h"
+#include "turn.h"
 
 namespace tandem {
 namespace {
@@ -25,31 +29,162 @@ void checkGains(const char* name, const CouplerGains& gains) {
   checkNotNegative((std::string(name) + " damping").c_str(), gains.damping);
 }
 
+void checkBody(const IslandBody& body, bool is_guided) {
+  checkShape(body.shape);
+  checkNotNegative("body damping", body.damping);
+  checkNotNegative("body angular damping", body.angular_damping);
+  if (!isFinite(body.start)) throw std::invalid_argument("a body's start state must be finite");
+  if (body.feels_obstacles && !std::holds_alternative<Sphere>(body.shape))
+    throw std::invalid_argument("only a sphere feels obstacles; make other shapes is_rigid");
+  if (std::holds_alternative<Mesh>(body.shape))
+    throw std::invalid_argument("a mesh cannot be a body of an island; make it an obstacle");
+  if (body.motion != Motion::kDynamic) return;
+  checkPositive("body mass", body.mass);
+  if (is_guided) return;
+  for (int axis = 0; axis < 3; ++axis) checkNotNegative("body inertia", body.inertia_B[axis]);
+}
+
+bool isSame(const RigidState& a, const RigidState& b) noexcept {
+  return a.p_W == b.p_W && a.v_W == b.v_W && a.w_W == b.w_W && a.q_WB.coeffs() == b.q_WB.coeffs();
+}
+
 }  // namespace
 
 struct Island::Impl {
   IslandModel model;
+  IslandCounters counters;
   std::optional<SlotMotion> slot;
   std::optional<SpatialMotion> spatial;
-  mutable std::vector<Wrench> wrenches;
-  mutable States states;
+  std::vector<Wrench> wrenches;
+  States states;
+  /// Work space of catchUp().
+  struct {
+    std::vector<ModelBody> bodies;
+    std::vector<ModelCoupler> couplers;
+    std::vector<IslandContact> contacts;
+    std::vector<BodyIndex> slots;
+    const std::vector<Obstacle>* obstacles = nullptr;
+  } set_aside;
   bool prepared = false;
+  bool asleep = false;
+  std::uint64_t obstacles_hash = 0;  ///< when it fell asleep
+
+  void disturb(BodyIndex body) noexcept {
+    asleep = false;
+    model.bodies[body].disturbed = true;
+    model.wake(body);
+  }
+
+  /// Falls asleep if the forces allow it.
+  void tryToSleep() noexcept {
+    computeContactWrenches();
+    for (const BodyIndex b : model.present) {
+      if (spatial->wasHeld(b)) return;
+      if (!spatial->isResting(b) && !isSettled(model, b, addUp(b, wrenches[b]))) return;
+    }
+    asleep = true;
+    obstacles_hash = computeHash(model.obstacles);
+  }
+
+  /// Those at rest are left out if nothing is near.
+  void letSomeSleep() noexcept {
+    for (const BodyIndex b : model.present) {
+      const ModelBody& body = model.bodies[b];
+      if (!body.isDynamic() || body.is_slot || body.settings.feels_obstacles) continue;
+      if (!spatial->isAtRest(b)) continue;
+      // No contact is counted, as letSleep() wants none near.
+      if (spatial->isResting(b) || isSettled(model, b, addUp(b, {}))) spatial->letSleep(model, b);
+    }
+  }
+
+  /// All that acts on a body, given what contacts do.
+  [[nodiscard]] Wrench addUp(BodyIndex body, Wrench sum) const noexcept {
+    const ModelBody& b = model.bodies[body];
+    sum.f_W += b.f_external_W - b.settings.damping * b.state.v_W;
+    sum.t_W += b.t_external_W + computeAngularDamping(b.settings, b.state);
+    for (const ModelCoupler& coupler : model.couplers) {
+      if (coupler.follower != body) continue;
+      const Wrench pull = computeCouplerWrench(coupler, b.state);
+      sum.f_W += pull.f_W;
+      sum.t_W += pull.t_W;
+    }
+    return sum;
+  }
+
+  /// What is past already: others' couplers and the touches among them.
+  void setAside(const std::vector<BodyIndex>& slots) noexcept {
+    set_aside.slots.assign(slots.begin(), slots.end());
+    set_aside.couplers.clear();
+    set_aside.contacts.clear();
+    swapPast();
+    set_aside.obstacles = std::exchange(model.obstacles, nullptr);
+  }
+  void takeBack() noexcept {
+    swapPast();
+    model.obstacles = set_aside.obstacles;
+  }
+  void swapPast() noexcept {
+    model.couplers.swap(set_aside.couplers);
+    model.contacts.swap(set_aside.contacts);
+    model.is_listed = false;
+    model.slots.swap(set_aside.slots);
+  }
+
+  /// Another body takes part with its mass, but with no force of its own on it.
+  void sendAlong(BodyIndex b, const RigidState& from, const RigidState& to, double duration,
+                 const Aside& aside) noexcept {
+    ModelBody& body = model.bodies[b];
+    set_aside.bodies[b] = body;
+    body.settings.damping = body.settings.angular_damping = 0.0;
+    body.f_external_W.setZero();
+    body.t_external_W.setZero();
+    // Round, so that it turns steadily.
+    body.settings.inertia_B.setConstant(body.settings.inertia_B.mean());
+    body.inverse_inertia_B.setConstant(body.inverse_inertia_B.mean());
+    const Aside steady = computeSteady(from, to, duration);
+    body.state = {from.p_W + aside.offset_W, from.q_WB, steady.v_W + aside.v_W,
+                  steady.w_W + aside.w_W};
+    spatial->refill(model, b);
+  }
+  void bringBack(BodyIndex b, const RigidState& from, const RigidState& to, double duration,
+                 Aside& aside) noexcept {
+    const RigidState end = model.bodies[b].state;
+    const Aside steady = computeSteady(from, to, duration);
+    if (model.bodies[b].isDynamic())
+      aside = {end.p_W - to.p_W, end.v_W - steady.v_W, end.w_W - steady.w_W};
+    model.bodies[b] = set_aside.bodies[b];
+  }
+  /// Velocities that lead from one pose to another.
+  [[nodiscard]] static Aside computeSteady(const RigidState& from, const RigidState& to,
+                                           double duration) noexcept {
+    const Vec3 turn_W = computeTurn(from.q_WB.coeffs().data(), to.q_WB.coeffs().data()).toVec3();
+    return {Vec3::Zero(), (to.p_W - from.p_W) / duration, turn_W / duration};
+  }
 
   /// Contact wrenches of the free island at this instant, into `wrenches`.
-  void computeContactWrenches() const noexcept {
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+  void computeContactWrenches() noexcept {
+    if (!model.is_listed) model.listPresent();
+    for (const BodyIndex b : model.present) {
       states[b] = model.bodies[b].state;
       wrenches[b] = {};
     }
     forEachTouch(model, [&](const Touch& touch) {
-      const TouchState state = computeTouchState(model, touch, states);
-      const double push = computePush(touch, state);
-      if (push > 0.0) addPush(model, touch, state, push, states, wrenches);
+      if (!couldMeet(model, touch, states, 0.0)) return;
+      const auto add = [&](const Touch& one) {
+        const TouchState state = computeTouchState(model, one, states);
+        const double push = computePush(one, state);
+        if (push > 0.0) addPush(model, one, state, push, states, wrenches);
+      };
+      if (isWholeMesh(touch))
+        forEachPiece(model, touch, states, 0.0, [&](const Touch& piece, double) { add(piece); });
+      else
+        add(touch);
     });
   }
 
-  [[nodiscard]] Wrench contactWrench(BodyIndex body) const noexcept {
+  [[nodiscard]] Wrench contactWrench(BodyIndex body) noexcept {
     if (slot) return {*model.settings.guide * slot->computeContactForce(model, body), Vec3::Zero()};
+    wrenches[body] = {};
     computeContactWrenches();
     return wrenches[body];
   }
@@ -58,6 +193,7 @@ struct Island::Impl {
 Island::Island(const IslandSettings& settings) : impl_(std::make_unique<Impl>()) {
   checkPositive("haptic period", settings.haptic_period);
   checkPositive("inner step", settings.inner_step);
+  checkPositive("tolerance", settings.tolerance);
   checkGains("obstacle contact", settings.obstacle_contact);
   if (settings.guide && !(std::abs(settings.guide->norm() - 1.0) < 1e-9))
     throwBadValue("norm of the guide", settings.guide->norm(), "a unit vector");
@@ -69,26 +205,21 @@ Island::Island(Island&&) noexcept = default;
 Island& Island::operator=(Island&&) noexcept = default;
 
 BodyIndex Island::addBody(const IslandBody& body) {
-  checkShape(body.shape);
-  checkNotNegative("body damping", body.damping);
-  if (!isFinite(body.start)) throw std::invalid_argument("a body's start state must be finite");
-  if (body.feels_obstacles && !std::holds_alternative<Sphere>(body.shape))
-    throw std::invalid_argument("only a sphere feels obstacles; make other shapes is_rigid");
-  ModelBody entry;
-  entry.settings = body;
-  entry.state = body.start;
-  entry.bounding_radius = computeBoundingRadius(body.shape);
-  if (entry.isDynamic()) {
-    checkPositive("body mass", body.mass);
-    entry.inverse_mass = 1.0 / body.mass;
-    if (body.inertia_B != Vec3::Zero() && !impl_->model.settings.guide) {
-      for (int axis = 0; axis < 3; ++axis) {
-        checkNotNegative("body inertia", body.inertia_B[axis]);
-        if (body.inertia_B[axis] > 0.0) entry.inverse_inertia_B[axis] = 1.0 / body.inertia_B[axis];
-      }
-    }
-  }
-  impl_->model.bodies.push_back(entry);
+  const bool is_guided = impl_->model.settings.guide.has_value();
+  checkBody(body, is_guided);
+  impl_->model.bodies.push_back(ModelBody::make(body, is_guided));
+  impl_->prepared = false;
+  return bodyCount() - 1;
+}
+
+BodyIndex Island::addSlot() {
+  if (impl_->model.settings.guide)
+    throw std::invalid_argument("a guided island has no slots; leave the guide off");
+  ModelBody slot;
+  slot.is_slot = true;
+  slot.is_active = false;
+  impl_->model.bodies.push_back(slot);
+  impl_->model.slots.push_back(bodyCount() - 1);
   impl_->prepared = false;
   return bodyCount() - 1;
 }
@@ -113,10 +244,15 @@ void Island::addContact(BodyIndex sphere, BodyIndex other, const CouplerGains& g
   impl_->prepared = false;
 }
 
-void Island::setRigidContacts(RigidContacts* rigid) { impl_->model.rigid = rigid; }
+void Island::setContactFinder(ContactFinder* finder) {
+  impl_->model.finder = finder;
+  wake();
+}
 
 void Island::prepare() {
   Impl& impl = *impl_;
+  impl.counters = {};
+  impl.asleep = false;
   impl.slot.reset();
   impl.spatial.reset();
   if (impl.model.settings.guide) {
@@ -126,23 +262,40 @@ void Island::prepare() {
   }
   impl.wrenches.resize(impl.model.bodies.size());
   impl.states.resize(impl.model.bodies.size());
+  for (ModelBody& body : impl.model.bodies) body.is_asleep = false;
+  impl.model.reserveLists();
+  impl.model.listPresent();
+  impl.set_aside.bodies = impl.model.bodies;
+  impl.set_aside.slots.reserve(impl.model.slots.size());
   impl.prepared = true;
 }
 
 void Island::setState(BodyIndex body, const RigidState& state) noexcept {
-  impl_->model.bodies[body].state = state;
+  RigidState& now = impl_->model.bodies[body].state;
+  if (isSame(now, state)) return;
+  now = state;
+  impl_->disturb(body);
 }
 
 void Island::setTarget(CouplerIndex coupler, const RigidState& target) noexcept {
-  impl_->model.couplers[coupler].target = target;
+  ModelCoupler& c = impl_->model.couplers[coupler];
+  if (isSame(c.target, target)) return;
+  c.target = target;
+  impl_->disturb(c.follower);
 }
 
 void Island::setExternalWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept {
-  impl_->model.bodies[body].f_external_W = f_W;
-  impl_->model.bodies[body].t_external_W = impl_->model.bodies[body].rotates() ? t_W : Vec3::Zero();
+  ModelBody& b = impl_->model.bodies[body];
+  const Vec3 t_felt_W = b.rotates() ? t_W : Vec3::Zero();
+  if (b.f_external_W == f_W && b.t_external_W == t_felt_W) return;
+  b.f_external_W = f_W;
+  b.t_external_W = t_felt_W;
+  impl_->disturb(body);
 }
 
 void Island::applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& angular_W) noexcept {
+  if (impulse_W == Vec3::Zero() && angular_W == Vec3::Zero()) return;
+  impl_->disturb(body);
   ModelBody& b = impl_->model.bodies[body];
   b.state.v_W += b.inverse_mass * impulse_W;
   if (!b.rotates()) return;
@@ -150,30 +303,130 @@ void Island::applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& ang
   b.state.w_W += q * b.inverse_inertia_B.cwiseProduct(q.conjugate() * angular_W);
 }
 
+void Island::fill(BodyIndex slot, const IslandBody& body) noexcept {
+  TANDEM_ASSERT(impl_->prepared && impl_->model.bodies[slot].is_slot);
+  TANDEM_ASSERT((body.motion != Motion::kDynamic || body.mass > 0.0) && isFinite(body.start));
+  ModelBody& filled = impl_->model.bodies[slot];
+  filled = ModelBody::make(body, false);
+  filled.settings.feels_obstacles = false;
+  filled.is_slot = true;
+  impl_->model.is_listed = false;
+  impl_->disturb(slot);
+  impl_->spatial->refill(impl_->model, slot);
+}
+
+void Island::clear(BodyIndex slot) noexcept {
+  TANDEM_ASSERT(impl_->model.bodies[slot].is_slot);
+  ModelBody cleared;
+  cleared.is_slot = true;
+  cleared.is_active = false;
+  impl_->model.bodies[slot] = cleared;
+  wake();
+  // A body that was added since: prepare() comes, and looks at all.
+  if (impl_->prepared) impl_->spatial->refill(impl_->model, slot);
+}
+
 void Island::setObstacles(const std::vector<Obstacle>& obstacles) noexcept {
   impl_->model.obstacles = &obstacles;
+  // The vector may be the same with other contents.
+  if (impl_->asleep && computeHash(&obstacles) != impl_->obstacles_hash) wake();
+}
+
+void Island::wake() noexcept {
+  impl_->asleep = false;
+  for (ModelBody& body : impl_->model.bodies) {
+    body.disturbed = true;
+    body.is_asleep = false;
+  }
+  impl_->model.is_listed = false;
 }
 
 void Island::advance(double dt) noexcept {
   Impl& impl = *impl_;
   TANDEM_ASSERT(impl.prepared);
   TANDEM_ASSERT(dt > 0.0 && dt <= impl.model.settings.haptic_period * (1.0 + 1e-9));
-  if (impl.slot) {
+  ++impl.counters.advances;
+  if (impl.asleep) {
+    ++impl.counters.asleep;
+  } else if (impl.slot) {
     impl.slot->advance(impl.model, dt);
   } else {
-    impl.spatial->advance(impl.model, dt);
+    if (impl.spatial->advance(impl.model, dt, impl.counters)) impl.tryToSleep();
+    impl.counters.asleep_bodies += static_cast<std::uint64_t>(impl.model.asleep_count);
+    if (!impl.asleep) impl.letSomeSleep();
   }
 }
+
+void Island::catchUp(const std::vector<BodyIndex>& slots, const std::vector<RigidState>& from,
+                     const std::vector<RigidState>& to, double duration,
+                     std::vector<Aside>& asides) noexcept {
+  Impl& impl = *impl_;
+  TANDEM_ASSERT(impl.prepared && impl.spatial && duration > 0.0);
+  const auto count = static_cast<BodyIndex>(impl.model.bodies.size());
+  const auto is_other = [&](BodyIndex b) {
+    return std::find(slots.begin(), slots.end(), b) == slots.end();
+  };
+  wake();
+  impl.spatial->setAside();
+  impl.setAside(slots);
+  for (BodyIndex b = 0; b < count; ++b)
+    if (is_other(b)) impl.sendAlong(b, from[b], to[b], duration, asides[b]);
+  const double steps = std::ceil(duration / impl.model.settings.haptic_period * (1.0 - 1e-9));
+  for (double i = 0; i < steps; ++i)
+    impl.spatial->advance(impl.model, duration / steps, impl.counters);
+  for (BodyIndex b = 0; b < count; ++b)
+    if (is_other(b)) impl.bringBack(b, from[b], to[b], duration, asides[b]);
+  impl.takeBack();
+  impl.spatial->takeBack(impl.model, slots);
+  impl.asleep = false;
+}
+
+bool Island::isAsleep() const noexcept { return impl_->asleep; }
+
+const std::vector<BodyIndex>& Island::awakeBodies() const noexcept {
+  if (!impl_->model.is_listed) impl_->model.listPresent();
+  return impl_->model.present;
+}
+
+const IslandCounters& Island::counters() const noexcept { return impl_->counters; }
 
 const RigidState& Island::state(BodyIndex body) const noexcept {
   return impl_->model.bodies[body].state;
 }
 
+const RigidState& Island::target(CouplerIndex coupler) const noexcept {
+  return impl_->model.couplers[coupler].target;
+}
+
 int Island::bodyCount() const noexcept { return static_cast<int>(impl_->model.bodies.size()); }
+
+bool Island::isSlot(BodyIndex body) const noexcept { return impl_->model.bodies[body].is_slot; }
+
+const IslandBody& Island::body(BodyIndex body) const noexcept {
+  return impl_->model.bodies[body].settings;
+}
+
+int Island::couplerCount() const noexcept { return static_cast<int>(impl_->model.couplers.size()); }
+
+BodyIndex Island::follower(CouplerIndex coupler) const noexcept {
+  return impl_->model.couplers[coupler].follower;
+}
+
+const CouplerSettings& Island::couplerSettings(CouplerIndex coupler) const noexcept {
+  return impl_->model.couplers[coupler].settings;
+}
+
+const std::vector<IslandContact>& Island::contacts() const noexcept {
+  return impl_->model.contacts;
+}
+
+const std::vector<Obstacle>* Island::obstacles() const noexcept { return impl_->model.obstacles; }
 
 bool Island::isDynamic(BodyIndex body) const noexcept {
   return impl_->model.bodies[body].isDynamic();
 }
+
+bool Island::isActive(BodyIndex body) const noexcept { return impl_->model.bodies[body].is_active; }
 
 Vec3 Island::computeContactForce(BodyIndex body) const noexcept {
   TANDEM_ASSERT(impl_->prepared);
@@ -188,15 +441,7 @@ Vec3 Island::computeCouplerForce(CouplerIndex coupler) const noexcept {
 void Island::computeWrench(BodyIndex body, Vec3& f_W, Vec3& t_W) const noexcept {
   TANDEM_ASSERT(impl_->prepared);
   const ModelBody& b = impl_->model.bodies[body];
-  Wrench sum = impl_->contactWrench(body);
-  sum.f_W += b.f_external_W - b.settings.damping * b.state.v_W;
-  sum.t_W += b.t_external_W;
-  for (const ModelCoupler& coupler : impl_->model.couplers) {
-    if (coupler.follower != body) continue;
-    const Wrench pull = computeCouplerWrench(coupler, b.state);
-    sum.f_W += pull.f_W;
-    sum.t_W += pull.t_W;
-  }
+  Wrench sum = impl_->addUp(body, impl_->contactWrench(body));
   if (const auto& guide = impl_->model.settings.guide)
     sum = {*guide * guide->dot(sum.f_W), Vec3::Zero()};
   f_W = sum.f_W;

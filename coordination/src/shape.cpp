@@ -1,5 +1,6 @@
 #include "tandem/coordination/shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,9 +18,41 @@ double boundingRadius(const Capsule& capsule) noexcept {
   return capsule.half_length + capsule.radius;
 }
 double boundingRadius(const Plane&) noexcept { return std::numeric_limits<double>::infinity(); }
+double boundingRadius(const Cylinder& cylinder) noexcept {
+  return std::hypot(cylinder.radius, cylinder.half_length);
+}
+double boundingRadius(const ConvexHull& hull) noexcept {
+  return hull.solid->boundingRadius() + hull.rounding;
+}
+double boundingRadius(const Mesh& mesh) noexcept {
+  return mesh.surface->boundingRadius() + mesh.skin;
+}
+
+double reach(const Sphere& sphere, const Vec3&) noexcept { return sphere.radius; }
+double reach(const Box& box, const Vec3& d) noexcept { return box.half_extents.dot(d.cwiseAbs()); }
+double reach(const Capsule& capsule, const Vec3& d) noexcept {
+  return capsule.radius + capsule.half_length * std::abs(d[static_cast<int>(capsule.axis)]);
+}
+double reach(const Plane&, const Vec3&) noexcept { return std::numeric_limits<double>::infinity(); }
+double reach(const Cylinder& cylinder, const Vec3& d) noexcept {
+  const double along = std::abs(d[static_cast<int>(cylinder.axis)]);
+  const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
+  return cylinder.radius * across + cylinder.half_length * along;
+}
+double reach(const ConvexHull& hull, const Vec3& d) noexcept {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const Vec3& v : hull.solid->vertices()) farthest = std::max(farthest, d.dot(v));
+  return farthest + hull.rounding;
+}
+double reach(const Mesh& mesh, const Vec3&) noexcept { return boundingRadius(mesh); }
 
 void checkPositive(const char* name, double value) {
   if (!(std::isfinite(value) && value > 0.0)) throwBadValue(name, value, "finite and above 0 m");
+}
+
+void checkNotNegative(const char* name, double value) {
+  if (!(std::isfinite(value) && value >= 0.0))
+    throwBadValue(name, value, "finite and not below 0 m");
 }
 
 void check(const Sphere& sphere) { checkPositive("sphere radius", sphere.radius); }
@@ -32,9 +65,22 @@ void check(const Box& box) {
 
 void check(const Capsule& capsule) {
   checkPositive("capsule radius", capsule.radius);
-  const double half_length = capsule.half_length;
-  if (!(std::isfinite(half_length) && half_length >= 0.0))
-    throwBadValue("capsule half_length", half_length, "finite and not below 0 m");
+  checkNotNegative("capsule half_length", capsule.half_length);
+}
+
+void check(const Cylinder& cylinder) {
+  checkPositive("cylinder radius", cylinder.radius);
+  checkPositive("cylinder half_length", cylinder.half_length);
+}
+
+void check(const ConvexHull& hull) {
+  if (!hull.solid) throw std::invalid_argument("a convex hull needs a solid");
+  checkNotNegative("convex hull rounding", hull.rounding);
+}
+
+void check(const Mesh& mesh) {
+  if (!mesh.surface) throw std::invalid_argument("a mesh needs a surface");
+  checkNotNegative("mesh skin", mesh.skin);
 }
 
 void check(const Plane& plane) {
@@ -48,6 +94,10 @@ void check(const Plane& plane) {
 
 double computeBoundingRadius(const Shape& shape) noexcept {
   return std::visit([](const auto& s) { return boundingRadius(s); }, shape);
+}
+
+double computeReach(const Shape& shape, const Vec3& direction_B) noexcept {
+  return std::visit([&](const auto& s) { return reach(s, direction_B); }, shape);
 }
 
 void checkShape(const Shape& shape) {

@@ -8,20 +8,21 @@
 namespace tandem {
 namespace {
 
-/// Half extent of a shape along a direction of W, for the clearance at set-up [m].
+/// How far a body at its start reaches along a direction of W, for the clearance at set-up [m].
 double computeExtent(const IslandBody& body, const Vec3& direction_W) {
-  const Vec3 d_B = body.start.q_WB.conjugate() * direction_W;
-  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&body.shape)) return box->half_extents.dot(d_B.cwiseAbs());
-  if (const auto* capsule = std::get_if<Capsule>(&body.shape))
-    return capsule->radius + capsule->half_length * std::abs(d_B.y());
-  throw std::invalid_argument(
-      "a plane cannot be a body of a guided island; leave experiment.guide off");
+  if (std::holds_alternative<Plane>(body.shape))
+    throw std::invalid_argument(
+        "a plane cannot be a body of a guided island; leave experiment.guide off");
+  return computeReach(body.shape, body.start.q_WB.conjugate() * direction_W);
 }
 
 /// Gaps below this at set-up are rounding of the scene's placement: "just in contact" is exactly
 /// zero.
 constexpr double kPlacementRounding = 1e-12;
+
+/// A touch that is made and broken within a step is looked for in steps down to so many levels
+/// below the coarsest: in 1/128 rad of the fastest oscillation it gives nothing.
+constexpr int kLevelsOfHiddenTouch = 6;
 
 }  // namespace
 
@@ -34,7 +35,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
   }
 
   const auto place = [&](BodyIndex b) { return axis_.dot(origins_[b]); };
-  for (const ModelContact& pair : model.contacts) {
+  for (const IslandContact& pair : model.contacts) {
     const double sphere = place(pair.sphere), other = place(pair.other);
     // Bodies keep their order in the slot: a pair with a third body between it never meets.
     const auto is_between = [&](BodyIndex b) {
@@ -51,8 +52,9 @@ SlotMotion::SlotMotion(const IslandModel& model)
     Contact contact{pair.sphere, pair.other, pair.gains, other >= sphere ? 1.0 : -1.0, 0.0};
     const auto& a = model.bodies[pair.sphere].settings;
     const auto& b = model.bodies[pair.other].settings;
+    const Vec3 towards = contact.side * axis_;  // from the sphere to the other
     contact.clearance =
-        std::abs(other - sphere) - computeExtent(a, axis_) - computeExtent(b, axis_);
+        std::abs(other - sphere) - computeExtent(a, towards) - computeExtent(b, -towards);
     if (std::abs(contact.clearance) < kPlacementRounding) contact.clearance = 0.0;
     contacts_.push_back(contact);
   }
@@ -206,16 +208,37 @@ void SlotMotion::computeInputs(const IslandModel& model, unsigned mode) noexcept
   }
 }
 
-bool SlotMotion::tryStep(unsigned& mode, int level, bool may_change) noexcept {
+/// A contact made and broken between two states a step `h` apart, or the other way round: its
+/// overlap turns in between, on the other side. Its way is the cubic that fits both ends.
+bool SlotMotion::hidesTouch(unsigned mode, double h) const noexcept {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const double side = (mode >> c & 1u) != 0 ? -1.0 : 1.0;
+    const Overlap from = overlapAhead(contacts_[c], state_.data(), 0.0);
+    const Overlap to = overlapAhead(contacts_[c], next_.data(), h);
+    if (!(side * from.rate > 0.0 && side * to.rate < 0.0)) continue;
+    // Where a straight line between the rates is zero.
+    const double s = from.rate / (from.rate - to.rate), t = 1.0 - s;
+    const double top = t * t * ((1.0 + 2.0 * s) * from.depth + s * h * from.rate) +
+                       s * s * ((1.0 + 2.0 * t) * to.depth - t * h * to.rate);
+    if (side * top > 0.0) return true;
+  }
+  return false;
+}
+
+SlotMotion::Step SlotMotion::tryStep(unsigned& mode, int level, bool may_change) noexcept {
   const double h = std::ldexp(period_, -level);
   maps_[mode].step(level, state_.data(), u_.data(), w_.data(), next_.data());
   const unsigned mode_after = findMode(next_.data(), h);
-  if (mode_after != mode && !may_change) return false;
+  if (!may_change) {
+    if (mode_after != mode) return Step::kCrossesEvent;
+    if (level < coarsest_level_ + kLevelsOfHiddenTouch && hidesTouch(mode, h))
+      return Step::kHidesTouch;
+  }
   mode = mode_after;
   state_.swap(next_);
   for (std::size_t b = 0; b < driven_x_.size(); ++b) driven_x_[b] += driven_rate_[b] * h;
   for (std::size_t i = 0; i < u_.size(); ++i) u_[i] += w_[i] * h;
-  return true;
+  return Step::kTaken;
 }
 
 void SlotMotion::advanceMovers(const IslandModel& model, double dt) noexcept {
@@ -236,8 +259,9 @@ void SlotMotion::advanceMovers(const IslandModel& model, double dt) noexcept {
     while (kPartsPerPeriod >> level > left) ++level;
     const unsigned mode_before = mode;
     const bool may_change = level == kFinest || search == Search::kCrossing || events_left == 0;
-    if (!tryStep(mode, level, may_change)) {
-      search = Search::kDescending;
+    const Step step = tryStep(mode, level, may_change);
+    if (step != Step::kTaken) {
+      if (step == Step::kCrossesEvent) search = Search::kDescending;
       ++level;
       continue;
     }

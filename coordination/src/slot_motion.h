@@ -37,6 +37,8 @@ class SlotMotion {
   struct Overlap {
     double depth, rate;
   };
+  /// What came of trying a step; all but the first left the state as it was.
+  enum class Step { kTaken, kCrossesEvent, kHidesTouch };
 
   [[nodiscard]] double displacement(const ModelBody& body, BodyIndex index) const noexcept;
   [[nodiscard]] Overlap overlap(const IslandModel& model, const Contact& contact) const noexcept;
@@ -45,7 +47,8 @@ class SlotMotion {
   [[nodiscard]] unsigned findMode(const double* state, double ahead) const noexcept;
   void gather(const IslandModel& model) noexcept;
   void computeInputs(const IslandModel& model, unsigned mode) noexcept;
-  [[nodiscard]] bool tryStep(unsigned& mode, int level, bool may_change) noexcept;
+  [[nodiscard]] bool hidesTouch(unsigned mode, double h) const noexcept;
+  [[nodiscard]] Step tryStep(unsigned& mode, int level, bool may_change) noexcept;
   void advanceMovers(const IslandModel& model, double dt) noexcept;
   void scatter(IslandModel& model) const noexcept;
 

@@ -3,361 +3,382 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rest.h"
+
 namespace tandem {
 namespace {
 
-/// A body alone is still watched when something comes this close [m].
-constexpr double kWatchDistance = 1e-4;
+/// The same for rigid contact, where bodies start from rest under any force [m].
+constexpr double kRigidWatchDistance = 5e-4;
 
-/// Contacts that chatter are not followed for ever: after this many events in an inner step one may
-/// be hidden.
-constexpr int kMaxEventsPerStep = 32;
+/// Slower than this for so long, a body that something rigid holds is at rest [m/s], [s].
+constexpr double kStillSpeed = 1e-6;
+constexpr double kTimeToRest = 0.05;
 
-/// Inner steps in a tick at the most, however stiff.
-constexpr double kMaxStepsPerTick = 2048;
+/// Part of the inner step to which stiff springs may shorten it, and the part of SmoothMotion's
+/// longest step to which they do: RigidStep is of first order.
+constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 0.5;
 
-/// Largest inner step at which Runge-Kutta 4 resolves the stiffest contact or coupler: a quarter
-/// radian of the fastest oscillation, half of the fastest decay.
-double chooseInnerStep(const IslandModel& model) {
-  double step = model.settings.inner_step;
-  const auto limit = [&](double stiffness, double damping, double inverse_mass) {
-    const double frequency = std::sqrt(stiffness * inverse_mass);
-    const double decay = damping * inverse_mass;
-    if (frequency > 0.0) step = std::min(step, 0.25 / frequency);
-    if (decay > 0.0) step = std::min(step, 0.5 / decay);
-  };
-  // How easily a push anywhere on the surface moves the surface there.
-  const auto mobility = [&](BodyIndex b) {
-    const ModelBody& body = model.bodies[b];
-    const double turn = body.inverse_inertia_B.maxCoeff();
-    return body.inverse_mass +
-           (turn > 0.0 ? turn * body.bounding_radius * body.bounding_radius : 0.0);
-  };
-  for (const ModelCoupler& coupler : model.couplers) {
-    const ModelBody& body = model.bodies[coupler.follower];
-    limit(coupler.settings.linear.stiffness, coupler.settings.linear.damping, body.inverse_mass);
-    limit(coupler.settings.angular.stiffness, coupler.settings.angular.damping,
-          body.inverse_inertia_B.maxCoeff());
-  }
-  for (const ModelContact& contact : model.contacts)
-    limit(contact.gains.stiffness, contact.gains.damping,
-          mobility(contact.sphere) + mobility(contact.other));
-  for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b) {
-    const ModelBody& body = model.bodies[b];
-    limit(0.0, body.settings.damping, body.inverse_mass);
-    if (body.settings.feels_obstacles)
-      limit(model.settings.obstacle_contact.stiffness, model.settings.obstacle_contact.damping,
-            body.inverse_mass);
-  }
-  return std::max(step, model.settings.haptic_period / kMaxStepsPerTick);
-}
+/// Points of rigid contact that are solved together, at the most.
+constexpr std::size_t kMaxRigidContacts = 512;
 
 /// Capacity for spheres on obstacles; nearest ones count, and more than these never touch one
 /// fingertip.
 constexpr std::size_t kMaxObstacleTouches = 64;
 
+/// The same for each slot: HIP and proxies are few.
+constexpr std::size_t kMaxSlotTouches = 4;
+
+std::size_t countMostTouches(const IslandModel& model) {
+  return model.contacts.size() + kMaxObstacleTouches + kMaxSlotTouches * model.slots.size();
+}
+
+bool isSame(const Touch& a, const Touch& b) noexcept {
+  return a.sphere == b.sphere && a.other == b.other && a.obstacle == b.obstacle &&
+         a.piece == b.piece;
+}
+
+bool any(const std::vector<char>& flags) noexcept {
+  return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag; });
+}
+
 }  // namespace
 
-SpatialMotion::SpatialMotion(const IslandModel& model) : inner_step_(chooseInnerStep(model)) {
+SpatialMotion::SpatialMotion(const IslandModel& model)
+    : rigid_step_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
+      rigid_step_aside_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
+      smooth_(model, countMostTouches(model)),
+      sleepers_(model) {
   const std::size_t n = model.bodies.size();
-  alone_maps_.resize(n);
-  for (std::size_t b = 0; b < n; ++b) {
-    const ModelBody& body = model.bodies[b];
-    if (!body.isDynamic()) continue;
-    double stiffness = 0.0, damping = body.settings.damping;
-    for (const ModelCoupler& coupler : model.couplers) {
-      if (coupler.follower != static_cast<BodyIndex>(b)) continue;
-      stiffness += coupler.settings.linear.stiffness;
-      damping += coupler.settings.linear.damping;
-    }
-    const auto scalar = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
-    alone_maps_[b] =
-        LinearMap(model.settings.haptic_period, Eigen::VectorXd::Constant(1, body.settings.mass),
-                  scalar(damping), scalar(stiffness));
+  alone_motion_.resize(n);
+  for (std::size_t b = 0; b < n; ++b) prepareAlone(model, static_cast<BodyIndex>(b));
+  for (auto* flags :
+       {&alone_, &turns_, &together_, &rigid_near_, &resting_, &awake_, &at_rest_, &resting_aside_})
+    flags->resize(n);
+  for (auto* values : {&allowance_, &reach_, &still_, &still_aside_}) values->resize(n);
+  touches_.reserve(countMostTouches(model));
+  for (States* states : {&states_, &before_rigid_}) states->resize(n);
+  f_W_.resize(n);
+}
+
+void SpatialMotion::refill(const IslandModel& model, BodyIndex slot) noexcept {
+  prepareAlone(model, slot);
+  alone_[slot] = turns_[slot] = together_[slot] = awake_[slot] = resting_[slot] = 0;
+  reach_[slot] = -1.0;
+  still_[slot] = 0.0;
+  smooth_.chooseLimits(model);
+}
+
+void SpatialMotion::setAside() noexcept {
+  std::swap(rigid_step_, rigid_step_aside_);
+  rigid_step_.forget();
+  resting_aside_ = resting_;
+  still_aside_ = still_;
+}
+
+void SpatialMotion::takeBack(const IslandModel& model,
+                             const std::vector<BodyIndex>& slots) noexcept {
+  std::swap(rigid_step_, rigid_step_aside_);
+  for (std::size_t b = 0; b < resting_.size(); ++b) prepareAlone(model, static_cast<BodyIndex>(b));
+  smooth_.chooseLimits(model);
+  resting_ = resting_aside_;
+  still_ = still_aside_;
+  for (BodyIndex slot : slots) {
+    resting_[slot] = 0;
+    still_[slot] = 0.0;
   }
-  alone_.resize(n);
-  together_.resize(n);
-  rigid_near_.resize(n);
-  touches_.reserve(model.contacts.size() + kMaxObstacleTouches);
-  guards_.reserve(touches_.capacity());
-  for (States* states : {&states_, &start_, &next_, &before_rigid_}) states->resize(n);
-  for (auto* rates : {&k1_, &k2_, &k3_, &k4_}) rates->resize(n);
-  wrenches_.resize(n);
 }
 
-/// Keeps the touches whose gap `is_near` accepts, as many as there is room for.
-template <typename IsNear>
-void SpatialMotion::collectTouches(const IslandModel& model, IsNear is_near) noexcept {
-  touches_.clear();
-  forEachTouch(model, [&](const Touch& touch) {
-    if (touches_.size() < touches_.capacity() &&
-        is_near(touch, computeTouchState(model, touch, states_).geometry.gap))
-      touches_.push_back(touch);
-  });
+void SpatialMotion::prepareAlone(const IslandModel& model, BodyIndex b) noexcept {
+  const ModelBody& body = model.bodies[b];
+  Alone& alone = alone_motion_[b];
+  alone = {};
+  double stiffness = 0.0, damping = body.settings.damping;
+  for (const ModelCoupler& coupler : model.couplers) {
+    if (coupler.follower != b) continue;
+    stiffness += coupler.settings.linear.stiffness;
+    damping += coupler.settings.linear.damping;
+    const CouplerGains& angular = coupler.settings.angular;
+    alone.is_tied_to_turn |= angular.stiffness != 0.0 || angular.damping != 0.0;
+  }
+  alone.stiffness = stiffness * body.inverse_mass;
+  alone.damping = damping * body.inverse_mass;
+  alone.map = computeOscillatorMap(alone.stiffness, alone.damping, model.settings.haptic_period);
 }
 
-void SpatialMotion::advance(IslandModel& model, double dt) noexcept {
-  const std::size_t n = model.bodies.size();
-  for (std::size_t b = 0; b < n; ++b) states_[b] = model.bodies[b].state;
-  findLoners(model, dt);
-  start_ = states_;
+bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& counters) noexcept {
+  if (!model.is_listed) model.listPresent();
+  for (const BodyIndex b : model.present) states_[b] = model.bodies[b].state;
+  findLoners(model, dt, counters);
 
-  advanceTogether(model, dt);
+  if (any(together_)) {
+    smooth_.choose(model, together_, alone_, touches_);
+    advanceTogether(model, dt, counters);
+  }
   advanceAlone(model, dt);
-  if (!wasAlone(model)) {
-    states_ = start_;
-    for (std::size_t b = 0; b < n; ++b) {
+  if (!wasAlone(model, dt)) {
+    ++counters.repeated;
+    double way = 0.0;
+    for (const BodyIndex b : model.present)
+      way = std::max(way, (states_[b].p_W - model.bodies[b].state.p_W).norm());
+    for (const BodyIndex b : model.present) {
+      states_[b] = model.bodies[b].state;
       together_[b] = model.bodies[b].isDynamic();
-      alone_[b] = 0;
+      resting_[b] = 0;
+      alone_[b] = turns_[b] = 0;
     }
-    collectTouches(model, [](const Touch&, double) { return true; });
-    advanceTogether(model, dt);
+    touches_.clear();
+    forEachTouch(model, [&](const Touch& touch) {
+      if (!isWholeMesh(touch)) return addTouch(touch);
+      const double allowance = allowance_[touch.sphere] + way;
+      if (couldMeet(model, touch, states_, allowance))
+        forEachPiece(model, touch, states_, allowance,
+                     [&](const Touch& piece, double) { addTouch(piece); });
+    });
+    smooth_.choose(model, together_, alone_, touches_);
+    advanceTogether(model, dt, counters);
+    advanceAlone(model, dt);
   }
-  for (std::size_t b = 0; b < n; ++b) model.bodies[b].state = states_[b];
+  if (model.finder) letRest(model, dt);
+  bool at_rest = true;
+  for (const BodyIndex b : model.present) {
+    at_rest_[b] = seemsAtRest(model.bodies[b], states_[b], dt);
+    at_rest = at_rest && at_rest_[b];
+    model.bodies[b].state = states_[b];
+  }
+  return at_rest;
 }
 
-void SpatialMotion::findLoners(const IslandModel& model, double dt) noexcept {
-  const auto travel = [&](BodyIndex b) {
-    const RigidState& s = states_[b];
-    return 2.0 * dt * (s.v_W.norm() + s.w_W.norm() * model.bodies[b].bounding_radius);
-  };
-  collectTouches(model, [&](const Touch& touch, double gap) {
-    return gap < travel(touch.sphere) + travel(touch.other) + kWatchDistance;
-  });
-
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& counters) noexcept {
+  for (const BodyIndex b : model.present) {
     const ModelBody& body = model.bodies[b];
-    alone_[b] = body.isDynamic();
-    rigid_near_[b] = body.settings.is_rigid && model.rigid &&
-                     model.rigid->isNear(static_cast<BodyIndex>(b), body.state,
-                                         travel(static_cast<BodyIndex>(b)) + kWatchDistance);
-    if (rigid_near_[b]) alone_[b] = 0;
+    const RigidState& s = states_[b];
+    double speed = s.v_W.norm();
+    if (s.w_W != Vec3::Zero()) speed += s.w_W.norm() * body.bounding_radius;
+    allowance_[b] = 2.0 * dt * speed + 0.5 * kWatchDistance;
   }
+  sleepers_.wakeNear(model, states_, allowance_);
+  findTouches(model, counters);
+  lookAround(model);
+  for (const BodyIndex b : model.present)
+    alone_[b] = model.bodies[b].isDynamic() && !rigid_near_[b] && !resting_[b];
   for (const Touch& touch : touches_) alone_[touch.sphere] = alone_[touch.other] = 0;
 
-  // Turning is integrated even for a body alone, unless it is at rest.
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+  for (const BodyIndex b : model.present) {
     const ModelBody& body = model.bodies[b];
-    bool turns =
-        body.rotates() && (body.state.w_W != Vec3::Zero() || body.t_external_W != Vec3::Zero());
-    for (const ModelCoupler& coupler : model.couplers)
-      if (coupler.follower == static_cast<BodyIndex>(b) && body.rotates())
-        turns |= computeCouplerWrench(coupler, body.state).t_W != Vec3::Zero();
-    together_[b] = body.isDynamic() && (!alone_[b] || turns);
+    counters.resting_bodies += resting_[b] != 0;
+    const bool turning = body.rotates() && !resting_[b] && needsTurning(model, b);
+    // A round body that nothing turns keeps its axis: exact. All other turning is integrated.
+    turns_[b] = turning && alone_[b] && body.isRound() && !alone_motion_[b].is_tied_to_turn &&
+                body.t_external_W == Vec3::Zero();
+    together_[b] = body.isDynamic() && !resting_[b] && (!alone_[b] || (turning && !turns_[b]));
+    counters.exact_bodies += alone_[b] != 0;
+    counters.exact_turns += turns_[b] != 0;
+    counters.integrated_bodies += together_[b] != 0;
   }
+}
+
+void SpatialMotion::findTouches(const IslandModel& model, IslandCounters& counters) noexcept {
+  touches_.clear();
+  forEachTouch(model, [&](const Touch& touch) {
+    double allowance = allowance_[touch.sphere];
+    if (!touch.obstacle) allowance += allowance_[touch.other];
+    if (!couldMeet(model, touch, states_, allowance)) {
+      ++counters.contact_searches_skipped;
+      return;
+    }
+    ++counters.contact_searches;
+    if (isWholeMesh(touch)) {
+      forEachPiece(model, touch, states_, allowance, [&](const Touch& piece, double gap) {
+        if (gap < allowance) addTouch(piece);
+      });
+    } else if (touches_.size() < touches_.capacity() &&
+               computeTouchState(model, touch, states_).geometry.gap < allowance) {
+      touches_.push_back(touch);
+    }
+  });
+}
+
+void SpatialMotion::addTouch(const Touch& touch) noexcept {
+  if (touches_.size() < touches_.capacity()) touches_.push_back(touch);
+}
+
+bool SpatialMotion::needsTurning(const IslandModel& model, BodyIndex b) const noexcept {
+  const ModelBody& body = model.bodies[b];
+  if (body.state.w_W != Vec3::Zero() || body.t_external_W != Vec3::Zero()) return true;
+  if (!alone_motion_[b].is_tied_to_turn) return false;
+  for (const int c : model.present_couplers) {
+    const ModelCoupler& coupler = model.couplers[c];
+    if (coupler.follower == b && (coupler.target.w_W != Vec3::Zero() ||
+                                  coupler.target.q_WB.coeffs() != body.state.q_WB.coeffs()))
+      return true;
+  }
+  return false;
 }
 
 void SpatialMotion::advanceAlone(const IslandModel& model, double dt) noexcept {
-  const std::uint64_t parts = countParts(dt, model.settings.haptic_period);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const ModelBody& body = model.bodies[b];
-    if (!body.isDynamic()) states_[b] = extrapolate(body, dt);
+  for (const BodyIndex b : model.present)
+    if (alone_[b]) f_W_[b] = model.bodies[b].f_external_W;
+  // All forces but the dampers' on a body's own velocity.
+  for (const int c : model.present_couplers) {
+    const ModelCoupler& coupler = model.couplers[c];
+    const BodyIndex b = coupler.follower;
     if (!alone_[b]) continue;
-    Vec3 u = body.f_external_W;
-    for (const ModelCoupler& coupler : model.couplers)
-      if (coupler.follower == static_cast<BodyIndex>(b))
-        u += coupler.settings.linear.stiffness * coupler.target.p_W +
-             coupler.settings.linear.damping * coupler.target.v_W;
-    for (int axis = 0; axis < 3; ++axis) {
-      double state[2] = {start_[b].p_W[axis], start_[b].v_W[axis]};
-      const double rate = 0.0;
-      for (int level = 0; level < LinearMap::kLevels; ++level) {
-        if (!(parts & kPartsPerPeriod >> level)) continue;
-        double next[2];
-        alone_maps_[b].step(level, state, &u[axis], &rate, next);
-        state[0] = next[0], state[1] = next[1];
-      }
-      states_[b].p_W[axis] = state[0];
-      states_[b].v_W[axis] = state[1];
-    }
+    const CouplerGains& gains = coupler.settings.linear;
+    f_W_[b] += gains.stiffness * (coupler.target.p_W - model.bodies[b].state.p_W) +
+               gains.damping * coupler.target.v_W;
+  }
+  const bool is_period = dt == model.settings.haptic_period;
+  for (const BodyIndex b : model.present) {
+    const ModelBody& body = model.bodies[b];
+    if (body.settings.motion == Motion::kPrescribed) states_[b] = extrapolate(body, dt);
+    if (!alone_[b]) continue;
+    const Alone& alone = alone_motion_[b];
+    const OscillatorMap map =
+        is_period ? alone.map : computeOscillatorMap(alone.stiffness, alone.damping, dt);
+    const Vec3 a_W = body.inverse_mass * f_W_[b];
+    const Vec3& v_W = body.state.v_W;
+    states_[b].p_W = body.state.p_W + map.velocity_to_way * v_W + map.acceleration_to_way * a_W;
+    states_[b].v_W = map.velocity_to_velocity * v_W + map.acceleration_to_velocity() * a_W;
+    if (turns_[b]) turnAlone(body, dt, states_[b]);
   }
 }
 
-bool SpatialMotion::wasAlone(const IslandModel& model) const noexcept {
-  if (std::none_of(alone_.begin(), alone_.end(), [](char alone) { return alone; })) return true;
+void SpatialMotion::letSleep(IslandModel& model, BodyIndex b) noexcept {
+  sleepers_.letSleep(model, states_, allowance_, b);
+  if (!model.bodies[b].is_asleep) return;
+  // Until something wakes it, it counts as one that rests.
+  alone_[b] = turns_[b] = together_[b] = awake_[b] = 0;
+  resting_[b] = model.bodies[b].settings.is_rigid;
+}
+
+void SpatialMotion::turnAlone(const ModelBody& body, double dt, RigidState& state) const noexcept {
+  const OscillatorMap map = computeOscillatorMap(0.0, body.settings.angular_damping, dt);
+  const Vec3 w_W = body.state.w_W;
+  const double speed = w_W.norm();
+  const Quat turn(Eigen::AngleAxisd(map.velocity_to_way * speed, w_W / speed));
+  state.q_WB = (turn * body.state.q_WB).normalized();
+  state.w_W = map.velocity_to_velocity * w_W;
+}
+
+bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
+  // If none went further than thought, none met another.
+  bool far = false;
+  for (const BodyIndex b : model.present) {
+    const RigidState &from = model.bodies[b].state, &to = states_[b];
+    double way = (to.p_W - from.p_W).norm();
+    if (to.w_W != Vec3::Zero())
+      way += dt * std::max(from.w_W.norm(), to.w_W.norm()) * model.bodies[b].bounding_radius;
+    far |= !(way <= allowance_[b]);
+  }
+  if (!far) return true;
+  if (sleepers_.wakeNear(model, states_, allowance_)) return false;
+
+  // Also two that each were in touch with something else.
   bool met = false;
+  std::size_t known = 0;
   forEachTouch(model, [&](const Touch& touch) {
-    if (alone_[touch.sphere] || alone_[touch.other])
+    if (isWholeMesh(touch)) {
+      const std::size_t first = known;
+      while (known < touches_.size() && touches_[known].obstacle == touch.obstacle &&
+             touches_[known].sphere == touch.sphere)
+        ++known;
+      if (!couldMeet(model, touch, states_, 0.0)) return;
+      forEachPiece(model, touch, states_, 0.0, [&](const Touch& piece, double gap) {
+        met |= gap <= 0.0 && std::none_of(touches_.begin() + first, touches_.begin() + known,
+                                          [&](const Touch& other) { return isSame(other, piece); });
+      });
+    } else if (known < touches_.size() && isSame(touches_[known], touch)) {
+      ++known;
+    } else if (couldMeet(model, touch, states_, 0.0)) {
       met |= computeTouchState(model, touch, states_).geometry.gap <= 0.0;
+    }
   });
   return !met;
 }
 
-void SpatialMotion::advanceTogether(const IslandModel& model, double dt) noexcept {
-  if (std::none_of(together_.begin(), together_.end(), [](char together) { return together; }))
-    return;
-  const double count = std::ceil(dt / inner_step_ * (1.0 - 1e-9));
-  const double h = dt / count;
-  for (double i = 0; i < count; ++i) {
-    if (model.rigid) before_rigid_ = states_;
-    advanceSmoothly(model, h);
-    if (model.rigid) correctRigid(model, h);
+void SpatialMotion::advanceTogether(const IslandModel& model, double dt,
+                                    IslandCounters& counters) noexcept {
+  bool near_rigid = false;
+  for (const BodyIndex b : model.present) near_rigid |= rigid_near_[b] && together_[b];
+  if (!near_rigid) {
+    rigid_step_.forget();
+    smooth_.hold(rigid_step_.heldForces());
+    return smooth_.advance(states_, dt, counters);
+  }
+  // Springs that shake a body faster than the inner step can follow would push it against what is
+  // rigid for a whole step before that answers.
+  const double inner_step = model.settings.inner_step;
+  const double step =
+      std::clamp(kRigidPartOfStep * smooth_.maxStep(), kShortestInnerStep * inner_step, inner_step);
+  const double count = std::ceil(dt / step * (1.0 - 1e-9));
+  for (double i = 0; i < count; ++i) advanceWithRigid(model, dt / count, counters);
+}
+
+/// One inner step with rigid contact. Where contact comes or goes, what it gives is learnt by a
+/// first try.
+void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
+                                     IslandCounters& counters) noexcept {
+  for (const BodyIndex b : model.present) before_rigid_[b] = states_[b];
+  for (int tries = 0; tries < 2; ++tries) {
+    ++counters.rigid_steps;
+    for (const BodyIndex b : model.present) states_[b] = before_rigid_[b];
+    rigid_step_.holdForces(states_);
+    smooth_.hold(rigid_step_.heldForces());
+    smooth_.advance(states_, h, counters);
+    // What forces do not move goes on with the others.
+    for (const BodyIndex b : model.present)
+      if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
+    const bool foreseen = rigid_step_.correct(model, *model.finder, before_rigid_, h, states_);
+    counters.rigid_points = rigid_step_.points();
+    counters.rigid_relaxations = rigid_step_.relaxations();
+    if (foreseen) return;
   }
 }
 
-void SpatialMotion::correctRigid(const IslandModel& model, double h) noexcept {
-  bool any = false;
-  for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b) {
-    if (!rigid_near_[b] || !together_[b]) continue;
-    model.rigid->predict(b, before_rigid_[b], states_[b]);
-    any = true;
+/// Which bodies may touch something rigid, and which of those at rest are woken by it.
+void SpatialMotion::lookAround(IslandModel& model) noexcept {
+  std::fill(rigid_near_.begin(), rigid_near_.end(), char{0});
+  if (!model.finder) return;
+  for (const Touch& touch : touches_)
+    for (const BodyIndex b : {touch.sphere, touch.other}) resting_[b] = 0;
+  for (const BodyIndex b : model.present) {
+    ModelBody& body = model.bodies[b];
+    const bool is_rigid = body.is_active && body.settings.is_rigid;
+    const bool moves = body.isDynamic() || body.disturbed || body.state.v_W != Vec3::Zero() ||
+                       body.state.w_W != Vec3::Zero();
+    if (body.disturbed || !is_rigid) resting_[b] = 0;
+    body.disturbed = false;
+    awake_[b] = is_rigid && moves && !resting_[b];
+    reach_[b] = is_rigid ? allowance_[b] + kRigidWatchDistance : -1.0;
   }
-  if (!any) return;
-  model.rigid->solve(h);
-  for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b)
-    if (rigid_near_[b] && together_[b]) model.rigid->correct(b, states_[b]);
-}
-
-void SpatialMotion::updateModes(const IslandModel& model, const States& states) noexcept {
-  for (Touch& touch : touches_)
-    touch.pushes = computePush(touch, computeTouchState(model, touch, states)) > 0.0;
-}
-
-double SpatialMotion::computeGuard(const IslandModel& model, const Touch& touch,
-                                   const States& states) const noexcept {
-  // Positive exactly while the contact pushes; in metres, so that both parts weigh alike.
-  const TouchState state = computeTouchState(model, touch, states);
-  const double scale = touch.gains.stiffness + touch.gains.damping / inner_step_;
-  if (!(scale > 0.0)) return -1.0;
-  const double push =
-      touch.gains.stiffness * state.overlap() + touch.gains.damping * state.overlap_rate;
-  return std::min(state.overlap(), push / scale);
-}
-
-void SpatialMotion::advanceSmoothly(const IslandModel& model, double h) noexcept {
-  updateModes(model, states_);
-  for (int events = 0; h > 0.0; ++events) {
-    rungeKutta(model, states_, h, next_);
-    double done = h;
-    const bool changed = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
-      return (computeGuard(model, touch, next_) > 0.0) != touch.pushes;
-    });
-    if (changed && events < kMaxEventsPerStep) done = locateEvent(model, h);
-    states_.swap(next_);
-    if (changed) updateModes(model, states_);
-    h = done < h ? h - done : 0.0;
+  model.finder->lookAround(states_, reach_, awake_, rigid_near_);
+  for (std::size_t b = 0; b < awake_.size(); ++b) {
+    if (!awake_[b]) continue;
+    model.wake(static_cast<BodyIndex>(b));
+    if (resting_[b]) still_[b] = 0.0;
+    resting_[b] = 0;
   }
+  if (!model.is_listed) model.listPresent();
 }
 
-double SpatialMotion::locateEvent(const IslandModel& model, double h) noexcept {
-  // States at 0 are states_, at h next_. Find the earliest change by false position (Illinois) on
-  // the guard of the touch that seems to change first; another that turns out to be earlier takes
-  // over. Ends just behind it.
-  double late = h;
-  guards_.clear();
-  for (const Touch& touch : touches_) guards_.push_back(computeGuard(model, touch, states_));
-
-  for (std::size_t round = 0; round < touches_.size(); ++round) {
-    // Which of the touches that have changed by `late` changes first, on a straight line?
-    int first = -1;
-    double first_time = late;
-    for (std::size_t i = 0; i < touches_.size(); ++i) {
-      const double end = computeGuard(model, touches_[i], next_);
-      if ((end > 0.0) == touches_[i].pushes) continue;
-      const double share = guards_[i] / (guards_[i] - end);
-      const double time = std::isfinite(share) ? late * std::clamp(share, 0.0, 1.0) : 0.0;
-      if (first < 0 || time < first_time) first = static_cast<int>(i), first_time = time;
-    }
-    if (first < 0) break;
-    const Touch& touch = touches_[first];
-
-    double low = 0.0, high = late;
-    double g_low = guards_[first], g_high = computeGuard(model, touch, next_);
-    // A guard that starts on the wrong side by rounding changes at once.
-    if ((g_low > 0.0) != touch.pushes) g_low = touch.pushes ? 1e-30 : -1e-30;
-    for (int i = 0; i < 60 && high - low > 1e-13 + 1e-10 * h; ++i) {
-      double middle = (low * g_high - high * g_low) / (g_high - g_low);
-      if (!(middle > low && middle < high) || i > 20) middle = 0.5 * (low + high);
-      rungeKutta(model, states_, middle, next_);
-      const double g = computeGuard(model, touch, next_);
-      if ((g > 0.0) == touch.pushes) {
-        low = middle, g_low = g, g_high *= 0.5;
-      } else {
-        high = middle, g_high = g, g_low *= 0.5;
-      }
-    }
-    rungeKutta(model, states_, high, next_);
-    const bool same = high == late;
-    late = high;
-    if (same && round > 0) break;
-  }
-  return late;
-}
-
-void SpatialMotion::rungeKutta(const IslandModel& model, const States& from, double h,
-                               States& to) noexcept {
-  computeRates(model, from, k1_);
-  setStage(model, from, k1_, 0.5 * h, to);
-  computeRates(model, to, k2_);
-  setStage(model, from, k2_, 0.5 * h, to);
-  computeRates(model, to, k3_);
-  setStage(model, from, k3_, h, to);
-  computeRates(model, to, k4_);
-  for (std::size_t b = 0; b < from.size(); ++b) {
-    if (!together_[b]) continue;
-    k1_[b].v = (k1_[b].v + 2.0 * (k2_[b].v + k3_[b].v) + k4_[b].v) / 6.0;
-    k1_[b].a = (k1_[b].a + 2.0 * (k2_[b].a + k3_[b].a) + k4_[b].a) / 6.0;
-    k1_[b].alpha = (k1_[b].alpha + 2.0 * (k2_[b].alpha + k3_[b].alpha) + k4_[b].alpha) / 6.0;
-    k1_[b].q_dot = (k1_[b].q_dot + 2.0 * (k2_[b].q_dot + k3_[b].q_dot) + k4_[b].q_dot) / 6.0;
-  }
-  setStage(model, from, k1_, h, to);
-}
-
-void SpatialMotion::setStage(const IslandModel& model, const States& from,
-                             const std::vector<Rates>& rates, double h, States& to) const noexcept {
-  for (std::size_t b = 0; b < from.size(); ++b) {
-    to[b] = from[b];
-    if (together_[b]) {
-      to[b].p_W += h * rates[b].v;
-      to[b].v_W += h * rates[b].a;
-      if (model.bodies[b].rotates()) {
-        to[b].w_W += h * rates[b].alpha;
-        to[b].q_WB.coeffs() += h * rates[b].q_dot;
-        to[b].q_WB.normalize();
-      }
-    } else if (model.bodies[b].settings.motion == Motion::kPrescribed) {
-      to[b].p_W += h * from[b].v_W;
-    }
-  }
-}
-
-void SpatialMotion::computeRates(const IslandModel& model, const States& states,
-                                 std::vector<Rates>& rates) noexcept {
-  for (std::size_t b = 0; b < states.size(); ++b) {
+/// A body that something rigid holds and that stands still for a while is not moved until it is
+/// touched or disturbed.
+void SpatialMotion::letRest(const IslandModel& model, double dt) noexcept {
+  for (const BodyIndex b : model.present) {
+    if (resting_[b]) continue;
+    RigidState& state = states_[b];
     const ModelBody& body = model.bodies[b];
-    wrenches_[b].f_W = body.f_external_W - body.settings.damping * states[b].v_W;
-    wrenches_[b].t_W = body.t_external_W;
-  }
-  for (const ModelCoupler& coupler : model.couplers) {
-    const Wrench wrench = computeCouplerWrench(coupler, states[coupler.follower]);
-    wrenches_[coupler.follower].f_W += wrench.f_W;
-    wrenches_[coupler.follower].t_W += wrench.t_W;
-  }
-  for (const Touch& touch : touches_) {
-    if (!touch.pushes) continue;
-    // Not clipped inside a step: the law stays smooth, and the step ends where it would change.
-    const TouchState state = computeTouchState(model, touch, states);
-    const double push =
-        touch.gains.stiffness * state.overlap() + touch.gains.damping * state.overlap_rate;
-    addPush(model, touch, state, push, states, wrenches_);
-  }
-  for (std::size_t b = 0; b < states.size(); ++b) {
-    if (!together_[b]) continue;
-    const ModelBody& body = model.bodies[b];
-    rates[b].v = states[b].v_W;
-    rates[b].a = body.inverse_mass * wrenches_[b].f_W;
-    rates[b].alpha.setZero();
-    rates[b].q_dot.setZero();
-    if (!body.rotates()) continue;
-    // Euler's equation in B: I w' = t - w x I w.
-    const Quat& q = states[b].q_WB;
-    const Vec3 w_B = q.conjugate() * states[b].w_W;
-    const Vec3 t_B = q.conjugate() * wrenches_[b].t_W;
-    const Vec3 alpha_B = body.inverse_inertia_B.cwiseProduct(
-        t_B - w_B.cross(body.settings.inertia_B.cwiseProduct(w_B)));
-    rates[b].alpha = q * alpha_B;
-    const Quat spin(0.0, states[b].w_W.x(), states[b].w_W.y(), states[b].w_W.z());
-    rates[b].q_dot = 0.5 * (spin * q).coeffs();
+    if (!body.isDynamic()) continue;
+    const double speed = state.v_W.norm() + state.w_W.norm() * body.bounding_radius;
+    // Overlap moves out without a velocity.
+    const double way = (state.p_W - body.state.p_W).norm();
+    const bool is_still = rigid_near_[b] && speed < kStillSpeed && way < kStillSpeed * dt;
+    still_[b] = is_still ? still_[b] + dt : 0.0;
+    if (still_[b] < kTimeToRest) continue;
+    resting_[b] = 1;
+    state.v_W.setZero();
+    state.w_W.setZero();
   }
 }
 

@@ -1,6 +1,27 @@
 #include "touch.h"
 
 namespace tandem {
+namespace {
+
+SphereContact findPieceContact(const Vec3& p_W, double radius, const Obstacle& mesh,
+                               int piece) noexcept {
+  const PlainRotation rotation(mesh.q_WB);
+  const Separation found = separate(rotation.toBody(PlainVec(p_W) - PlainVec(mesh.p_WB)),
+                                    *std::get_if<Mesh>(&mesh.shape), piece);
+  const Vec3 n_W = rotation.toWorld(found.n).toVec3();
+  return {computeGap(found, radius), n_W, p_W - found.distance * n_W};
+}
+
+}  // namespace
+
+bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
+               double reach) noexcept {
+  const Vec3& p_W = touch.obstacle ? touch.obstacle->p_WB : states[touch.other].p_W;
+  reach += model.bodies[touch.sphere].bounding_radius;
+  reach += touch.obstacle ? computeBoundingRadius(touch.obstacle->shape)
+                          : model.bodies[touch.other].bounding_radius;
+  return !((states[touch.sphere].p_W - p_W).squaredNorm() > reach * reach);
+}
 
 TouchState computeTouchState(const IslandModel& model, const Touch& touch,
                              const States& states) noexcept {
@@ -8,8 +29,10 @@ TouchState computeTouchState(const IslandModel& model, const Touch& touch,
   const double radius = std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius;
   TouchState state;
   if (touch.obstacle) {
-    state.geometry = findSphereContact(sphere.p_W, radius, touch.obstacle->shape,
-                                       touch.obstacle->p_WB, touch.obstacle->q_WB);
+    const Obstacle& obstacle = *touch.obstacle;
+    state.geometry = touch.piece < 0 ? findSphereContact(sphere.p_W, radius, obstacle.shape,
+                                                         obstacle.p_WB, obstacle.q_WB)
+                                     : findPieceContact(sphere.p_W, radius, obstacle, touch.piece);
     state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W);
     return state;
   }

@@ -5,19 +5,21 @@
 #include "tandem/coordination/contact_geometry.h"
 
 #include "island_model.h"
+#include "mesh_pieces.h"
 
 namespace tandem {
 
 /// One contact that may push: a sphere body and another body, or a sphere body and an obstacle.
 struct Touch {
   BodyIndex sphere = 0;
-  BodyIndex other = 0;                 ///< meaningless with an obstacle
+  BodyIndex other = 0;                 ///< the sphere again with an obstacle
   const Obstacle* obstacle = nullptr;  ///< null: the other is a body
   CouplerGains gains;
   bool pushes = false;  ///< its mode over the present step
+  int piece = -1;       ///< of an obstacle that is a mesh: its triangle; -1: the whole mesh
 };
 
-/// How a touch stands at one instant.
+/// How a touch stands at one instant; with a whole mesh, where that is nearest.
 struct TouchState {
   SphereContact geometry;
   double overlap_rate = 0.0;  ///< [m/s]
@@ -27,6 +29,14 @@ struct TouchState {
 
 /// States of all bodies, by index.
 using States = std::vector<RigidState>;
+
+/// A body alone is still watched when something comes this close [m].
+inline constexpr double kWatchDistance = 1e-4;
+
+/// False if the two are farther apart than `reach` [m], by the balls around them: a few additions,
+/// where exact geometry needs a rotation and a root.
+[[nodiscard]] bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
+                             double reach) noexcept;
 
 [[nodiscard]] TouchState computeTouchState(const IslandModel& model, const Touch& touch,
                                            const States& states) noexcept;
@@ -38,14 +48,40 @@ using States = std::vector<RigidState>;
 void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
              const States& states, std::vector<Wrench>& wrenches) noexcept;
 
-/// Calls `visit` with every touch there could be: bodies in pairs, spheres on obstacles.
+/// True for an obstacle that is taken apart before it is touched, by forEachPiece().
+[[nodiscard]] inline bool isWholeMesh(const Touch& touch) noexcept {
+  return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
+}
+
+/// Calls `visit(touch, gap)` with the touch of each piece of a whole mesh that pushes at a gap
+/// below `allowance` [m], or would after a move as long.
+template <typename Visit>
+void forEachPiece(const IslandModel& model, const Touch& whole, const States& states,
+                  double allowance, Visit visit) noexcept {
+  const Obstacle& obstacle = *whole.obstacle;
+  const double radius = std::get_if<Sphere>(&model.bodies[whole.sphere].settings.shape)->radius;
+  const PlainVec c_B = PlainRotation(obstacle.q_WB)
+                           .toBody(PlainVec(states[whole.sphere].p_W) - PlainVec(obstacle.p_WB));
+  forEachPiece(c_B, *std::get_if<Mesh>(&obstacle.shape), radius + allowance, allowance,
+               [&](int piece, const Separation& found) {
+                 Touch touch = whole;
+                 touch.piece = piece;
+                 visit(touch, computeGap(found, radius));
+               });
+}
+
+/// Calls `visit` with every touch there could be among those present, meshes as a whole: bodies in
+/// pairs, spheres on slots and obstacles.
 template <typename Visit>
 void forEachTouch(const IslandModel& model, Visit visit) {
-  for (const ModelContact& pair : model.contacts)
+  for (const IslandContact& pair : model.present_contacts)
     visit(Touch{pair.sphere, pair.other, nullptr, pair.gains, false});
-  if (!model.obstacles) return;
-  for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b) {
+  for (const BodyIndex b : model.present) {
     if (!model.bodies[b].settings.feels_obstacles) continue;
+    for (BodyIndex slot : model.slots)
+      if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres)
+        visit(Touch{b, slot, nullptr, model.settings.obstacle_contact, false});
+    if (!model.obstacles) continue;
     for (const Obstacle& obstacle : *model.obstacles)
       visit(Touch{b, b, &obstacle, model.settings.obstacle_contact, false});
   }

@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "bench/accuracy_command.h"
+#include "bench/speed/speed_command.h"
+#include "bench/stress_command.h"
 #include "plot/plot.h"
 #include "run_output.h"
 #include "scenario.h"
@@ -17,7 +20,7 @@
 namespace tandem::demos {
 namespace {
 
-constexpr int kDone = 0, kFailed = 1, kBadUse = 2;
+constexpr int kDone = 0, kFailed = 1, kBadUse = 2, kCheckFailed = 3;
 
 struct RunOptions {
   std::string scenario;
@@ -88,18 +91,61 @@ int runProgram(int argc, char** argv) {
   plot->add_option("folders", plot_folders, "folders of runs; the report goes into the first")
       ->required();
 
+  bench::AccuracyCommand accuracy_options;
+  CLI::App* bench = app.add_subcommand("bench", "measure on this machine");
+  bench->require_subcommand(1, 1);
+  CLI::App* accuracy = bench->add_subcommand(
+      "accuracy", "run time against error of the plugin and of other ways to simulate");
+  accuracy->add_flag("--json", accuracy_options.json, "print accuracy.json to stdout");
+  accuracy->add_flag("--quick", accuracy_options.quick,
+                     "fewer host rates and repeats, coarser references");
+  accuracy
+      ->add_option("--scene", accuracy_options.scenes,
+                   "only this scene; may be given several times")
+      ->allow_extra_args(false)
+      ->take_all();
+  accuracy->add_option("--out", accuracy_options.folder,
+                       "folder for accuracy.json, accuracy.svg, accuracy.png");
+
+  bench::SpeedCommand speed_options;
+  CLI::App* speed = bench->add_subcommand(
+      "speed", "run time against bodies of the host and shared objects, and what it should be");
+  speed->add_flag("--json", speed_options.json, "print speed.json to stdout");
+  speed->add_flag("--quick", speed_options.quick, "fewer worlds, shorter and fewer repeats");
+  speed->add_option("--out", speed_options.folder, "folder for speed.json, speed.svg, speed.png");
+
+  bench::StressCommand stress_options;
+  CLI::App* stress = bench->add_subcommand(
+      "stress", "energy account of thousands of scenes with absurd numbers; exit 3 if one fails");
+  stress->add_flag("--json", stress_options.json, "print stress.json to stdout");
+  stress->add_flag("--quick", stress_options.quick, "1000 cases, a coarser map");
+  stress->add_option("--cases", stress_options.cases, "so many cases");
+  stress->add_option("--seed", stress_options.seed, "another seed, other cases");
+  stress->add_option("--case", stress_options.one, "this case alone, with its account");
+  stress->add_option("--out", stress_options.folder,
+                     "folder for stress.json, stability.svg, stability.png");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     if (app.get_subcommands().empty() && !app.remaining().empty())
       throw UsageError(app.remaining().front() +
-                       ": no such command; allowed: run, plot; see tandem --help");
+                       ": no such command; allowed: run, plot, bench; see tandem --help");
     throw UsageError(fmt::format("{}; see tandem --help", error.what()));
   }
   if (app.get_subcommands().empty())
-    throw UsageError("a command is missing; allowed: run, plot; see tandem --help");
+    throw UsageError("a command is missing; allowed: run, plot, bench; see tandem --help");
   if (run->parsed()) return runScenario(run_options);
+  if (accuracy->parsed()) {
+    bench::runAccuracyCommand(accuracy_options);
+    return kDone;
+  }
+  if (speed->parsed()) {
+    bench::runSpeedCommand(speed_options);
+    return kDone;
+  }
+  if (stress->parsed()) return bench::runStressCommand(stress_options) ? kDone : kCheckFailed;
   plotRuns({plot_folders.begin(), plot_folders.end()});
   return kDone;
 }

@@ -206,6 +206,9 @@ std::map<std::string, Key> makeKeys() {
                                         true, "seconds above 0, at most 3600")},
       {"experiment.axis", axisKey()},
       {"experiment.guide", flagKey([](S& s) -> bool& { return s.guide; })},
+      {"contact.model",
+       choiceKey([](S& s) -> std::string& { return s.contact_model; },
+                 {"island", "native_rigid", "native_soft", "spring_6dof", "point_to_point"})},
       {"contact.stiffness", notNegative([](S& s) -> double& { return s.contact.stiffness; })},
       {"contact.damping", notNegative([](S& s) -> double& { return s.contact.damping; })},
       {"coordination.stiffness",
@@ -330,6 +333,23 @@ void applyOverride(Scenario& scenario, const std::string& text) {
   applyKey(scenario, {"--set", key}, *parsed.get("value"));
 }
 
+/// What Bullet's own means cannot do.
+void checkNative(const Scenario& s, const std::function<void(const std::string&)>& refuse_pair) {
+  const std::string model = "contact.model = \"" + s.contact_model + "\": ";
+  if (s.injection == "impulse")
+    refuse_pair(model +
+                "there is no island whose forces could be injected; leave bridge.injection at "
+                "\"handoff\"");
+  if (s.guide && s.axis.cwiseAbs().maxCoeff() != s.axis.cwiseAbs().sum())
+    refuse_pair(model +
+                "Bullet's linear factors guide along x, y or z only; choose such an "
+                "experiment.axis, or experiment.guide = false");
+  if (s.scheme == "kinematic_proxy" && !s.hasObject())
+    refuse_pair(model +
+                "in Bullet two kinematic spheres do not touch; choose another experiment.scheme "
+                "than \"kinematic_proxy\", or a scene with an object");
+}
+
 /// What one key alone cannot tell.
 void checkTogether(const Scenario& s, const std::string& file) {
   const auto refuse_pair = [&](const std::string& text) { throw UsageError(file + ": " + text); };
@@ -351,6 +371,7 @@ void checkTogether(const Scenario& s, const std::string& file) {
         "rates.host = {}: must equal rates.haptic = {} with bridge.injection = \"impulse\"; "
         "or use \"handoff\"",
         s.host_rate, s.haptic_rate));
+  if (s.contact_model != "island") checkNative(s, refuse_pair);
   if ((s.angular_stiffness < 0.0) != (s.angular_damping < 0.0))
     refuse_pair(
         "coordination.angular_stiffness and coordination.angular_damping: give both or neither");

@@ -45,6 +45,7 @@ struct Scenario {
   Vec3 axis = Vec3::UnitX();
   bool guide = true;
 
+  std::string contact_model = "island";
   CouplerGains contact{4000.0, 1.0};
   CouplerGains coordination{200.0, 30.0};
   double angular_stiffness = -1.0;  ///< below 0: from the linear gains, as SiteSettings says

@@ -61,6 +61,14 @@ std::unique_ptr<SimulatedDevice> makeDevice(const Scenario& scenario, const Scen
   return std::make_unique<SimulatedDevice>(settings, makeHand(scenario, frame, site));
 }
 
+ContactModel findContactModel(const std::string& name) {
+  if (name == "native_rigid") return ContactModel::kNativeRigid;
+  if (name == "native_soft") return ContactModel::kNativeSoft;
+  if (name == "spring_6dof") return ContactModel::kSpring6Dof;
+  if (name == "point_to_point") return ContactModel::kPointToPoint;
+  return ContactModel::kIsland;
+}
+
 SiteSettings makeSettings(const Scenario& scenario, int index) {
   SiteSettings settings;
   settings.self = PeerId{static_cast<std::uint32_t>(index) + 1};
@@ -75,6 +83,7 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
   settings.proxy = {scenario.proxy_mass, scenario.proxy_damping, scenario.proxy_radius};
   settings.hip_radius = scenario.proxy_radius;
   settings.scheme = &findScheme(scenario.scheme);
+  settings.contact_model = findContactModel(scenario.contact_model);
   settings.injection = scenario.injection == "impulse" ? Injection::kImpulse : Injection::kHandoff;
   settings.tick_source = TickSource::kCaller;
   if (scenario.guide) settings.guide = scenario.axis;

@@ -1,5 +1,6 @@
 #include "tandem/plugin/site.h"
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -10,6 +11,9 @@
 
 namespace tandem {
 namespace {
+
+/// Until the host's step is known [s].
+constexpr double kUsualHostStep = 1.0 / 60.0;
 
 SiteSettings checked(const SiteSettings& settings) {
   checkSiteSettings(settings);
@@ -34,9 +38,11 @@ Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& host, Hapt
       device(hand),
       host_world(host, *this, abi),
       obstacles(host),
+      neighbour_search(host, static_cast<std::size_t>(settings.max_neighbours)),
       island(makeIslandSettings(settings)),
       guard(hand.capabilities().max_force, settings.fault_slew / settings.haptic_rate),
-      host_step(settings.host_step) {
+      host_step(settings.host_step),
+      standing_watch(host) {
   IslandBody body;
   body.shape = Sphere{settings.hip_radius};
   body.motion = Motion::kPrescribed;
@@ -46,28 +52,32 @@ Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& host, Hapt
     throw Error("the device gives no position; check its cable, or wait until it is homed");
   body.start.p_W = sample.hip.p_W;
   hip = island.addBody(body);
+  if (settings.contact_model != ContactModel::kIsland)
+    native = std::make_unique<NativeModel>(host, settings, body.start.p_W);
   obstacles.addSphere(hip, settings.hip_radius);
-  if (isHandoff()) island.setRigidContacts(&obstacles);
+  if (isHandoff()) island.setContactFinder(&obstacles);
+  if (isHandoff() && !settings.guide && !native) {
+    neighbours.resize(static_cast<std::size_t>(settings.max_neighbours));
+    for (Neighbour& neighbour : neighbours) neighbour.body.index = island.addSlot();
+  }
   handoff_due = host_step > 0.0 ? host_step : std::numeric_limits<double>::infinity();
   finishSetUp();
 }
 
-Site::Impl::~Impl() {
-  for (Remote& remote : remotes)
-    for (SharedObject& object : objects)
-      if (remote.proxy)
-        filterNativeContact(host_world.world(), object.bullet->body(), remote.proxy->rigid(),
-                            false);
-}
+// Proxies take the filters of their contacts along.
+Site::Impl::~Impl() { demoteAll(); }
 
 ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
-  if (objects.size() == kMaxObjectsPerPacket)
-    throw Error("a site shares at most " + std::to_string(kMaxObjectsPerPacket) + " objects");
+  if (objects.size() == kMaxSharedObjects)
+    throw Error("a site shares at most " + std::to_string(kMaxSharedObjects) + " objects");
   const Shape shape = getShareableShape(rigid);
+  demoteAll();
+  neighbour_search.exclude(rigid);
 
   SharedObject object;
   object.id = static_cast<ObjectId>(objects.size());
   object.damping = damping;
+  object.bounding_radius = computeBoundingRadius(shape);
   object.bullet = std::make_unique<HapticBody>(host_world.world(), rigid,
                                                1.0 / static_cast<double>(settings.peers));
   object.body.bullet = object.bullet.get();
@@ -86,11 +96,14 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
   object.body.index = island.addBody(body);
   if (isHandoff() && !settings.guide) obstacles.addBody(object.body.index, rigid);
 
-  island.addContact(hip, object.body.index, settings.contact);
+  if (native)
+    native->addObject(bullet, damping);
+  else
+    island.addContact(hip, object.body.index, settings.contact);
   for (Remote& remote : remotes) {
-    if (!remote.proxy) continue;
+    if (!remote.proxy || native) continue;
     island.addContact(*remote.user.body, object.body.index, settings.contact);
-    filterNativeContact(host_world.world(), rigid, remote.proxy->rigid(), true);
+    filterNativeContact(host_world.world(), remote.proxy->rigid(), rigid, true);
   }
   coordinate(object);
   objects.push_back(std::move(object));
@@ -106,22 +119,26 @@ void Site::Impl::connect(PeerId peer, Link& link, const Vec3& start_W) {
   remote.link = &link;
   remote.user =
       scheme.makeRemoteUser(island, settings.proxy, settings.coordination, {start_W, Vec3::Zero()});
-  if (remote.user.body) {
+  if (remote.user.body && native) {
+    addNativeProxy(remote, start_W);
+  } else if (remote.user.body) {
     const BodyIndex index = *remote.user.body;
     checkInjectionStable("proxy", settings.contact.stiffness + settings.coordination.stiffness,
                          settings.contact.damping + settings.coordination.damping,
                          settings.proxy.mass);
     remote.proxy = std::make_unique<SphereBody>(host_world.world(), settings.proxy.radius,
                                                 settings.proxy.mass, start_W);
+    neighbour_search.exclude(remote.proxy->rigid());
     remote.body.bullet = &remote.proxy->haptic();
     remote.body.index = index;
     obstacles.addSphere(index, settings.proxy.radius);
     island.addContact(hip, index, settings.contact);
     for (SharedObject& object : objects) {
       island.addContact(index, object.body.index, settings.contact);
-      filterNativeContact(host_world.world(), object.bullet->body(), remote.proxy->rigid(), true);
+      filterNativeContact(host_world.world(), remote.proxy->rigid(), object.bullet->body(), true);
     }
   }
+  demoteAll();
   remotes.push_back(std::move(remote));
   for (SharedObject& object : objects) coordinate(object);
   finishSetUp();
@@ -135,14 +152,16 @@ void Site::Impl::coordinate(SharedObject& object) {
   coupler.angular = settings.angular_coordination.value_or(
       CouplerGains{settings.coordination.stiffness * radius_squared,
                    settings.coordination.damping * radius_squared});
-  while (object.couplers.size() < remotes.size())
+  while (object.couplers.size() < remotes.size()) {
     object.couplers.push_back(island.addCoupler(object.body.index, coupler));
+    if (native) native->addCoupler(object.bullet->body(), object.couplers.back(), coupler);
+  }
 }
 
 void Site::Impl::checkInjectionStable(const char* what, double stiffness, double damping,
                                       double mass) const {
   const double limit = computeInjectionStepLimit(stiffness, damping, mass);
-  if (isHandoff() || period() < limit) return;
+  if (native || isHandoff() || period() < limit) return;
   std::ostringstream message;
   message << "impulse injection is unstable for the " << what << ": the step of " << period()
           << " s is above its limit of " << limit << " s for K = " << stiffness
@@ -156,7 +175,15 @@ void Site::Impl::finishSetUp() {
   const auto count = static_cast<std::size_t>(island.bodyCount());
   snapshots.setBodyCount(count);
   tick_start_states.resize(count);
+  moved_last.reserve(count);
+  moves.resize(count);
   scratch_states.resize(count);
+  packet_turns.setObjectCount(objects.size());
+  for (Remote& remote : remotes) remote.object_sequences.resize(objects.size());
+  for (RestMark* mark : {&force_rest, &hash_rest, &start_rest, &snapshot_rest, &quiet_rest})
+    mark->clear();
+  from_states.resize(count);
+  to_states.resize(count);
   object_records.resize(objects.size());
   proxy_records.resize(remotes.size());
   forEachBody([&](SiteBody& body) {
@@ -165,7 +192,7 @@ void Site::Impl::finishSetUp() {
     island.setExternalWrench(body.index, isHandoff() ? body.f_gravity_W : Vec3::Zero(),
                              Vec3::Zero());
   });
-  updateObstacles(host_step);
+  if (!native) updateSurroundings(host_step > 0.0 ? host_step : kUsualHostStep);
 }
 
 Site::Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
@@ -180,12 +207,18 @@ void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
 std::uint32_t Site::tick(double now) noexcept { return impl_->tick(now); }
 std::uint32_t Site::status() const noexcept { return impl_->status_ever; }
 const SiteCounters& Site::counters() const noexcept { return impl_->counters; }
+const IslandCounters& Site::islandCounters() const noexcept { return impl_->island.counters(); }
 std::uint64_t Site::tickCount() const noexcept { return impl_->ticks; }
 std::uint64_t Site::stateHash() const noexcept { return impl_->hash.value(); }
 const Vec3& Site::force() const noexcept { return impl_->force_W; }
 const RigidState& Site::hip() const noexcept { return impl_->island.state(impl_->hip); }
 int Site::objectCount() const noexcept { return static_cast<int>(impl_->objects.size()); }
 int Site::remoteCount() const noexcept { return static_cast<int>(impl_->remotes.size()); }
+int Site::neighbourCount() const noexcept {
+  return static_cast<int>(
+      std::count_if(impl_->neighbours.begin(), impl_->neighbours.end(),
+                    [](const Neighbour& neighbour) { return neighbour.rigid != nullptr; }));
+}
 void Site::record(Recording* recording) noexcept { impl_->recording = recording; }
 
 const RigidState& Site::object(ObjectId id) const noexcept {
@@ -194,11 +227,12 @@ const RigidState& Site::object(ObjectId id) const noexcept {
 
 const RigidState* Site::proxy(int remote) const noexcept {
   const Remote& r = impl_->remotes[remote];
-  return r.proxy ? &impl_->island.state(r.body.index) : nullptr;
+  return r.user.body ? &impl_->island.state(*r.user.body) : nullptr;
 }
 
 btRigidBody* Site::proxyBody(int remote) const noexcept {
   const Remote& r = impl_->remotes[remote];
+  if (r.held_proxy) return &r.held_proxy->rigid();
   return r.proxy ? &r.proxy->rigid() : nullptr;
 }
 

@@ -10,13 +10,50 @@ namespace {
 /// another one [s].
 constexpr double kClockTolerance = 1e-9;
 
+/// What is left of an account of momentum by rounding would keep bodies awake [N s, N m s]; so
+/// would what Bullet's arithmetic adds to a hand-off.
+constexpr double kNoMomentum = 1e-15;
+
+Vec3 dropRounding(const Vec3& momentum) noexcept {
+  return momentum.squaredNorm() < kNoMomentum * kNoMomentum ? Vec3(Vec3::Zero()) : momentum;
+}
+/// A host later than this, besides what it may, has dropped the time: its clock is set on [s].
+constexpr double kLostTime = 0.5;
+
+/// The lateness of the host's forces falls by this part of the host's time.
+constexpr double kLatenessDecay = 0.02;
+
+/// Cubic between two states, right to about w^4 h^4 / 384 of the motion; h apart [s].
+RigidState interpolate(const RigidState& a, double a_time, const RigidState& b, double b_time,
+                       double time) noexcept {
+  const double h = b_time - a_time;
+  if (!(h > 0.0)) return b;
+  const double s = (time - a_time) / h, s2 = s * s, s3 = s2 * s;
+  RigidState state;
+  state.p_W = (2 * s3 - 3 * s2 + 1) * a.p_W + (s3 - 2 * s2 + s) * h * a.v_W +
+              (3 * s2 - 2 * s3) * b.p_W + (s3 - s2) * h * b.v_W;
+  state.v_W = (6 * s2 - 6 * s) / h * (a.p_W - b.p_W) + (3 * s2 - 4 * s + 1) * a.v_W +
+              (3 * s2 - 2 * s) * b.v_W;
+  state.q_WB = a.q_WB.slerp(s, b.q_WB);
+  state.w_W = (1 - s) * a.w_W + s * b.w_W;
+  return state;
+}
+
 }  // namespace
 
 void Site::Impl::beforeHostStep(double dt) noexcept {
+  followHostClock(dt);
   const double end = host_time + dt;
+  ++counters.host_steps;
+  if (skipBeforeHostStep(dt)) return;
+  dropMissingNeighbours();
   if (!allBodiesPresent()) {
     // The hand still gets its fading force.
     if (settings.tick_source == TickSource::kHostStep) runTicksUntil(end);
+    return;
+  }
+  if (native) {
+    beforeNativeStep(dt);
     return;
   }
   if (!isHandoff() && std::abs(dt - period()) > 1e-3 * period()) status_ever |= kHostStepWrong;
@@ -24,7 +61,10 @@ void Site::Impl::beforeHostStep(double dt) noexcept {
   host_step = dt;
   if (island_time < end) handoff_due = end;
   if (isHandoff()) passHostChanges(dt);
-  if (settings.tick_source == TickSource::kHostStep) runTicksUntil(end);
+  if (settings.tick_source == TickSource::kHostStep) {
+    steerDriven(end);
+    runTicksUntil(end);
+  }
   if (isHandoff()) {
     handOff(end, dt);
   } else {
@@ -36,27 +76,66 @@ void Site::Impl::beforeHostStep(double dt) noexcept {
 
 void Site::Impl::afterHostStep(double dt) noexcept {
   host_time += dt;
+  if (skipAfterHostStep()) return;
+  dropMissingNeighbours();
   if (!allBodiesPresent()) return;
+  if (native) {
+    afterNativeStep(dt);
+    return;
+  }
   forEachBody([&](SiteBody& body) {
     if (isHandoff()) {
-      // What Bullet's solver did besides: contact with neighbours that move.
-      const HostChange change = body.bullet->restore();
-      island.applyImpulse(body.index, change.impulse_W, change.angular_impulse_W);
+      receive(body);
     } else if (island.isDynamic(body.index)) {
       island.setState(body.index, body.bullet->state());
     } else {
       body.bullet->setState(island.state(body.index));
     }
   });
-  // Announce the end of the next step, so that the island stops there for a moment even inside a
-  // tick.
+  announceNextEnd(dt);
+  updateSurroundings(dt);
+  ++counters.searches;
+  fallQuiet();
+}
+
+/// What Bullet's solver did besides: contact with moving bodies that are not held.
+void Site::Impl::receive(SiteBody& body) noexcept {
+  HostChange change;
+  const bool was_parked = body.bullet->isParked();
+  body.was_near_awake = was_parked && !body.bullet->isAsleep();
+  if (!was_parked) {
+    change = body.bullet->restore();
+    std::erase_if(body.given, [&](const GivenImpulse& g) { return g.time <= host_time; });
+  } else if (body.bullet->wakeIfHit(change)) {
+    noteWoken(body);
+  }
+  change.impulse_W = dropRounding(change.impulse_W);
+  change.angular_impulse_W = dropRounding(change.angular_impulse_W);
+  give(body, change.impulse_W, change.angular_impulse_W);
+  const bool was_hit = change.impulse_W != Vec3::Zero() || change.angular_impulse_W != Vec3::Zero();
+  if (!was_parked) parkIfItStood(body, was_hit);
+}
+
+/// The island stops at the end of the next step for a moment, even inside a tick.
+void Site::Impl::announceNextEnd(double dt) noexcept {
   handoff_due = host_time + dt;
   while (handoff_due <= island_time) handoff_due += dt;
-  updateObstacles(dt);
+}
+
+/// A host may be late and make up for it, step by step. One that has dropped time never will.
+void Site::Impl::followHostClock(double dt) noexcept {
+  const double late = island_time - (host_time + dt);
+  if (late > kLostTime + settings.host_stall) {
+    host_time += late;
+    ++counters.host_clock_set;
+  }
+  if (settings.tick_source == TickSource::kHostStep) return;
+  const double beyond_tick = std::max(0.0, island_time - (host_time + dt) - period());
+  host_lateness = std::max(beyond_tick, host_lateness - kLatenessDecay * dt);
 }
 
 bool Site::Impl::allBodiesPresent() noexcept {
-  bool present = true;
+  bool present = !native || native->isPresent();
   forEachBody([&](SiteBody& body) { present &= body.bullet->isInWorld(); });
   if (!present) status_ever |= kBodyMissing;
   return present;
@@ -65,30 +144,43 @@ bool Site::Impl::allBodiesPresent() noexcept {
 /// What the host did to the bodies for its coming step goes to the island.
 ///
 /// An impulse acts at once. A force acts over the step - over the next one, if the step's ticks
-/// have been run already. The island's ticks and the host's steps do not end together, so an
-/// account is kept of what is owed: a steady force is steady, and no momentum is lost or made.
+/// have been run already, and as much later as the host is late at its worst. The island's ticks
+/// and the host's steps do not end together, so an account is kept of what is owed: a steady force
+/// is steady, and no momentum is lost or made.
 void Site::Impl::passHostChanges(double dt) noexcept {
   settleHostForces();
   const bool is_behind = settings.tick_source == TickSource::kHostStep;
-  const double window_end = host_time + (is_behind ? dt : 2.0 * dt);
+  const double window_end = host_time + (is_behind ? dt : 2.0 * dt + host_lateness);
   const double rest = window_end - island_time;
   // Ticks that will run until the host is heard again: what is owed besides is paid over them.
   const double ticks_ahead = std::ceil((rest - kClockTolerance) / period());
   const double pay_over = std::max(ticks_ahead, 1.0) * period();
   forEachBody([&](SiteBody& body) {
+    if (body.bullet->isParked()) {
+      if (body.bullet->isUndisturbed() && !body.bullet->hasMissedWorldGravity()) return;
+      unpark(body);
+    }
     const HostChange change = body.bullet->takeHostChanges(dt);
-    if (change.moved) move(body, change, host_time + dt);
-    island.applyImpulse(body.index, change.impulse_W - dt * change.f_W,
-                        change.angular_impulse_W - dt * change.t_W);
+    if (change.moved) move(body, change);
+    give(body, change.impulse_W - dt * change.f_W, change.angular_impulse_W - dt * change.t_W);
 
-    body.owed_W += dt * change.f_W;
-    body.owed_angular_W += dt * change.t_W;
+    body.owed_W = dropRounding(body.owed_W + dt * change.f_W);
+    body.owed_angular_W = dropRounding(body.owed_angular_W + dt * change.t_W);
     body.f_host_W = change.f_W + (body.owed_W - rest * change.f_W) / pay_over;
     body.t_host_W = change.t_W + (body.owed_angular_W - rest * change.t_W) / pay_over;
     body.f_gravity_W = body.bullet->gravityForce();
     island.setExternalWrench(body.index, body.f_gravity_W + body.f_host_W, body.t_host_W);
   });
+  for (Neighbour& neighbour : neighbours)
+    if (neighbour.bullet) followDamping(neighbour);
   host_force_end = window_end + dt;
+}
+
+void Site::Impl::give(SiteBody& body, const Vec3& impulse_W,
+                      const Vec3& angular_impulse_W) noexcept {
+  if (impulse_W == Vec3::Zero() && angular_impulse_W == Vec3::Zero()) return;
+  island.applyImpulse(body.index, impulse_W, angular_impulse_W);
+  if (island_time > host_time) body.given.push_back({island_time, impulse_W, angular_impulse_W});
 }
 
 /// Books what the island has had of the host's forces since they were settled last.
@@ -102,16 +194,17 @@ void Site::Impl::settleHostForces() noexcept {
 }
 
 /// A body that the host has put elsewhere: the island's body goes along, and so does what was kept
-/// for the end of this step.
-void Site::Impl::move(const SiteBody& body, const HostChange& change, double step_end) noexcept {
+/// for the host's steps to come.
+void Site::Impl::move(const SiteBody& body, const HostChange& change) noexcept {
   const auto moved = [&](RigidState state) {
     state.p_W += change.offset_W;
     state.q_WB = (change.rotation_W * state.q_WB).normalized();
     return state;
   };
   island.setState(body.index, moved(island.state(body.index)));
-  if (auto* states = snapshots.find(step_end, kClockTolerance))
-    (*states)[body.index] = moved((*states)[body.index]);
+  snapshots.forEachAfter(host_time + kClockTolerance, [&](std::vector<RigidState>& states) {
+    states[body.index] = moved(states[body.index]);
+  });
 }
 
 void Site::Impl::runTicksUntil(double time) noexcept {
@@ -125,41 +218,33 @@ void Site::Impl::runTicksUntil(double time) noexcept {
 void Site::Impl::handOff(double end, double dt) noexcept {
   const std::vector<RigidState>* states = snapshots.find(end, kClockTolerance);
   forEachBody([&](SiteBody& body) {
-    body.bullet->handOff(states ? (*states)[body.index] : stateAt(body.index, end), dt);
+    const RigidState state = states ? (*states)[body.index] : stateAt(body.index, end);
+    body.stands = body.bullet->standsAt(state);
+    if (body.bullet->isParked()) {
+      if (body.stands) return;
+      unpark(body);
+    }
+    body.bullet->handOff(state, dt);
+    ++counters.bodies_handed_off;
   });
 }
 
-/// State of a body inside the latest tick, where the host's step ended at a moment nobody had
-/// announced: cubic between the tick's ends, which is right to about w^4 h^4 / 384 of the motion.
-RigidState Site::Impl::stateAt(BodyIndex body, double time) const noexcept {
-  const RigidState& a = tick_start_states[body];
-  const RigidState& b = island.state(body);
-  const double h = island_time - tick_start;
-  if (!(h > 0.0) || time >= island_time) return b;
-  const double s = std::max(0.0, (time - tick_start) / h);
-  RigidState state;
-  const double s2 = s * s, s3 = s2 * s;
-  state.p_W = (2 * s3 - 3 * s2 + 1) * a.p_W + (s3 - 2 * s2 + s) * h * a.v_W +
-              (3 * s2 - 2 * s3) * b.p_W + (s3 - s2) * h * b.v_W;
-  state.v_W = (6 * s2 - 6 * s) / h * (a.p_W - b.p_W) + (3 * s2 - 4 * s + 1) * a.v_W +
-              (3 * s2 - 2 * s) * b.v_W;
-  state.q_WB = a.q_WB.slerp(s, b.q_WB);
-  state.w_W = (1 - s) * a.w_W + s * b.w_W;
+/// State of a body where the host's step ended at a moment nobody had announced: cubic between the
+/// ends of the latest tick or, for a host that is late, the nearest moments that were kept.
+RigidState Site::Impl::stateAt(BodyIndex body, double time) noexcept {
+  const RigidState& now = island.state(body);
+  if (time >= island_time) return now;
+  const RigidState& tick_start_state = tick_start_states[body];
+  if (time >= tick_start) return interpolate(tick_start_state, tick_start, now, island_time, time);
+  const auto place = static_cast<std::size_t>(body);
+  const Snapshots::Moment from = snapshots.latestUntil(time), to = snapshots.earliestAfter(time);
+  const bool is_kept = to.states && to.time < tick_start;
+  const RigidState& after = is_kept ? (*to.states)[place] : tick_start_state;
+  const double end = is_kept ? to.time : tick_start;
+  if (from.states) return interpolate((*from.states)[place], from.time, after, end, time);
+  RigidState state = after;
+  state.p_W -= (end - time) * after.v_W;
   return state;
-}
-
-void Site::Impl::updateObstacles(double dt) {
-  // The enclosure of a guide has no end, and nothing else in it.
-  if (settings.guide) return;
-  double speed = 0.0;
-  for (std::size_t b = 0; b < scratch_states.size(); ++b) {
-    scratch_states[b] = island.state(static_cast<BodyIndex>(b));
-    speed = std::max(speed, scratch_states[b].v_W.norm());
-  }
-  // Far enough that nothing can come as near as a contact before the host is asked again, even if
-  // it is late.
-  obstacles.update(scratch_states, 0.04 + 1.5 * speed * 2.5 * dt);
-  island.setObstacles(obstacles.nearSpheres());
 }
 
 }  // namespace tandem

@@ -4,19 +4,31 @@
 #include <optional>
 #include <vector>
 
+#include "tandem/bullet_bridge/driven_body.h"
 #include "tandem/bullet_bridge/haptic_body.h"
 #include "tandem/bullet_bridge/host_world.h"
+#include "tandem/bullet_bridge/neighbours.h"
 #include "tandem/bullet_bridge/obstacles.h"
 #include "tandem/bullet_bridge/sphere_body.h"
+#include "tandem/bullet_bridge/standing_watch.h"
 #include "tandem/coordination/island.h"
 #include "tandem/plugin/recording.h"
 #include "tandem/plugin/site.h"
 
 #include "force_guard.h"
+#include "native_model.h"
+#include "packet_turns.h"
+#include "rest_mark.h"
 #include "snapshots.h"
 #include "state_hash.h"
 
 namespace tandem {
+
+/// Momentum given to an island body at a time that the host has not come to yet.
+struct GivenImpulse {
+  double time = 0.0;  ///< of the island [s]
+  Vec3 impulse_W = Vec3::Zero(), angular_impulse_W = Vec3::Zero();
+};
 
 /// A btRigidBody whose motion the island decides.
 struct SiteBody {
@@ -27,6 +39,10 @@ struct SiteBody {
   Vec3 owed_W = Vec3::Zero(),
        owed_angular_W = Vec3::Zero();           ///< host's impulses still to be given [N s]
   Vec3 f_W = Vec3::Zero(), t_W = Vec3::Zero();  ///< impulse mode: for the coming host step
+  bool stands = false;                          ///< in the present host step
+  bool was_near_awake = false;      ///< parked, but Bullet woke it: something awake is near
+  int steps_stood = 0;              ///< host steps in which nothing moved or hit it
+  std::vector<GivenImpulse> given;  ///< what Bullet's state does not have yet
 };
 
 struct SharedObject {
@@ -34,17 +50,33 @@ struct SharedObject {
   SiteBody body;
   ObjectId id = 0;
   double damping = 0.0;
+  double bounding_radius = 0.0;
   std::vector<CouplerIndex> couplers;  ///< one per remote: eqs (9), (10)
+  RigidState sent;                     ///< as in the latest packet that had it
+};
+
+/// A moving body of the host that the island holds while it may take part in contact: dynamic, then
+/// the island moves it, or kinematic, then the host does.
+struct Neighbour {
+  btRigidBody* rigid = nullptr;             ///< null: the slot is empty
+  const btCollisionShape* shape = nullptr;  ///< that it came with
+  IslandBody settings;                      ///< of the slot
+  std::unique_ptr<HapticBody> bullet;       ///< of a dynamic one: what `body` points to
+  std::unique_ptr<DrivenBody> driven;       ///< of a kinematic one
+  SiteBody body;
 };
 
 struct Remote {
   PeerId id{};
   Link* link = nullptr;
   RemoteUser user;
-  std::unique_ptr<SphereBody> proxy;  ///< null where the scheme has none
-  SiteBody body;                      ///< of the proxy
+  std::unique_ptr<SphereBody> proxy;      ///< null where the scheme has none
+  KinematicSphere* held_proxy = nullptr;  ///< in its place in a native model, if it is held
+  SiteBody body;                          ///< of the proxy
   StatePacket latest;
   bool heard = false;
+  /// Per object: which packet its target is from.
+  std::vector<std::optional<std::uint64_t>> object_sequences;
   std::optional<Arrival> pending;  ///< fetched, not yet taken in
 };
 
@@ -69,6 +101,8 @@ struct Site::Impl final : HostStepListener {
   void takeInUntil(double time, double now) noexcept;
   [[nodiscard]] double nextArrival(double now, double until) noexcept;
   void takeIn(Remote& remote, const Arrival& arrival) noexcept;
+  bool takeInObjects(Remote& remote, const StatePacket& packet) noexcept;
+  void keepStates(double time) noexcept;
   void sendIfDue(double until) noexcept;
   void send(double time) noexcept;
   void capture(double now) noexcept;
@@ -79,23 +113,61 @@ struct Site::Impl final : HostStepListener {
   void afterHostStep(double dt) noexcept override;
   bool allBodiesPresent() noexcept;
   void passHostChanges(double dt) noexcept;
+  void give(SiteBody& body, const Vec3& impulse_W, const Vec3& angular_impulse_W) noexcept;
+  void followHostClock(double dt) noexcept;
   void settleHostForces() noexcept;
-  void move(const SiteBody& body, const HostChange& change, double step_end) noexcept;
+  void receive(SiteBody& body) noexcept;
+  void announceNextEnd(double dt) noexcept;
+  void move(const SiteBody& body, const HostChange& change) noexcept;
   void runTicksUntil(double time) noexcept;
   void handOff(double end, double dt) noexcept;
-  [[nodiscard]] RigidState stateAt(BodyIndex body, double time) const noexcept;
-  void updateObstacles(double dt);
+  [[nodiscard]] RigidState stateAt(BodyIndex body, double time) noexcept;
+
+  // What need not be done while nothing moves: site_rest.cpp
+  [[nodiscard]] bool mayPark(const SiteBody& body) const noexcept;
+  void parkIfItStood(SiteBody& body, bool was_hit) noexcept;
+  void unpark(SiteBody& body) noexcept;
+  void noteWoken(SiteBody& body) noexcept;
+  bool skipBeforeHostStep(double dt) noexcept;
+  bool skipAfterHostStep() noexcept;
+  void fallQuiet();
+
+  // What is around: site_surroundings.cpp
+  void updateSurroundings(double dt);
+  [[nodiscard]] std::size_t countHapticBodies() const noexcept;
+  [[nodiscard]] double computeSpeedInSprings() noexcept;
+  void updateNeighbours(double horizon);
+  void catchUp();
+  void readStates(double time, std::vector<RigidState>& states);
+
+  // Those who come and go: site_neighbours.cpp
+  void dropMissingNeighbours();
+  void promote(btRigidBody& rigid, Neighbour& neighbour);
+  void hold(btRigidBody& rigid, Neighbour& neighbour);
+  void drive(btRigidBody& rigid, Neighbour& neighbour);
+  void demote(Neighbour& neighbour);
+  void payOff(Neighbour& neighbour);
+  void demoteAll();
+  void steerDriven(double step_end) noexcept;
+  void followDamping(Neighbour& neighbour) noexcept;
+
+  // The same with a native contact model: site_native.cpp
+  void addNativeProxy(Remote& remote, const Vec3& start_W);
+  void beforeNativeStep(double dt) noexcept;
+  void afterNativeStep(double dt) noexcept;
 
   template <typename Visit>
   void forEachBody(Visit visit) {
     for (SharedObject& object : objects) visit(object.body);
+    for (Neighbour& neighbour : neighbours)
+      if (neighbour.bullet) visit(neighbour.body);
     for (Remote& remote : remotes)
       if (remote.proxy) visit(remote.body);
   }
 
   [[nodiscard]] double period() const noexcept { return 1.0 / settings.haptic_rate; }
   [[nodiscard]] bool isHandoff() const noexcept {
-    return settings.injection == Injection::kHandoff;
+    return !native && settings.injection == Injection::kHandoff;
   }
 
   SiteSettings settings;
@@ -103,10 +175,13 @@ struct Site::Impl final : HostStepListener {
   HapticDevice& device;
   HostWorld host_world;
   Obstacles obstacles;
+  NeighbourSearch neighbour_search;
   Island island;
   BodyIndex hip = 0;
   std::vector<SharedObject> objects;
+  std::vector<Neighbour> neighbours;  ///< one per slot of the island
   std::vector<Remote> remotes;
+  std::unique_ptr<NativeModel> native;  ///< null with the island
   ForceGuard guard;
   StateHash hash;
   SiteCounters counters;
@@ -123,13 +198,30 @@ struct Site::Impl final : HostStepListener {
   double island_time = 0.0;
   double tick_start = 0.0;
   std::vector<RigidState> tick_start_states;
-  double host_time = 0.0;           ///< host's simulated time
-  double host_step = 0.0;           ///< its latest step; 0: not known
-  double handoff_due = 0.0;         ///< next moment at which a host step ends
-  double host_force_end = 0.0;      ///< without news from the host its forces end then
-  double host_force_settled = 0.0;  ///< island time up to which they are booked
+  std::vector<char> moves;            ///< work space: by island body, awake now
+  std::vector<BodyIndex> moved_last;  ///< awake when the last tick began
+  double host_time = 0.0;             ///< host's simulated time
+  double host_step = 0.0;             ///< its latest step; 0: not known
+  double handoff_due = 0.0;           ///< next moment at which a host step ends
+  double host_force_end = 0.0;        ///< without news from the host its forces end then
+  double host_force_settled = 0.0;    ///< island time up to which they are booked
+  double host_lateness = 0.0;         ///< by which the host's forces come late
   Snapshots snapshots;
-  std::vector<RigidState> scratch_states;
+  std::vector<RigidState> scratch_states, from_states, to_states;
+  std::vector<Aside> asides;
+  PacketTurns packet_turns;
+
+  // The island slept since ...
+  RestMark force_rest;     ///< the force was computed
+  RestMark hash_rest;      ///< its states went into the hash
+  RestMark start_rest;     ///< tick_start_states were kept
+  RestMark snapshot_rest;  ///< states were kept for the ends of host steps
+  RestMark quiet_rest;     ///< all bodies slept in Bullet, too
+  bool quiet = false;      ///< the present host step is skipped
+  StandingWatch standing_watch;
+  std::vector<HapticBody*> quiet_bodies;
+  std::vector<NeighbourSeed> seeds;
+  std::vector<BodyIndex> newcomers;  ///< slots filled since they were caught up last
   std::vector<BodyRecord> object_records, proxy_records;
 };
 

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tandem/bullet_bridge/native_coupling.h"
+
 namespace tandem {
 namespace {
 
@@ -43,9 +45,21 @@ void checkSiteSettings(const SiteSettings& s) {
   requirePositive("proxy.radius", s.proxy.radius);
   requirePositive("hip_radius", s.hip_radius);
   requirePositive("inner_step", s.inner_step);
+  require(s.max_neighbours >= 0 && s.max_neighbours <= 256, "max_neighbours", s.max_neighbours,
+          "0 to 256");
+  requireNotNegative("host_stall", s.host_stall);
   requirePositive("fault_slew", s.fault_slew);
   if (s.guide)
     require(std::abs(s.guide->norm() - 1.0) < 1e-9, "norm of guide", s.guide->norm(), "1");
+  if (s.contact_model == ContactModel::kIsland) return;
+  if (s.injection == Injection::kImpulse)
+    throw std::invalid_argument(
+        "injection = impulse: must be handoff with a native contact_model, which has no island "
+        "whose forces could be injected");
+  if (s.guide && !NativeGuide::canFollow(*s.guide))
+    throw std::invalid_argument(
+        "guide: must lie along x, y or z of the world with a native contact_model, as Bullet's "
+        "linear factors do");
 }
 
 }  // namespace tandem

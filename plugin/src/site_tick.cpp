@@ -13,6 +13,10 @@ constexpr double kSameTime = 1e-10;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+bool isSame(const RigidState& a, const RigidState& b) noexcept {
+  return a.p_W == b.p_W && a.v_W == b.v_W && a.w_W == b.w_W && a.q_WB.coeffs() == b.q_WB.coeffs();
+}
+
 }  // namespace
 
 std::uint32_t Site::Impl::tick(double now) noexcept {
@@ -51,20 +55,32 @@ void Site::Impl::readDevice(double now) noexcept {
 }
 
 void Site::Impl::computeForce() noexcept {
-  contact_W = island.computeContactForce(hip);
+  if (native) {
+    contact_W = native->handForce();
+  } else if (!force_rest.holds(island)) {
+    contact_W = island.computeContactForce(hip);
+    force_rest.set(island);
+  }
   const bool fault = status_now & (kDeviceInvalid | kBodyMissing | kStateNotFinite);
   force_W = guard.limit(contact_W, fault);
 }
 
 void Site::Impl::advance(double now) noexcept {
   const double end = now + period();
-  for (std::size_t b = 0; b < tick_start_states.size(); ++b)
-    tick_start_states[b] = island.state(static_cast<BodyIndex>(b));
+  if (!start_rest.holds(island)) {
+    // Who fell asleep in the last tick has moved in it, too.
+    const std::vector<BodyIndex>& awake = island.awakeBodies();
+    for (const BodyIndex b : moved_last) tick_start_states[b] = island.state(b);
+    for (const BodyIndex b : awake) tick_start_states[b] = island.state(b);
+    moved_last.assign(awake.begin(), awake.end());
+    start_rest.set(island);
+  }
   if (status_now & (kBodyMissing | kStateNotFinite)) return;
 
   if (!isHandoff()) {
-    // Bullet moves the bodies over this period under the forces of its start.
-    forEachBody([&](SiteBody& body) { island.computeWrench(body.index, body.f_W, body.t_W); });
+    // Bullet moves the bodies: with impulses under the forces of the period's start.
+    if (!native)
+      forEachBody([&](SiteBody& body) { island.computeWrench(body.index, body.f_W, body.t_W); });
     sendIfDue(now);
     island_time = end;
     return;
@@ -97,11 +113,23 @@ void Site::Impl::advanceIsland(double until) noexcept {
     });
   }
   if (handoff_due <= island_time + kSameTime) {
-    std::vector<RigidState>& states = snapshots.add(handoff_due);
-    for (std::size_t b = 0; b < states.size(); ++b)
-      states[b] = island.state(static_cast<BodyIndex>(b));
+    keepStates(handoff_due);
     handoff_due = host_step > 0.0 ? handoff_due + host_step : kNever;
   }
+}
+
+/// For the host's step that ends at `time`.
+void Site::Impl::keepStates(double time) noexcept {
+  const auto copy = [&](std::vector<RigidState>& states) {
+    for (std::size_t b = 0; b < states.size(); ++b)
+      states[b] = island.state(static_cast<BodyIndex>(b));
+  };
+  if (!island.isAsleep()) return copy(snapshots.add(time));
+  if (!snapshot_rest.holds(island)) {
+    copy(snapshots.startRest());
+    snapshot_rest.set(island);
+  }
+  snapshots.addRest(time);
 }
 
 double Site::Impl::nextArrival(double now, double until) noexcept {
@@ -131,19 +159,30 @@ void Site::Impl::takeIn(Remote& remote, const Arrival& arrival) noexcept {
     status_now |= kPacketRefused;
     return;
   }
-  if (remote.heard && packet.sequence <= remote.latest.sequence) {
-    ++counters.packets_stale;
-    return;
+  const bool is_latest = !remote.heard || packet.sequence > remote.latest.sequence;
+  if (is_latest) {
+    remote.heard = true;
+    remote.latest = packet;
+    scheme.follow(island, remote.user, packet.user);
   }
-  ++counters.packets_taken;
-  remote.heard = true;
-  remote.latest = packet;
-  scheme.follow(island, remote.user, packet.user);
+  const bool has_news = takeInObjects(remote, packet) || is_latest;
+  ++(has_news ? counters.packets_taken : counters.packets_stale);
+}
+
+/// A packet that was overtaken may still have the newest there is of some object.
+bool Site::Impl::takeInObjects(Remote& remote, const StatePacket& packet) noexcept {
+  const auto place = static_cast<std::size_t>(&remote - remotes.data());
+  bool has_news = false;
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     const ObjectState& copy = packet.objects[i];
-    if (copy.id < objects.size())
-      island.setTarget(objects[copy.id].couplers[&remote - remotes.data()], copy.state);
+    if (copy.id >= objects.size()) continue;
+    std::optional<std::uint64_t>& newest = remote.object_sequences[copy.id];
+    if (newest && packet.sequence <= *newest) continue;
+    newest = packet.sequence;
+    has_news = true;
+    island.setTarget(objects[copy.id].couplers[place], copy.state);
   }
+  return has_news;
 }
 
 void Site::Impl::sendIfDue(double until) noexcept {
@@ -165,9 +204,13 @@ void Site::Impl::send(double time) noexcept {
     const DeviceSample between = device.read(time);
     if (between.valid && isFinite(between.hip)) packet.user = between.hip;
   }
-  packet.object_count = static_cast<std::uint32_t>(objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    packet.objects[i] = {objects[i].id, island.state(objects[i].body.index)};
+  const auto has_moved = [&](std::size_t i) {
+    return !isSame(objects[i].sent, island.state(objects[i].body.index));
+  };
+  for (const std::size_t i : packet_turns.choose(has_moved)) {
+    objects[i].sent = island.state(objects[i].body.index);
+    packet.objects[packet.object_count++] = {objects[i].id, objects[i].sent};
+  }
   for (Remote& remote : remotes) remote.link->send(packet, time);
   ++counters.packets_sent;
 }
@@ -179,8 +222,12 @@ void Site::Impl::capture(double now) noexcept {
     record.bullet = body.bullet->state();
   };
   for (std::size_t i = 0; i < objects.size(); ++i) fill(objects[i].body, object_records[i]);
-  for (std::size_t i = 0; i < remotes.size(); ++i)
-    if (remotes[i].proxy) fill(remotes[i].body, proxy_records[i]);
+  for (std::size_t i = 0; i < remotes.size(); ++i) {
+    const Remote& remote = remotes[i];
+    if (remote.proxy) fill(remote.body, proxy_records[i]);
+    if (remote.held_proxy)
+      proxy_records[i] = {island.state(*remote.user.body), remote.held_proxy->state()};
+  }
   recording->addTick({now, sample, force_W, contact_W != Vec3::Zero()}, object_records.data(),
                      proxy_records.data());
 }
@@ -188,8 +235,10 @@ void Site::Impl::capture(double now) noexcept {
 void Site::Impl::addToHash(double now) noexcept {
   hash.add(now);
   hash.add(force_W);
+  if (hash_rest.holds(island)) return;
+  hash_rest.set(island);
   bool finite = true;
-  for (BodyIndex b = 0; b < island.bodyCount(); ++b) {
+  for (const BodyIndex b : island.awakeBodies()) {
     hash.add(island.state(b));
     finite &= isFinite(island.state(b));
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tandem/coordination/types.h"
@@ -10,37 +10,119 @@
 namespace tandem {
 
 /// States of all island bodies at the moments where a host step ends: a tick may straddle such a
-/// moment, and then the island has gone on when Bullet asks. Keeps the last few; fixed size once
-/// bodies are known.
+/// moment, and a host that is late asks long after it. Keeps the last ones, as many as there is
+/// room for. Moments of an island at rest share one copy.
 class Snapshots {
  public:
+  Snapshots() : ring_(8) {}
+
+  /// May allocate.
   void setBodyCount(std::size_t count) {
+    rest_states_.resize(count);
     for (Snapshot& s : ring_) s.states.resize(count);
+  }
+
+  /// Room for at least this many moments; those that are kept stay. May allocate.
+  void makeRoom(std::size_t moments) {
+    if (moments <= ring_.size()) return;
+    std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(newest_) + 1,
+                ring_.end());
+    Snapshot empty;
+    empty.states.resize(rest_states_.size());
+    ring_.insert(ring_.begin(), moments - ring_.size(), empty);
+    newest_ = ring_.size() - 1;
   }
 
   /// Room for the states at `time` [s]; overwrites the oldest.
   std::vector<RigidState>& add(double time) noexcept {
-    next_ = (next_ + 1) % ring_.size();
-    ring_[next_].time = time;
-    return ring_[next_].states;
+    Snapshot& s = next(time);
+    s.is_rest = false;
+    return s.states;
+  }
+
+  /// Room for the states of an island that has come to rest.
+  std::vector<RigidState>& startRest() noexcept {
+    for (Snapshot& s : ring_) giveOwnStates(s);
+    return rest_states_;
+  }
+
+  /// The states of the latest rest, at `time` [s].
+  void addRest(double time) noexcept { next(time).is_rest = true; }
+
+  /// The earliest moment kept that is later than `time`; infinity if there is none.
+  [[nodiscard]] double nextAfter(double time) const noexcept {
+    double next = std::numeric_limits<double>::infinity();
+    for (const Snapshot& s : ring_)
+      if (s.time > time) next = std::min(next, s.time);
+    return next;
   }
 
   /// The newest states within `tolerance` [s] of `time`, or null.
   [[nodiscard]] std::vector<RigidState>* find(double time, double tolerance) noexcept {
     for (std::size_t back = 0; back < ring_.size(); ++back) {
-      Snapshot& s = ring_[(next_ + ring_.size() - back) % ring_.size()];
-      if (std::abs(s.time - time) <= tolerance) return &s.states;
+      Snapshot& s = ring_[(newest_ + ring_.size() - back) % ring_.size()];
+      if (std::abs(s.time - time) > tolerance) continue;
+      giveOwnStates(s);
+      return &s.states;
     }
     return nullptr;
   }
 
+  /// A moment that was kept; no states: there is none.
+  struct Moment {
+    double time = 0.0;
+    const std::vector<RigidState>* states = nullptr;
+  };
+  /// The latest moment kept that is not later than `time`, and the earliest that is.
+  [[nodiscard]] Moment latestUntil(double time) noexcept {
+    return pick([&](double t) { return t <= time; }, [](double t, double u) { return t > u; });
+  }
+  [[nodiscard]] Moment earliestAfter(double time) noexcept {
+    return pick([&](double t) { return t > time; }, [](double t, double u) { return t < u; });
+  }
+
+  /// Calls `visit` with the states of each moment later than `time`.
+  template <typename Visit>
+  void forEachAfter(double time, Visit visit) noexcept {
+    for (Snapshot& s : ring_) {
+      if (!(s.time > time)) continue;
+      giveOwnStates(s);
+      visit(s.states);
+    }
+  }
+
  private:
+  static constexpr double kNeverKept = -1e300;
   struct Snapshot {
-    double time = -1e300;
+    double time = kNeverKept;
+    bool is_rest = false;
     std::vector<RigidState> states;
   };
-  std::array<Snapshot, 8> ring_;
-  std::size_t next_ = 0;
+
+  template <typename Counts, typename Better>
+  Moment pick(Counts counts, Better better) noexcept {
+    Snapshot* best = nullptr;
+    for (Snapshot& s : ring_)
+      if (s.time > kNeverKept && counts(s.time) && (!best || better(s.time, best->time))) best = &s;
+    if (!best) return {};
+    giveOwnStates(*best);
+    return {best->time, &best->states};
+  }
+
+  Snapshot& next(double time) noexcept {
+    newest_ = (newest_ + 1) % ring_.size();
+    ring_[newest_].time = time;
+    return ring_[newest_];
+  }
+
+  void giveOwnStates(Snapshot& s) noexcept {
+    if (s.is_rest) std::copy(rest_states_.begin(), rest_states_.end(), s.states.begin());
+    s.is_rest = false;
+  }
+
+  std::vector<Snapshot> ring_;
+  std::vector<RigidState> rest_states_;
+  std::size_t newest_ = 0;
 };
 
 }  // namespace tandem

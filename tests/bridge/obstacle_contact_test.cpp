@@ -68,18 +68,13 @@ TEST(ObstacleContact, LeavesABodyThatTouchesNothingAlone) {
   ObstacleScene scene;
   scene.addPlane(0.5);
   scene.start(Vec3(0, 0.03, 0));
-  RigidState after = scene.state;
-  after.v_W = Vec3(0.1, -0.2, 0.3);
-  after.w_W = Vec3(1, 2, 3);
-  after.p_W += Vec3(1e-5, -2e-5, 3e-5);
-  const RigidState announced = after;
-  scene.obstacles.predict(0, scene.state, after);
-  scene.obstacles.solve(1.0 / 4000.0);
-  EXPECT_FALSE(scene.obstacles.correct(0, after));
-  EXPECT_EQ(after.p_W, announced.p_W);
-  EXPECT_EQ(after.v_W, announced.v_W);
-  EXPECT_EQ(after.w_W, announced.w_W);
-  EXPECT_EQ(after.q_WB.coeffs(), announced.q_WB.coeffs());
+  scene.weightless = true;
+  scene.state.v_W = Vec3(0.1, -0.2, 0.3);
+  const RigidState start = scene.state;
+  scene.run(1e-3, 1.0 / 4000.0);
+  EXPECT_EQ(scene.state.v_W, start.v_W);
+  EXPECT_LT((scene.state.p_W - start.p_W - 1e-3 * start.v_W).norm(), 1e-15);
+  EXPECT_EQ(scene.state.w_W, start.w_W);
 }
 
 TEST(ObstacleContact, KeepsACubeWhoseCentreIsOverTheEdge) {
@@ -157,49 +152,24 @@ TEST(ObstacleContact, HoldsACubeOnATriangleMesh) {
   EXPECT_LT(scene.state.v_W.norm(), byWidth(1e-3, 5e-3));
 }
 
-TEST(ObstacleContact, PushesAnOverlapOutSlowlyAndWithoutSpeed) {
-  ObstacleScene scene;
-  scene.weightless = true;
-  scene.addPlane(0.5);
-  scene.start(Vec3(0, ObstacleScene::kHalf - 5e-3, 0));
-  double fastest = 0;
-  double previous = scene.position().y();
-  scene.run(0.1, 1.0 / 4000.0, Vec3::Zero(), [&] {
-    fastest = std::max(fastest, (scene.position().y() - previous) * 4000.0);
-    previous = scene.position().y();
-  });
-  EXPECT_NEAR(scene.position().y(), ObstacleScene::kHalf, byWidth(1e-6, 2e-6));
-  EXPECT_LT(fastest, 0.26);
-  EXPECT_LT(scene.state.v_W.norm(), 1e-6);
-}
-
-TEST(ObstacleContact, SolvesOnlyThePredictedBodies) {
-  ObstacleScene scene;
-  scene.addPlane(0.5);
-  scene.start(Vec3(0, ObstacleScene::kHalf, 0));
-  btRigidBody& other = scene.rig.addCube(0.1, 0.02, Vec3(0.1, 0.02, 0));
-  scene.obstacles.addBody(3, other);
-  RigidState other_state;
-  other_state.p_W = Vec3(0.1, 0.02, 0);
-  std::vector<RigidState> states(4);
-  states[0] = scene.state;
-  states[3] = other_state;
-  scene.obstacles.update(states, 0.04);
-  const auto fall = [](RigidState state) {
-    state.v_W += Vec3(0, -9.81 / 4000.0, 0);
-    return state;
-  };
-  RigidState first = fall(scene.state);
-  scene.obstacles.predict(0, scene.state, first);
-  scene.obstacles.solve(1.0 / 4000.0);
-  RigidState second = fall(other_state);
-  EXPECT_TRUE(scene.obstacles.correct(0, first));
-  EXPECT_FALSE(scene.obstacles.correct(3, second));
-  EXPECT_NEAR(first.v_W.y(), 0.0, byWidth(1e-8, 1e-4));
-  scene.obstacles.predict(3, other_state, second);
-  scene.obstacles.solve(1.0 / 4000.0);
-  EXPECT_FALSE(scene.obstacles.correct(0, first));
-  EXPECT_TRUE(scene.obstacles.correct(3, second));
+// What a host has let overlap a little stays so; what is deeper comes out slowly, without speed.
+TEST(ObstacleContact, LetsOverlapOutSlowlyAndWithoutSpeed) {
+  for (const double overlap : {3e-4, 5e-3}) {
+    ObstacleScene scene;
+    scene.weightless = true;
+    scene.addPlane(0.5);
+    scene.start(Vec3(0, ObstacleScene::kHalf - overlap, 0));
+    double fastest = 0;
+    double previous = scene.position().y();
+    scene.run(0.1, 1.0 / 4000.0, Vec3::Zero(), [&] {
+      fastest = std::max(fastest, (scene.position().y() - previous) * 4000.0);
+      previous = scene.position().y();
+    });
+    EXPECT_NEAR(scene.position().y(), ObstacleScene::kHalf - std::min(overlap, 5e-4),
+                byWidth(1e-6, 2e-6));
+    EXPECT_LT(fastest, 0.26);
+    EXPECT_LT(scene.state.v_W.norm(), 1e-6);
+  }
 }
 
 }  // namespace

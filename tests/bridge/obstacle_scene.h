@@ -8,8 +8,20 @@
 
 namespace tandem::test {
 
-/// A 4 cm cube of 0.1 kg with friction 1 among obstacles, moved as an island would: gravity and a
-/// force by semi-implicit Euler at the inner step, obstacles searched for at 240 Hz.
+/// Whether a body at `at`, with that index and reach, could touch anything.
+inline bool isNear(Obstacles& obstacles, BodyIndex body, const RigidState& at, double reach) {
+  const auto i = static_cast<std::size_t>(body);
+  const std::vector<RigidState> states(8, at);
+  std::vector<double> reaches(states.size(), -1.0);
+  std::vector<char> awake(states.size(), 0), near(states.size(), 0);
+  reaches[i] = reach;
+  awake[i] = 1;
+  obstacles.lookAround(states, reaches, awake, near);
+  return near[i] != 0;
+}
+
+/// A 4 cm cube of 0.1 kg with friction 1 among obstacles, alone in an island; obstacles searched
+/// for at 240 Hz.
 class ObstacleScene {
  public:
   static constexpr double kHalf = 0.02;  // [m]
@@ -54,21 +66,36 @@ class ObstacleScene {
   void run(double duration, double dt, const Vec3& force, Each each) {
     const int steps = static_cast<int>(duration / dt + 0.5);
     const int per_search = static_cast<int>(1.0 / 240.0 / dt + 0.5);
+    Island island = makeIsland(dt);
+    const Vec3 weight = weightless ? Vec3(0, 0, 0) : Vec3(0, -kMass * kGravity, 0);
+    island.setExternalWrench(0, force + weight, Vec3::Zero());
     for (int i = 0; i < steps; ++i) {
       if (i % std::max(per_search, 1) == 0) search();
-      RigidState after = state;
-      after.v_W += dt * (force / kMass + (weightless ? Vec3(0, 0, 0) : Vec3(0, -kGravity, 0)));
-      after.p_W += dt * after.v_W;
-      after.q_WB = rotate(after.q_WB, dt * after.w_W);
-      obstacles.predict(0, state, after);
-      obstacles.solve(dt);
-      touched = obstacles.correct(0, after);
-      state = after;
+      island.setState(0, state);
+      island.advance(dt);
+      state = island.state(0);
       each();
     }
   }
   void run(double duration, double dt, const Vec3& force = Vec3::Zero()) {
     run(duration, dt, force, [] {});
+  }
+
+  /// The cube as the only body of an island, which moves by `dt` in one inner step.
+  [[nodiscard]] Island makeIsland(double dt) {
+    IslandSettings settings;
+    settings.haptic_period = settings.inner_step = dt;
+    Island island(settings);
+    IslandBody cube;
+    cube.shape = Box{Vec3::Constant(kHalf)};
+    cube.mass = kMass;
+    cube.inertia_B = Vec3::Constant(inertia);
+    cube.is_rigid = true;
+    cube.start = state;
+    island.addBody(cube);
+    island.setContactFinder(&obstacles);
+    island.prepare();
+    return island;
   }
 
   [[nodiscard]] Vec3 position() const { return state.p_W - origin_; }
@@ -81,14 +108,9 @@ class ObstacleScene {
   Obstacles obstacles{rig.world};
   RigidState state;
   double inertia = 0.0;
-  bool touched = false;
   bool weightless = false;
 
  private:
-  static Quat rotate(const Quat& q, const Vec3& by) {
-    const double angle = by.norm();
-    return angle > 0.0 ? (turn(angle, by) * q).normalized() : q;
-  }
   Vec3 origin_;
 };
 

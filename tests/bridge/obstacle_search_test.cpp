@@ -7,6 +7,7 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
+using test::isNear;
 using test::ObstacleScene;
 
 RigidState at(const Vec3& p) {
@@ -19,11 +20,11 @@ TEST(ObstacleSearch, KnowsWhatIsNearAndWhatIsNot) {
   ObstacleScene scene;
   scene.addPlane(0.5);
   scene.start(Vec3(0, 0.03, 0));
-  EXPECT_TRUE(scene.obstacles.isNear(0, scene.state, 0.011));
-  EXPECT_FALSE(scene.obstacles.isNear(0, scene.state, 0.009));
-  EXPECT_FALSE(scene.obstacles.isNear(1, scene.state, 1.0)) << "a body it was not told of";
+  EXPECT_TRUE(isNear(scene.obstacles, 0, scene.state, 0.011));
+  EXPECT_FALSE(isNear(scene.obstacles, 0, scene.state, 0.009));
+  EXPECT_FALSE(isNear(scene.obstacles, 1, scene.state, 1.0)) << "a body it was not told of";
   // A plane's box is all of space; its surface is not.
-  EXPECT_FALSE(scene.obstacles.isNear(0, at(Vec3(0, 1, 0)), 0.5));
+  EXPECT_FALSE(isNear(scene.obstacles, 0, at(Vec3(0, 1, 0)), 0.5));
 }
 
 TEST(ObstacleSearch, FollowsTheBodyAndForgetsWhatIsFar) {
@@ -31,11 +32,11 @@ TEST(ObstacleSearch, FollowsTheBodyAndForgetsWhatIsFar) {
   scene.addObstacle(scene.rig.makeShape<btSphereShape>(btScalar(0.05)), 0.5, Vec3(1, 0, 0));
   scene.start(Vec3(0, 0, 0));
   const RigidState beside = at(Vec3(1, 0.08, 0));
-  EXPECT_FALSE(scene.obstacles.isNear(0, beside, 0.05));  // not searched for there yet
+  EXPECT_FALSE(isNear(scene.obstacles, 0, beside, 0.05));  // not searched for there yet
   scene.obstacles.update({beside}, 0.04);
-  EXPECT_TRUE(scene.obstacles.isNear(0, beside, 0.05));
+  EXPECT_TRUE(isNear(scene.obstacles, 0, beside, 0.05));
   scene.obstacles.update({at(Vec3(0, 0, 0))}, 0.04);
-  EXPECT_FALSE(scene.obstacles.isNear(0, beside, 0.05));
+  EXPECT_FALSE(isNear(scene.obstacles, 0, beside, 0.05));
 }
 
 TEST(ObstacleSearch, FollowsAStaticObjectThatTheHostMoves) {
@@ -43,11 +44,11 @@ TEST(ObstacleSearch, FollowsAStaticObjectThatTheHostMoves) {
   btRigidBody& box =
       scene.addObstacle(scene.rig.makeShape<btBoxShape>(btVector3(1, 1, 1)), 0.5, Vec3(0, -1, 0));
   scene.start(Vec3(0, 0.025, 0));
-  EXPECT_TRUE(scene.obstacles.isNear(0, scene.state, 0.006));
+  EXPECT_TRUE(isNear(scene.obstacles, 0, scene.state, 0.006));
   box.setWorldTransform(toBullet(Vec3(0, -1.01, 0), Quat::Identity()));
   scene.search();
-  EXPECT_FALSE(scene.obstacles.isNear(0, scene.state, 0.006));
-  EXPECT_TRUE(scene.obstacles.isNear(0, scene.state, 0.016));
+  EXPECT_FALSE(isNear(scene.obstacles, 0, scene.state, 0.006));
+  EXPECT_TRUE(isNear(scene.obstacles, 0, scene.state, 0.016));
 }
 
 TEST(ObstacleSearch, LeavesOutWhatMovesOrGivesNoContact) {
@@ -62,7 +63,7 @@ TEST(ObstacleSearch, LeavesOutWhatMovesOrGivesNoContact) {
                             btCollisionObject::CF_NO_CONTACT_RESPONSE);
   scene.obstacles.addSphere(0, 0.01);
   scene.start(Vec3(0, 0, 0));
-  EXPECT_FALSE(scene.obstacles.isNear(0, scene.state, 0.0));
+  EXPECT_FALSE(isNear(scene.obstacles, 0, scene.state, 0.0));
   EXPECT_TRUE(scene.obstacles.nearSpheres().empty());
 }
 
@@ -81,9 +82,9 @@ TEST(ObstacleSearch, HonoursTheHostsFilters) {
   scene.obstacles.addBody(2, plain);
   const RigidState state = at(Vec3(0, 0.02, 0));
   scene.obstacles.update({state, state, state}, 0.04);
-  EXPECT_FALSE(scene.obstacles.isNear(0, state, 0.01));
-  EXPECT_FALSE(scene.obstacles.isNear(1, state, 0.01));
-  EXPECT_TRUE(scene.obstacles.isNear(2, state, 0.01));
+  EXPECT_FALSE(isNear(scene.obstacles, 0, state, 0.01));
+  EXPECT_FALSE(isNear(scene.obstacles, 1, state, 0.01));
+  EXPECT_TRUE(isNear(scene.obstacles, 2, state, 0.01));
 }
 
 TEST(ObstacleSearch, FiltersNativeContactWhileACandidateAndGivesItBack) {
@@ -92,7 +93,7 @@ TEST(ObstacleSearch, FiltersNativeContactWhileACandidateAndGivesItBack) {
       rig.addBody(rig.makeShape<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0);
   btRigidBody& cube = rig.addCube(0.1, 0.02, Vec3(0, 0.02, 0));
   const auto isFiltered = [&] {
-    return !cube.checkCollideWith(&floor) && !floor.checkCollideWith(&cube);
+    return !cube.checkCollideWith(&floor) || !floor.checkCollideWith(&cube);
   };
   {
     Obstacles obstacles(rig.world);
@@ -104,9 +105,11 @@ TEST(ObstacleSearch, FiltersNativeContactWhileACandidateAndGivesItBack) {
     EXPECT_FALSE(isFiltered());
     obstacles.update({at(Vec3(0, 0.02, 0))}, 0.04);
     EXPECT_TRUE(isFiltered());
-    obstacles.addBody(1, rig.addCube(0.1, 0.02, Vec3(0, 0.5, 0)));  // starts over
+    obstacles.addBody(1, rig.addCube(0.1, 0.02, Vec3(0, 0.5, 0)));
+    EXPECT_TRUE(isFiltered());
+    obstacles.removeBody(0);
     EXPECT_FALSE(isFiltered());
-    obstacles.update({at(Vec3(0, 0.02, 0)), at(Vec3(0, 0.5, 0))}, 0.04);
+    obstacles.addBody(0, cube);
     EXPECT_TRUE(isFiltered());
   }
   EXPECT_FALSE(isFiltered());
@@ -127,16 +130,16 @@ TEST(ObstacleSearch, SurvivesObjectsAndBodiesThatTheHostDeletes) {
   obstacles.addBody(1, *gone);
   const std::vector<RigidState> states = {at(Vec3(0, 1.02, 0)), at(Vec3(0, 2, 0))};
   obstacles.update(states, 0.04);
-  EXPECT_TRUE(obstacles.isNear(0, states[0], 0.01));
+  EXPECT_TRUE(isNear(obstacles, 0, states[0], 0.01));
   // The sanitizer would see any access.
   rig.world.removeRigidBody(gone.get());
   gone.reset();
   obstacles.update(states, 0.04);
-  EXPECT_TRUE(obstacles.isNear(0, states[0], 0.01));
+  EXPECT_TRUE(isNear(obstacles, 0, states[0], 0.01));
   rig.world.removeRigidBody(wall.get());
   wall.reset();
   obstacles.update(states, 0.04);
-  EXPECT_FALSE(obstacles.isNear(0, states[0], 0.01));
+  EXPECT_FALSE(isNear(obstacles, 0, states[0], 0.01));
   EXPECT_EQ(kept.getNumObjectsWithoutCollision(), 0);
 }
 
@@ -181,18 +184,26 @@ TEST(NearSpheres, GivesShapesWithTheirPoses) {
   EXPECT_EQ(std::get<Plane>(found[3].shape).offset, -0.03125);
 }
 
-TEST(NearSpheres, TurnsCapsulesAlongXAndZ) {
+TEST(NearSpheres, KnowsCapsulesAndCylindersAlongAnyAxis) {
   BulletRig rig;
-  const Quat turned = test::turn(0.9, {1, -1, 0.5});
-  rig.addBody(rig.makeShape<btCapsuleShapeX>(btScalar(0.1), btScalar(0.5)), 0, Vec3::Zero(),
-              turned);
-  rig.addBody(rig.makeShape<btCapsuleShapeZ>(btScalar(0.1), btScalar(0.5)), 0, Vec3::Zero(),
-              turned);
+  rig.addBody(rig.makeShape<btCapsuleShapeX>(btScalar(0.125), btScalar(0.5)), 0);
+  rig.addBody(rig.makeShape<btCapsuleShapeZ>(btScalar(0.125), btScalar(0.5)), 0);
+  const btScalar r(0.125), h(0.25);
+  rig.addBody(rig.makeShape<btCylinderShapeX>(btVector3(h, r, r)), 0);
+  rig.addBody(rig.makeShape<btCylinderShape>(btVector3(r, h, r)), 0);
+  rig.addBody(rig.makeShape<btCylinderShapeZ>(btVector3(r, r, h)), 0);
   const auto found = findNearBall(rig);
-  ASSERT_EQ(found.size(), 2u);
-  const double rounding = byWidth(1e-14, 1e-6);
-  EXPECT_LT((found[0].q_WB * Vec3::UnitY() - turned * Vec3::UnitX()).norm(), rounding);
-  EXPECT_LT((found[1].q_WB * Vec3::UnitY() - turned * Vec3::UnitZ()).norm(), rounding);
+  ASSERT_EQ(found.size(), 5u);
+  EXPECT_EQ(std::get<Capsule>(found[0].shape).axis, Axis::kX);
+  EXPECT_EQ(std::get<Capsule>(found[1].shape).axis, Axis::kZ);
+  EXPECT_EQ(std::get<Capsule>(found[1].shape).half_length, 0.25);
+  const Axis axes[] = {Axis::kX, Axis::kY, Axis::kZ};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& cylinder = std::get<Cylinder>(found[2 + i].shape);
+    EXPECT_EQ(cylinder.axis, axes[i]);
+    EXPECT_NEAR(cylinder.radius, 0.125, byWidth(1e-15, 1e-7));
+    EXPECT_NEAR(cylinder.half_length, 0.25, byWidth(1e-15, 1e-7));
+  }
 }
 
 TEST(NearSpheres, ExpandsCompoundsAndTakesOnlyTheChildrenNearby) {
@@ -214,7 +225,9 @@ TEST(NearSpheres, LooksAsFarAsTheMarginAndSkipsShapesTheIslandDoesNotKnow) {
   BulletRig rig;
   rig.addBody(rig.makeShape<btSphereShape>(btScalar(0.25)), 0,
               Vec3(0, 0.31, 0));  // 5 cm from the ball
-  rig.addBody(rig.makeShape<btCylinderShape>(btVector3(1, 1, 1)), 0);
+  rig.addBody(rig.makeShape<btConeShape>(btScalar(1), btScalar(1)), 0);
+  // An oval.
+  rig.addBody(rig.makeShape<btCylinderShape>(btVector3(1, 1, 2)), 0);
   EXPECT_TRUE(findNearBall(rig, 0.04).empty());
   EXPECT_EQ(findNearBall(rig, 0.06).size(), 1u);
 }

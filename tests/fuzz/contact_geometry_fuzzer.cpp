@@ -13,6 +13,8 @@
 
 #include "tandem/coordination/contact_geometry.h"
 
+#include "support/solids.h"
+
 namespace tandem {
 namespace {
 
@@ -68,14 +70,27 @@ double clampSize(double value) { return std::clamp(std::abs(value), 1e-6, 1e3); 
 
 Vec3 clampPlace(const Vec3& place) { return place.cwiseMin(1e3).cwiseMax(-1e3); }
 
+/// Sizes of a solid that has faces: none below a thousandth of another.
+Vec3 makeSturdy(const Vec3& sizes) {
+  const Vec3 clamped = sizes.unaryExpr(&clampSize);
+  return clamped.cwiseMax(1e-3 * clamped.maxCoeff());
+}
+
 Shape makeShape(std::uint8_t kind, const Vec3& sizes, const Vec3& direction) {
-  switch (kind % 4) {
+  const Axis axis = static_cast<Axis>(kind / 8 % 3);
+  switch (kind % 7) {
     case 0:
       return Sphere{sizes.x()};
     case 1:
       return Box{sizes};
     case 2:
-      return Capsule{sizes.x(), sizes.y()};
+      return Capsule{sizes.x(), sizes.y(), axis};
+    case 4:
+      return Cylinder{sizes.x(), sizes.y(), axis};
+    case 5:
+      return test::makeHull(test::makeOctahedron(makeSturdy(sizes)), std::abs(sizes.y()));
+    case 6:
+      return test::makeMesh(test::cutIntoTriangles(test::makeBoxSolid(makeSturdy(sizes))));
     default:
       return Plane{direction, sizes.z()};
   }
@@ -91,7 +106,7 @@ void requireContact(const SphereContact& contact, const Vec3& centre, double rad
   require((along_normal - centre).norm() < kRounding);
 }
 
-void test(Reader input) {
+void check(Reader input) {
   const std::uint8_t kind = input.byte();
   const Vec3 centre = input.vector();
   const double radius = input.number();
@@ -115,6 +130,6 @@ void test(Reader input) {
 }  // namespace tandem
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  tandem::test({data, size});
+  tandem::check({data, size});
   return 0;
 }

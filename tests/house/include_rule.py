@@ -33,8 +33,12 @@ DEPENDENCIES = {
     "nlohmann-json": re.compile(r"nlohmann/"),
     "toml++": re.compile(r"toml\+\+/"),
     "CLI11": re.compile(r"CLI/"),
+    "Boost": re.compile(r"boost/"),
     "hidapi": re.compile(r"hidapi"),
     "libftdi1": re.compile(r"(ftdi\.h|libftdi1/)"),
+    "MuJoCo": re.compile(r"mujoco/"),
+    "ODE": re.compile(r"ode/"),
+    "Simbody": re.compile(r"(Simbody\.h|SimTK)"),
     "libsodium": re.compile(r"sodium(\.h|/)"),
     "GoogleTest": re.compile(r"(gtest|gmock)/"),
     "Google Benchmark": re.compile(r"benchmark/"),
@@ -59,7 +63,8 @@ RULES = {
         ("thread", THREADS - LOCKS), ("clock", CLOCKS), ("file", FILES), ("socket", SOCKETS))),
     "falcon": Rule(("coordination",), ("Eigen", "hidapi", "libftdi1")),
     "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
-    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11")),
+    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11", "Boost",
+                              "MuJoCo", "ODE", "Simbody")),
     "tests": Rule(LIBRARIES + ("demos",), None),
 }
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/paper_reference.h"
+#include "bench/reference/paper_reference.h"
 #include "scenario.h"
 #include "virtual_run.h"
 

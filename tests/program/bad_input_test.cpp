@@ -55,6 +55,22 @@ TEST(BadInput, UnknownKey) {
   expectOverrideRefused("contact.stifness=1", {"contact.stifness", "1", "contact.stiffness"});
 }
 
+TEST(BadInput, ContactModel) {
+  expectOverrideRefused("contact.model=soft", {"contact.model", "soft", "island", "native_rigid",
+                                               "native_soft", "spring_6dof", "point_to_point"});
+  const Words native = {"run", kExperiment1, "--set", "contact.model=native_soft", "--set"};
+  for (const char* other : {"experiment.axis=[0.6,0.8,0]", "bridge.injection=impulse",
+                            "experiment.scheme=kinematic_proxy"}) {
+    SCOPED_TRACE(other);
+    Words arguments = native;
+    arguments.insert(arguments.end(), {other, "--set", "rates.host=1000"});
+    if (std::string(other).ends_with("kinematic_proxy"))
+      arguments.insert(arguments.end(), {"--set", "experiment.kind=user_contact"});
+    const std::string key = std::string(other).substr(0, std::string(other).find('='));
+    expectOneLine(runTandem(arguments), 2, {"contact.model", "native_soft", key});
+  }
+}
+
 TEST(BadInput, WrongType) {
   expectFileRefused("[contact]\nstiffness = \"4000\"\n",
                     {"contact.stiffness", "4000", "finite number, 0 or more"});

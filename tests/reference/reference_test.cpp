@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/paper_reference.h"
-#include "reference/sampling.h"
+#include "bench/reference/paper_reference.h"
+#include "bench/reference/sampling.h"
 
 namespace tandem::reference {
 namespace {

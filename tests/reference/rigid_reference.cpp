@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "reference/sampling.h"
+#include "bench/reference/sampling.h"
 
 namespace tandem::reference {
 namespace {

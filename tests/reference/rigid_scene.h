@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "reference/spring_damper.h"
+#include "bench/reference/spring_damper.h"
 
 namespace tandem::reference {
 

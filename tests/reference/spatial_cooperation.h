@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "bench/reference/sampling.h"
 #include "reference/rigid_scene.h"
-#include "reference/sampling.h"
 
 namespace tandem::reference {
 

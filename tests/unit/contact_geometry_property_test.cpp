@@ -11,6 +11,8 @@
 
 #include "tandem/coordination/contact_geometry.h"
 
+#include "support/solids.h"
+
 // What must hold for any shape in any pose. Scenes are about 1 m large, so that rounding is near
 // 1e-15.
 
@@ -47,6 +49,15 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+/// A skew box or octahedron, somewhere near the origin.
+test::Solid makeSkewSolid(double a, double b, double c, Random& random) {
+  test::Solid solid = a < 0.25 ? test::makeBoxSolid({a, b, c}) : test::makeOctahedron({a, b, c});
+  const Vec3 shift = random.inCube(0.2);
+  const double skew = random.uniform(-0.5, 0.5);
+  for (Vec3& p : solid.corners) p += shift + skew * p.y() * Vec3::UnitX();
+  return solid;
+}
+
 Shape makeShape(std::size_t kind, Random& random) {
   const double a = random.uniform(0.05, 0.5), b = random.uniform(0.05, 0.5);
   const double c = random.uniform(0.05, 0.5);
@@ -57,8 +68,16 @@ Shape makeShape(std::size_t kind, Random& random) {
       return Box{{a, b, c}};
     case 2:
       return Capsule{a, b};
-    default:
+    case 3:
       return Plane{random.direction(), c - a};
+    case 4:
+      return Capsule{a, b, c < 0.25 ? Axis::kX : Axis::kZ};
+    case 5:
+      return Cylinder{a, b, static_cast<Axis>(static_cast<int>(20.0 * c) % 3)};
+    case 6:
+      return test::makeHull(makeSkewSolid(a, b, c, random));
+    default:
+      return test::makeMesh(test::cutIntoTriangles(makeSkewSolid(a, b, c, random)));
   }
 }
 
@@ -177,8 +196,36 @@ class SampledSurface {
     cover(u.norm(), v.norm());
   }
 
+  void addTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    for (int i = 0; i < kSteps; ++i)
+      for (int j = 0; i + j < kSteps; ++j)
+        for (const double part : {1.0, 2.0})  // both triangles of a cell
+          if (i + j + part <= kSteps)
+            add(a + (i + part / 3.0) / kSteps * (b - a) + (j + part / 3.0) / kSteps * (c - a));
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    covering_radius_ = std::max(covering_radius_, longest / kSteps);
+  }
+
+  void addCylinder(const Cylinder& cylinder) {
+    const int axis = static_cast<int>(cylinder.axis);
+    const Vec3 along = Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3),
+               v = Vec3::Unit((axis + 2) % 3);
+    for (int i = 0; i < kSteps; ++i) {
+      const double angle = kPi * middle(i);
+      const Vec3 across = cylinder.radius * (std::cos(angle) * u + std::sin(angle) * v);
+      for (int j = 0; j < kSteps; ++j) {
+        add(across + cylinder.half_length * middle(j) * along);
+        for (const double side : {1.0, -1.0})
+          add(side * cylinder.half_length * along + (0.5 + 0.5 * middle(j)) * across);
+      }
+    }
+    cover(kPi * cylinder.radius, cylinder.half_length);
+    cover(kPi * cylinder.radius, 0.5 * cylinder.radius);
+  }
+
   /// A capsule's surface about y, by angle around the axis and along the side, then up both caps.
-  void addCapsule(double radius, double half_length) {
+  void addCapsule(double radius, double half_length, const Quat& turn = Quat::Identity()) {
+    const auto add = [&](const Vec3& p) { this->add(turn * p); };
     for (int i = 0; i < kSteps; ++i) {
       const double around = kPi * middle(i);
       const Vec3 across = radius * Vec3(std::cos(around), 0.0, std::sin(around));
@@ -216,7 +263,27 @@ void addSurface(SampledSurface& surface, const Sphere& sphere) {
 }
 
 void addSurface(SampledSurface& surface, const Capsule& capsule) {
-  surface.addCapsule(capsule.radius, capsule.half_length);
+  surface.addCapsule(
+      capsule.radius, capsule.half_length,
+      Quat::FromTwoVectors(Vec3::UnitY(), Vec3::Unit(static_cast<int>(capsule.axis))));
+}
+
+void addSurface(SampledSurface& surface, const Cylinder& cylinder) {
+  surface.addCylinder(cylinder);
+}
+
+void addSurface(SampledSurface& surface, const ConvexHull& hull) {
+  const ConvexPolyhedron& solid = *hull.solid;
+  for (const ConvexPolyhedron::Face& face : solid.faces()) {
+    const auto* side = solid.sides(face);
+    for (int i = 2; i < face.count; ++i)
+      surface.addTriangle(side[0].start, side[i - 1].start, side[i].start);
+  }
+}
+
+void addSurface(SampledSurface& surface, const Mesh& mesh) {
+  for (const TriangleMesh::Triangle& triangle : mesh.surface->triangles())
+    surface.addTriangle(triangle.corners[0].p, triangle.corners[1].p, triangle.corners[2].p);
 }
 
 void addSurface(SampledSurface& surface, const Box& box) {
@@ -240,11 +307,26 @@ bool isInside(const Vec3& p, const Box& s) {
   return (p.cwiseAbs().array() < s.half_extents.array()).all();
 }
 bool isInside(const Vec3& p, const Capsule& s) {
-  const bool in_side = std::hypot(p.x(), p.z()) < s.radius && std::abs(p.y()) < s.half_length;
-  const Vec3 end = s.half_length * Vec3::UnitY();
+  const Vec3 along = Vec3::Unit(static_cast<int>(s.axis));
+  const bool in_side = along.cross(p).norm() < s.radius && std::abs(along.dot(p)) < s.half_length;
+  const Vec3 end = s.half_length * along;
   return in_side || (p - end).norm() < s.radius || (p + end).norm() < s.radius;
 }
 bool isInside(const Vec3& p, const Plane& s) { return s.normal_B.dot(p) < s.offset; }
+bool isInside(const Vec3& p, const Cylinder& s) {
+  const Vec3 along = Vec3::Unit(static_cast<int>(s.axis));
+  return along.cross(p).norm() < s.radius && std::abs(along.dot(p)) < s.half_length;
+}
+bool isInside(const Vec3& p, const ConvexHull& s) {
+  const auto& faces = s.solid->faces();
+  return std::all_of(faces.begin(), faces.end(),
+                     [&](const auto& face) { return face.normal.dot(p) < face.offset; });
+}
+bool isInside(const Vec3& p, const Mesh& s) {  // these are convex
+  const auto& triangles = s.surface->triangles();
+  return std::all_of(triangles.begin(), triangles.end(),
+                     [&](const auto& one) { return one.normal.dot(p) < one.offset; });
+}
 
 TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
   forEachScene(100, [](const Scene& scene) {
@@ -262,10 +344,12 @@ TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
 }
 
 std::string nameShape(const ::testing::TestParamInfo<std::size_t>& kind) {
-  return std::array{"Sphere", "Box", "Capsule", "Plane"}.at(kind.param);
+  return std::array{"Sphere",       "Box",      "Capsule",    "Plane",
+                    "CapsuleAlong", "Cylinder", "ConvexHull", "Mesh"}
+      .at(kind.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 4), nameShape);
+INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 8), nameShape);
 
 }  // namespace
 }  // namespace tandem

@@ -1,64 +1,69 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "tandem/coordination/contact_finder.h"
 #include "tandem/coordination/island.h"
-#include "tandem/coordination/rigid_contacts.h"
 
-class btCollisionObject;
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
 namespace tandem {
 
-/// The static objects of a host's world, for the island: found near the haptic bodies once per host
-/// step, copied into a private Bullet world, and solved against there at the island's inner step.
+/// Rigid surroundings of the island's bodies: the static objects of a host's world near them, and
+/// they themselves for each other. Found once per host step; their contacts are searched for at
+/// each inner step of the island, by Bullet's narrowphase on private copies.
 ///
-/// The private world is Bullet's narrowphase and solver with copies of the island's rigid bodies
-/// and of the static objects; there is no broadphase, as the candidates are few, and bodies do not
-/// meet each other. Its origin is near the first body, so that a float Bullet resolves tens of
-/// nanometres anywhere; states stay in double, only what contact changes is taken from Bullet.
-/// There is no gravity (the island's prediction has it) and no bounce at restitution 0: overlap is
-/// pushed out apart from the velocity, at 0.25 m/s at most.
-///
-/// Friction, restitution, rolling friction, linear and angular factors, mass, inertia, shapes and
-/// margins are those of the host's objects (of bodies: as they are at addBody(), so scale the mass
-/// first). Contact stiffness is not used. The host's btCollisionShapes are shared: they must not
+/// The private origin is near the first body, so that a float Bullet resolves tens of nanometres
+/// anywhere. Friction, restitution and margins are those of the host's objects, as they were at the
+/// last update(); rolling friction
+/// and contact stiffness are not used. The host's btCollisionShapes are shared: they must not
 /// change while attached, and must live until the update() after their object has left the world.
-/// Native contact between an island body and a candidate is filtered in the host's world while it
-/// is a candidate. Kinematic objects and moving bodies are no candidates. Bullet's global contact
-/// callbacks see the copies, too; they carry their originals' user pointers.
+/// Native contact between an island body and a candidate, and among island bodies, is filtered in
+/// the host's world meanwhile. Kinematic objects are no candidates: they can be bodies. Bullet's
+/// global contact callbacks see the copies, too; they carry their originals' user pointers.
 ///
 /// Not thread safe: all functions in the thread that steps the host's world. Compound shapes make
-/// Bullet allocate in every solve; all others only at first touch.
-class Obstacles final : public RigidContacts {
+/// Bullet allocate in every search; all others only at first touch.
+class Obstacles final : public ContactFinder {
  public:
   /// `host` must outlive this object, bodies too unless they have left the world.
   explicit Obstacles(btDiscreteDynamicsWorld& host);
   ~Obstacles() override;
 
-  /// Set-up. The island body `index` is `body` of the host's world; it will be held by obstacles.
-  /// Throws tandem::Error if the index has a body already, or the body is not dynamic or not of a
-  /// convex or compound shape.
+  /// Not in the tick. The island body `index` is `body` of the host's world. Throws tandem::Error
+  /// if the index has a body already, or the body is static, or of a shape neither convex nor
+  /// compound (kinematic ones: a plane). Two kinematic bodies do not meet.
   void addBody(BodyIndex index, btRigidBody& body);
+
+  /// Not in the tick. The index is free again, and native contact is the host's.
+  void removeBody(BodyIndex index);
 
   /// Set-up. A haptic sphere (device or proxy): obstacles near it are reported by nearSpheres().
   void addSphere(BodyIndex index, double radius);
 
   /// Once per host step, from the host's thread: finds the static objects within `margin` [m] of
-  /// each body and sphere, given their states by index. May allocate when a new obstacle comes
-  /// near.
-  void update(const std::vector<RigidState>& states, double margin);
+  /// each dynamic body and sphere, given their states by index. May allocate when a new obstacle
+  /// comes near; the first time that a mesh is near a sphere it takes some microseconds for each
+  /// triangle. Returns whether anything has come, gone or moved: who rested on it should be
+  /// woken. With `moves`, by index, it searches around those that move only, and keeps whatever it
+  /// had found; call it without now and then.
+  bool update(const std::vector<RigidState>& states, double margin,
+              const std::vector<char>* moves = nullptr);
 
-  /// Obstacles near the spheres whose shape the island knows itself (sphere, box, capsule, plane).
+  /// Obstacles near the spheres whose shape the island knows itself: those of convertShape() and
+  /// convertMesh(), also as children of compounds.
   [[nodiscard]] const std::vector<Obstacle>& nearSpheres() const noexcept;
 
-  [[nodiscard]] bool isNear(BodyIndex body, const RigidState& state,
-                            double reach) const noexcept override;
-  void predict(BodyIndex body, const RigidState& before, const RigidState& after) noexcept override;
-  void solve(double dt) noexcept override;
-  bool correct(BodyIndex body, RigidState& after) noexcept override;
+  void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
+                  std::vector<char>& awake, std::vector<char>& near) noexcept override;
+  void find(const std::vector<RigidState>& states,
+            std::vector<RigidContact>& contacts) noexcept override;
+
+  /// Pairs handed to Bullet's narrowphase so far: what a scene does not need is not searched.
+  [[nodiscard]] std::uint64_t searches() const noexcept;
 
  private:
   struct Impl;

@@ -9,12 +9,24 @@ class btRigidBody;
 
 namespace tandem {
 
-/// The island's own form of a Bullet shape: box, sphere, capsule along y, static plane, each with
-/// Bullet's margin where it counts. Nothing for a shape that the island does not know.
+/// The island's own form of a Bullet shape: box, sphere, capsule, cylinder, convex hull, static
+/// plane, each with Bullet's margin where it counts: hulls are rounded by it. Nothing for a shape
+/// that the island does not know: cylinders scaled to ovals, hulls without a volume, concave
+/// shapes, compounds and others. Allocates, and for a hull takes time that grows with the square of
+/// its points.
 [[nodiscard]] std::optional<Shape> convertShape(const btCollisionShape& shape);
 
-/// The shape of a body that can be shared: box, sphere or capsule. Throws tandem::Error naming any
-/// other.
+/// The surface of a shape made of triangles (mesh, scaled mesh, height field), its skin Bullet's
+/// margin. Nothing for another shape, or a mesh without an area. Not in the tick: some microseconds
+/// for each triangle.
+///
+/// The island's triangles are one-sided, as those of a closed mesh: their corners run
+/// counter-clockwise seen from the free side. A height field is free above, on the positive side of
+/// its up axis.
+[[nodiscard]] std::optional<Shape> convertMesh(const btCollisionShape& shape);
+
+/// The shape of a body that can be shared: box, sphere, capsule, cylinder or convex hull. Throws
+/// tandem::Error naming any other.
 [[nodiscard]] Shape getShareableShape(const btRigidBody& body);
 
 }  // namespace tandem

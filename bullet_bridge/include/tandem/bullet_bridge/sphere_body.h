@@ -11,14 +11,20 @@ namespace tandem {
 
 class HapticBody;
 
+/// What a SphereBody meets natively.
+enum class SphereMeets {
+  kMovingBodies,  ///< it passes static ones: those the island keeps it out of
+  kAllBodies,     ///< static ones, too, and without friction: there is no island to do it
+};
+
 /// A sphere that is put into a host's world and taken out again: the Bullet body of a remote user.
 ///
-/// It has no weight, meets moving bodies natively, and passes static ones: those the island keeps
-/// it out of. The world must outlive it. Taking it out of the world is noticed by
+/// It has no weight. The world must outlive it. Taking it out of the world is noticed by
 /// haptic().isInWorld().
 class SphereBody {
  public:
-  SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W);
+  SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
+             SphereMeets meets = SphereMeets::kMovingBodies);
   ~SphereBody();
   SphereBody(const SphereBody&) = delete;
   SphereBody& operator=(const SphereBody&) = delete;

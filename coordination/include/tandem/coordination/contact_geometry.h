@@ -16,10 +16,13 @@ struct SphereContact {
 /// gap close. The force on the sphere acts along +n_W at p_W, its reaction on the other body along
 /// -n_W at the same point; the line of both passes through the sphere's centre.
 ///
-/// A centre inside a box leaves by the nearest face; exactly in the middle of two, by the first in
-/// the order x, y, z and + before -. A centre on a capsule's or sphere's core leaves along a fixed
-/// body direction. Pure; real-time safe; deterministic; gap is continuous in all arguments, n_W is
-/// unit length always.
+/// To a mesh as a whole: the nearest of its points that push, see TriangleMesh; one that pushes by
+/// two sides of a groove is nearest to one of them. Behind an open mesh, an infinite gap.
+///
+/// A centre inside a box, cylinder or hull leaves by the nearest face; exactly in the middle of
+/// two, by the first in the order x, y, z and + before -. A centre on a capsule's or sphere's core
+/// leaves along a fixed body direction. Pure; real-time safe; deterministic; gap is continuous in
+/// all arguments, n_W is unit length always.
 [[nodiscard]] SphereContact findSphereContact(const Vec3& p_W, double radius, const Shape& shape,
                                               const Vec3& p_WB, const Quat& q_WB) noexcept;
 

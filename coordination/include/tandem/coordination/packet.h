@@ -13,6 +13,9 @@ using ObjectId = std::uint32_t;
 /// Shared objects that fit one packet.
 inline constexpr int kMaxObjectsPerPacket = 8;
 
+/// Shared objects of a site. Where there are more than fit one packet, they take turns.
+inline constexpr int kMaxSharedObjects = 256;
+
 /// One shared object's copy at the sender.
 struct ObjectState {
   ObjectId id = 0;
@@ -20,7 +23,9 @@ struct ObjectState {
 };
 
 /// What a peer tells the others `network.rate` times a second: kinematic state, never forces. Every
-/// receiver computes its own forces from its own gains. Latest wins; nothing is sent again.
+/// receiver computes its own forces from its own gains. Latest wins, for the user and for each
+/// object by itself; nothing is sent again. A peer with more objects than fit sends those first
+/// that have moved since they were sent last, and the others in turn.
 struct StatePacket {
   PeerId sender{};
   std::uint64_t sequence = 0;  ///< counts the sender's packets from 0

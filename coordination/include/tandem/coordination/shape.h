@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <variant>
 
+#include "tandem/coordination/convex_polyhedron.h"
+#include "tandem/coordination/triangle_mesh.h"
 #include "tandem/coordination/types.h"
 
 namespace tandem {
@@ -16,10 +20,29 @@ struct Box {
   Vec3 half_extents = Vec3::Zero();  ///< [m], each > 0
 };
 
-/// Segment along the body's y axis (as Bullet's btCapsuleShape), fattened by a radius.
+/// An axis of a body's frame.
+enum class Axis : std::uint8_t { kX, kY, kZ };
+
+/// Segment along an axis of the body through its origin, fattened by a radius.
 struct Capsule {
   double radius = 0.0;       ///< [m], > 0
   double half_length = 0.0;  ///< half of the segment [m], >= 0
+  Axis axis = Axis::kY;
+};
+
+/// Round bar with flat ends around the body's origin.
+struct Cylinder {
+  double radius = 0.0;       ///< [m], > 0
+  double half_length = 0.0;  ///< [m], > 0
+  Axis axis = Axis::kY;
+};
+
+/// A convex solid, fattened all round by a rounding (the margin that Bullet lays around hulls).
+/// Copies share the solid, which nobody changes: copying allocates nothing, and whoever drops the
+/// last copy frees it, so keep one where that must not be the tick.
+struct ConvexHull {
+  std::shared_ptr<const ConvexPolyhedron> solid;  ///< not null
+  double rounding = 0.0;                          ///< [m], >= 0
 };
 
 /// Half-space `normal_B . p <= offset` of the body's frame; solid below, free above.
@@ -28,10 +51,21 @@ struct Plane {
   double offset = 0.0;            ///< [m]
 };
 
-using Shape = std::variant<Sphere, Box, Capsule, Plane>;
+/// A surface of triangles, fattened by a skin on its outer side; for obstacles only. Copies share
+/// the surface as those of a ConvexHull do.
+struct Mesh {
+  std::shared_ptr<const TriangleMesh> surface;  ///< not null
+  double skin = 0.0;                            ///< [m], >= 0
+};
+
+using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Mesh>;
 
 /// Radius of a ball around the body's origin that holds the shape [m]; infinite for a plane.
 [[nodiscard]] double computeBoundingRadius(const Shape& shape) noexcept;
+
+/// How far the shape reaches along a direction of the body, from its origin [m]; infinite for a
+/// plane.
+[[nodiscard]] double computeReach(const Shape& shape, const Vec3& direction_B) noexcept;
 
 /// Throws std::invalid_argument, naming the value, unless all sizes are finite and as documented.
 void checkShape(const Shape& shape);

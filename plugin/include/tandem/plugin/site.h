@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tandem/bullet_bridge/bullet_abi.h"
+#include "tandem/coordination/island_counters.h"
 #include "tandem/coordination/link.h"
 #include "tandem/falcon/haptic_device.h"
 #include "tandem/plugin/site_settings.h"
@@ -36,8 +37,17 @@ enum TickStatus : std::uint32_t {
 struct SiteCounters {
   std::uint64_t packets_sent = 0;
   std::uint64_t packets_taken = 0;
-  std::uint64_t packets_stale = 0;    ///< older than what was there already: dropped
+  std::uint64_t packets_stale = 0;    ///< nothing in it newer than what was there: dropped
   std::uint64_t packets_refused = 0;  ///< not sane: dropped
+  std::uint64_t host_steps = 0;
+  std::uint64_t host_steps_skipped = 0;  ///< of these, with nothing to do: all slept
+  std::uint64_t searches = 0;            ///< for what is around, in the host's world
+  std::uint64_t bodies_handed_off = 0;   ///< one by one
+  std::uint64_t bodies_parked = 0;       ///< put to sleep in Bullet, one by one
+  std::uint64_t bodies_woken = 0;        ///< of those
+  std::uint64_t host_clock_set = 0;      ///< the host had dropped time: its clock was set on
+  std::uint64_t promoted = 0;            ///< bodies of the host that the island took
+  std::uint64_t demoted = 0;             ///< and those that it gave back
 };
 
 /// One user's side of a networked haptic cooperation, attached to a host's Bullet world.
@@ -60,9 +70,11 @@ class Site {
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
 
-  /// Shares a dynamic box, sphere or capsule of the host's world: its mass and inertia become m/N
-  /// of what they are, until the site ends. `damping` b acts on this copy [N s/m]. Every peer
-  /// shares the same objects in the same order: that is their identity. Throws tandem::Error for a
+  /// Shares a dynamic box, sphere, capsule, cylinder or convex hull of the host's world: its mass
+  /// and inertia become m/N of what they are, until the site ends. `damping` b acts on this copy [N
+  /// s/m]. Every peer shares the same objects in the same order: that is their identity. Up to
+  /// kMaxSharedObjects. With hand-off the body sleeps in Bullet while it stands, and costs no more
+  /// than others that sleep; whatever moves, pushes or hits it wakes it. Throws tandem::Error for a
   /// body that cannot be shared, with the reason.
   ObjectId share(btRigidBody& body, double damping = 0.0);
 
@@ -77,14 +89,20 @@ class Site {
   /// All status bits since the start.
   [[nodiscard]] std::uint32_t status() const noexcept;
   [[nodiscard]] const SiteCounters& counters() const noexcept;
+  /// What the island did and what it could skip.
+  [[nodiscard]] const IslandCounters& islandCounters() const noexcept;
   [[nodiscard]] std::uint64_t tickCount() const noexcept;
 
-  /// FNV-1a over the bits of time, force and all island states of all ticks: equal runs have equal
-  /// hashes.
+  /// FNV-1a over the bits of time and force of all ticks, and of the states of all that was awake
+  /// in the island then: equal runs have equal hashes.
   [[nodiscard]] std::uint64_t stateHash() const noexcept;
 
   /// Things a user should know about what was attached, one line each.
   [[nodiscard]] std::vector<std::string> warnings() const;
+
+  /// Bodies of the host that the island holds now, besides shared ones; see
+  /// SiteSettings::max_neighbours.
+  [[nodiscard]] int neighbourCount() const noexcept;
 
   /// The latest tick's force on the device, in W [N], and whether it is a contact force above 0.
   [[nodiscard]] const Vec3& force() const noexcept;

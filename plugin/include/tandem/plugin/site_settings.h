@@ -13,6 +13,16 @@ enum class Injection {
   kImpulse,  ///< Bullet moves them under impulses F dt; the host must step at the haptic rate
 };
 
+/// Who carries contact and coupling. All but the first are what Bullet itself offers, for
+/// comparison: no island, so everything has the host's rate, and docs/native.md says what else.
+enum class ContactModel {
+  kIsland,        ///< the island: the plugin's own laws at the haptic rate
+  kNativeRigid,   ///< Bullet's rigid contact; couplers by impulses in the pre-tick
+  kNativeSoft,    ///< Bullet's contact stiffness and damping; couplers by impulses
+  kSpring6Dof,    ///< soft contact; couplers by btGeneric6DofSpring2Constraint
+  kPointToPoint,  ///< soft contact; couplers by btPoint2PointConstraint
+};
+
 /// Who calls Site::tick().
 enum class TickSource {
   kHostStep,  ///< the site itself, from the host's stepSimulation(): nothing else to do for the
@@ -36,11 +46,16 @@ struct SiteSettings {
   ProxySettings proxy;             ///< m_h, b_h and size of what stands for a remote user
   double hip_radius = 0.01;        ///< sphere of the local haptic interface point [m]
   const Scheme* scheme = nullptr;  ///< null: remote_dynamic_proxy
-  Injection injection = Injection::kHandoff;
+  ContactModel contact_model = ContactModel::kIsland;
+  Injection injection = Injection::kHandoff;  ///< of the island; native models know hand-off only
   TickSource tick_source = TickSource::kHostStep;
   std::optional<Vec3> guide;  ///< unit vector in W: a slot that leaves bodies this direction only
   double inner_step = 1.0 / 4000.0;  ///< where motion is not linear [s]; smaller is more exact
-  double fault_slew = 2000.0;        ///< after a fault the force fades by this [N/s]
+  /// Moving bodies of the host that the island may hold at a time, nearest first; 0: all stay
+  /// Bullet's.
+  int max_neighbours = 16;
+  double host_stall = 0.0;  ///< time for which the host may be silent [s]; wider search if larger
+  double fault_slew = 2000.0;  ///< after a fault the force fades by this [N/s]
 };
 
 /// Throws std::invalid_argument, naming the value and what is allowed.

@@ -1,0 +1,37 @@
+# Other physics engines, for comparison in `tandem bench accuracy`. All are optional: TANDEM_ENGINES is what
+# was found (MuJoCo, ODE, Simbody), TANDEM_ENGINE_LIBRARIES what to link.
+find_package(PkgConfig REQUIRED)
+set(TANDEM_ENGINES "")
+set(TANDEM_ENGINE_LIBRARIES "")
+
+# tandem_add_engine(NAME TARGET PACKAGE): takes an engine in if its target is there.
+macro(tandem_add_engine name target package)
+  if(TARGET ${target})
+    message(STATUS "tandem bench compares with ${name}")
+    list(APPEND TANDEM_ENGINES ${name})
+    list(APPEND TANDEM_ENGINE_LIBRARIES ${target})
+  else()
+    message(STATUS "tandem bench does without ${name}: not found (Debian: ${package})")
+  endif()
+endmacro()
+
+# Debian's own config of MuJoCo 2.2.2 names a folder that is not there.
+find_path(TANDEM_MUJOCO_INCLUDE mujoco/mujoco.h)
+find_library(TANDEM_MUJOCO_LIBRARY mujoco)
+mark_as_advanced(TANDEM_MUJOCO_INCLUDE TANDEM_MUJOCO_LIBRARY)
+if(TANDEM_MUJOCO_INCLUDE AND TANDEM_MUJOCO_LIBRARY)
+  add_library(tandem_mujoco INTERFACE IMPORTED GLOBAL)
+  target_include_directories(tandem_mujoco SYSTEM INTERFACE "${TANDEM_MUJOCO_INCLUDE}")
+  target_link_libraries(tandem_mujoco INTERFACE "${TANDEM_MUJOCO_LIBRARY}")
+endif()
+tandem_add_engine(MuJoCo tandem_mujoco libmujoco-dev)
+
+pkg_check_modules(ODE QUIET IMPORTED_TARGET GLOBAL ode)
+tandem_add_engine(ODE PkgConfig::ODE libode-dev)
+
+pkg_check_modules(SIMBODY QUIET IMPORTED_TARGET GLOBAL simbody)
+if(TARGET PkgConfig::SIMBODY)
+  # It asks for C++11.
+  set_property(TARGET PkgConfig::SIMBODY PROPERTY INTERFACE_COMPILE_OPTIONS "")
+endif()
+tandem_add_engine(Simbody PkgConfig::SIMBODY libsimbody-dev)

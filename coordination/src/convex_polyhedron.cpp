@@ -1,0 +1,87 @@
+#include "tandem/coordination/convex_polyhedron.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace tandem {
+namespace {
+
+/// Corners in front of a face by less than this part of the size are rounding of a hull that was
+/// found in single precision.
+constexpr double kTolerance = 1e-6;
+constexpr double kShortest = 1e-12;
+
+[[noreturn]] void refuse(const char* what) {
+  throw std::invalid_argument(std::string("a convex polyhedron ") + what);
+}
+
+}  // namespace
+
+ConvexPolyhedron::ConvexPolyhedron(std::vector<Vec3> vertices,
+                                   const std::vector<std::vector<int>>& faces)
+    : vertices_(std::move(vertices)) {
+  if (faces.size() < 4 || vertices_.size() < 4) refuse("needs at least four faces and corners");
+  Vec3 low = vertices_.front(), high = low;
+  for (const Vec3& v : vertices_) {
+    if (!v.allFinite()) refuse("has a corner that is not finite");
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+    bounding_radius_ = std::max(bounding_radius_, v.norm());
+  }
+  checkClosed(faces);
+  const double size = (high - low).norm();
+  for (const std::vector<int>& corners : faces) addFace(corners, size);
+}
+
+/// Each side of a face is that of another face, the other way round.
+void ConvexPolyhedron::checkClosed(const std::vector<std::vector<int>>& faces) const {
+  std::set<std::pair<int, int>> sides;
+  for (const std::vector<int>& corners : faces) {
+    if (corners.size() < 3) refuse("has a face of fewer than three corners");
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const int from = corners[i], to = corners[(i + 1) % corners.size()];
+      if (from < 0 || from >= static_cast<int>(vertices_.size()))
+        refuse("has a face with a corner that does not exist");
+      if (!sides.emplace(from, to).second) refuse("has a side that two faces run along alike");
+    }
+  }
+  for (const auto& [from, to] : sides)
+    if (!sides.count({to, from})) refuse("is not closed");
+}
+
+void ConvexPolyhedron::addFace(const std::vector<int>& corners, double size) {
+  const auto corner = [&](std::size_t i) { return vertices_[corners[i % corners.size()]]; };
+  // Newell's normal: of the plane that fits all corners.
+  Vec3 area = Vec3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    area += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
+  if (!(area.norm() > kShortest * size * size)) refuse("has a face without area");
+
+  Face face;
+  face.normal = area.normalized();
+  face.first = static_cast<int>(sides_.size());
+  face.offset = face.normal.dot(corner(0));
+  double highest = face.offset, lowest = face.offset;
+  for (const Vec3& v : vertices_) {
+    highest = std::max(highest, face.normal.dot(v));
+    lowest = std::min(lowest, face.normal.dot(v));
+  }
+  if (highest - face.offset > kTolerance * size) refuse("is not convex");
+  if (!(face.offset - lowest > kTolerance * size)) refuse("is flat");
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 way = corner(i + 1) - corner(i);
+    Side side;
+    side.start = corner(i);
+    side.length = way.norm();
+    if (!(side.length > kShortest * size)) continue;
+    side.along = way / side.length;
+    side.outward = side.along.cross(face.normal).normalized();
+    sides_.push_back(side);
+  }
+  face.count = static_cast<int>(sides_.size()) - face.first;
+  faces_.push_back(face);
+}
+
+}  // namespace tandem

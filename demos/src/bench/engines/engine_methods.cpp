@@ -1,0 +1,19 @@
+#include "bench/engines/engine_methods.h"
+
+namespace tandem::demos::bench {
+
+std::vector<std::unique_ptr<Method>> makeEngineMethods() {
+  std::vector<std::unique_ptr<Method>> engines;
+#ifdef TANDEM_WITH_MUJOCO
+  engines.push_back(makeMujoco());
+#endif
+#ifdef TANDEM_WITH_ODE
+  engines.push_back(makeOde());
+#endif
+#ifdef TANDEM_WITH_SIMBODY
+  engines.push_back(makeSimbody());
+#endif
+  return engines;
+}
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,35 @@
+#include "bench/speed/speed_command.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "bench/progress_line.h"
+#include "bench/speed/speed_report.h"
+#include "plot/gnuplot.h"
+#include "run_output.h"
+
+namespace tandem::demos::bench {
+
+void runSpeedCommand(const SpeedCommand& command) {
+  if (command.folder) {
+    prepareFolder(*command.folder);
+    plot::requireGnuplot(*command.folder);
+  }
+  SpeedReport report;
+  {
+    const ProgressLine line;
+    report = measureSpeed(command.quick,
+                          [&](std::string_view what, double share) { line.show(what, share); });
+  }
+  const std::string json = makeSpeedJson(report, command.quick).dump(2) + "\n";
+  if (command.folder) {
+    plot::writeText(std::filesystem::path(*command.folder) / "speed.json", json);
+    plot::drawFigure(makeSpeedFigure(report), *command.folder);
+  }
+  fmt::print("{}", command.json ? json : makeSpeedTable(report));
+  if (std::fflush(stdout) != 0)
+    throw Error("cannot write to the standard output: is its disk full?");
+}
+
+}  // namespace tandem::demos::bench

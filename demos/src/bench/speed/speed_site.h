@@ -1,0 +1,57 @@
+#pragma once
+
+#include "tandem/plugin/site.h"
+
+#include "bench/speed/speed_world.h"
+
+namespace tandem::demos::bench {
+
+/// A scene with a site, as a host at 60 Hz has it: a device, and a remote user whose packets come
+/// 128 times per second.
+class SpeedSite {
+ public:
+  static constexpr double kHapticRate = 1000.0, kHostRate = 60.0;  // [Hz]
+
+  explicit SpeedSite(const SpeedScene& scene);
+
+  /// The next haptic tick. Ticks of a host step come before it.
+  void tick() { site_.tick(now()); }
+  /// The ticks that begin before `end` [s]; returns how many.
+  int tickUntil(double end);
+  void stepHost() { world_.step(1.0 / kHostRate); }
+  [[nodiscard]] const Site& site() const { return site_; }
+
+ private:
+  class PathDevice final : public HapticDevice {
+   public:
+    explicit PathDevice(const SpeedScene& scene) : scene_(scene) {}
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceSample read(double now) noexcept override { return {handAt(scene_, now), true}; }
+    void write(const Vec3&) noexcept override {}
+
+   private:
+    SpeedScene scene_;
+    DeviceCapabilities capabilities_{"path"};
+  };
+
+  /// Without objects: these stay tied to where they were shared.
+  class PathLink final : public Link {
+   public:
+    explicit PathLink(const SpeedScene& scene) : scene_(scene) { packet_.sender = PeerId{2}; }
+    void send(const StatePacket&, double) noexcept override {}
+    std::optional<Arrival> receive(double from, double until) noexcept override;
+
+   private:
+    SpeedScene scene_;
+    StatePacket packet_;
+  };
+
+  [[nodiscard]] double now() const { return static_cast<double>(site_.tickCount()) / kHapticRate; }
+
+  SpeedWorld world_;
+  PathDevice device_;
+  PathLink link_;
+  Site site_;
+};
+
+}  // namespace tandem::demos::bench

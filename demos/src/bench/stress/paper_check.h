@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bench/stress/stress_case.h"
+
+namespace tandem::demos::bench {
+
+/// Follows a case of kind kPaper beside the solver of the paper's equations, which knows nothing of
+/// the library: stable or not, both must say the same.
+///
+/// Bouncing contact multiplies any difference at each impact, so the comparison ends when contact
+/// has been made or broken kMostChanges times.
+class PaperCheck {
+ public:
+  static constexpr int kMostChanges = 4;
+
+  /// Solves the case. Throws std::invalid_argument for a case of another kind.
+  explicit PaperCheck(const StressCase& one);
+
+  /// Compares the devices at the start of a tick; displacements along the axis [m].
+  void compare(std::uint64_t tick, double x1, double x2);
+
+  /// Largest difference by the largest displacement so far.
+  [[nodiscard]] double worst() const { return worst_; }
+
+ private:
+  struct Row {
+    double x1, x2;
+  };
+  std::vector<Row> rows_;  ///< as far as they are compared
+  double largest_ = 0.0, worst_ = 0.0;
+};
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "tandem/coordination/shape.h"
+#include "tandem/coordination/simulated_link.h"
+#include "tandem/coordination/virtual_coupler.h"
+
+/// \file
+/// What `tandem bench stress` draws: scenes with absurd gains, masses, steps and delays.
+namespace tandem::demos::bench {
+
+enum class StressKind {
+  kTwoSites,    ///< two users, each with a world, share a free body over a simulated link
+  kGuided,      ///< the same in a slot, each user's device on it
+  kPaper,       ///< Experiment I or II of the paper, which has a reference
+  kScripted,    ///< one site; the remote users are scripts, the shared body and obstacles are free
+  kRigid,       ///< cube on a floor with friction, among static boxes, pushed about
+  kNeighbours,  ///< the same among the host's own boxes; several shared bodies
+};
+inline constexpr int kStressKindCount = 6;
+[[nodiscard]] std::string_view nameOf(StressKind kind);
+
+/// Something that the host's world has.
+struct StressBody {
+  Shape shape;
+  double mass = 0.0;  ///< of this copy [kg]; 0: static
+  bool is_shared = false;
+  RigidState start;
+};
+
+/// What a scripted user does: from `start_W` evenly, or to and fro, or by leaps.
+struct StressPath {
+  enum class Form { kEven, kSine, kLeaps } form = Form::kEven;
+  Vec3 start_W = Vec3::Zero();
+  Vec3 v_W = Vec3::Zero();  ///< at the start [m/s]
+  double turn_time = 0.0;   ///< kEven: when it turns round [s]; kSine: 1/w [s]; kLeaps: between two
+  Vec3 leap_W = Vec3::Zero();  ///< kLeaps: way of one leap, there and back [m]
+
+  [[nodiscard]] PointState at(double time) const;
+};
+
+/// A user: the device at this site, or a script that stands for a remote.
+struct StressUser {
+  StressPath path;  ///< of scripted ones; others start at its start
+  bool is_scripted = true;
+  double device_mass = 0.1, device_damping = 0.5;  ///< simulated device [kg, N s/m]
+  double max_force = 0.0;                          ///< of the device [N]; 0: no limit
+  Vec3 hand_W = Vec3::Zero();                      ///< constant force of the hand [N]
+};
+
+/// One case: everything that decides its run.
+struct StressCase {
+  std::uint64_t seed = 0;
+  std::uint64_t index = 0;
+  StressKind kind = StressKind::kTwoSites;
+  double duration = 0.2;  ///< [s]
+  double host_step = 1.0 / 60.0, packet_rate = 128.0, haptic_rate = 1000.0;
+  CouplerGains contact, coordination;
+  std::optional<CouplerGains> angular;
+  double proxy_mass = 0.1, proxy_damping = 0.0, radius = 0.01, object_damping = 0.0;
+  double friction = 0.0;
+  Impairments network;
+  Vec3 origin_W = Vec3::Zero();
+  Vec3 gravity_W = Vec3::Zero();
+  std::optional<Vec3> guide;
+  std::string_view scheme = "remote_dynamic_proxy";
+  std::vector<StressBody> bodies;
+  std::vector<StressUser> users;  ///< the local one, then the remote ones
+};
+
+/// Case `index` of a seed. Equal arguments, equal case.
+[[nodiscard]] StressCase drawStressCase(std::uint64_t seed, std::uint64_t index);
+
+}  // namespace tandem::demos::bench

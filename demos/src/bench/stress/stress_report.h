@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/stress/stress.h"
+
+namespace tandem::demos::bench {
+
+/// stress.json: counts and worst values by kind, every failed case, and the maps. Equal in every
+/// run on one machine but for `seconds`.
+[[nodiscard]] nlohmann::json makeStressJson(const StressResult& result);
+
+/// The same as a table for readers.
+[[nodiscard]] std::string makeStressTable(const StressResult& result);
+
+/// A case and its energy account over time, for readers.
+[[nodiscard]] std::string describeCase(const StressCase& one);
+/// Everything that decides the case, and what came of it.
+[[nodiscard]] nlohmann::json makeCaseJson(const StressCase& one, const StressOutcome& outcome);
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,76 @@
+#include "native_model.h"
+
+#include "tandem/bullet_bridge/haptic_body.h"
+#include "tandem/bullet_bridge/sphere_body.h"
+
+namespace tandem {
+namespace {
+
+NativeCouplerKind couplerKind(ContactModel model) {
+  if (model == ContactModel::kSpring6Dof) return NativeCouplerKind::kSpring6Dof;
+  if (model == ContactModel::kPointToPoint) return NativeCouplerKind::kPointToPoint;
+  return NativeCouplerKind::kImpulse;
+}
+
+}  // namespace
+
+NativeModel::NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& settings,
+                         const Vec3& hand_W)
+    : world_(world), settings_(settings), hand_(world, settings.hip_radius, hand_W) {}
+
+NativeModel::~NativeModel() {
+  for (btRigidBody* body : damped_) body->setDamping(0, 0);
+}
+
+void NativeModel::addObject(const HapticBody& object, double damping) {
+  setNativeDamping(object.body(), damping);
+  damped_.push_back(&object.body());
+  guide(object.body());
+  soften(hand_.rigid());
+}
+
+void NativeModel::addProxy(const SphereBody& proxy) {
+  setNativeDamping(proxy.rigid(), settings_.proxy.damping);
+  guide(proxy.rigid());
+  soften(proxy.rigid());
+}
+
+KinematicSphere& NativeModel::addHeldProxy(BodyIndex body, const Vec3& p_W) {
+  held_.push_back({body, std::make_unique<KinematicSphere>(world_, settings_.proxy.radius, p_W)});
+  soften(held_.back().sphere->rigid());
+  return *held_.back().sphere;
+}
+
+void NativeModel::addCoupler(btRigidBody& body, CouplerIndex index, CouplerSettings coupler) {
+  if (settings_.guide) coupler.angular = {};
+  couplers_.push_back(
+      {index, makeNativeCoupler(couplerKind(settings_.contact_model), world_, body, coupler)});
+}
+
+void NativeModel::guide(btRigidBody& body) {
+  if (settings_.guide) guides_.push_back(std::make_unique<NativeGuide>(body, *settings_.guide));
+}
+
+void NativeModel::soften(btRigidBody& sphere) const {
+  if (settings_.contact_model != ContactModel::kNativeRigid)
+    setSoftContact(sphere, settings_.contact);
+}
+
+bool NativeModel::isPresent() const noexcept {
+  bool present = hand_.isInWorld();
+  for (const Held& held : held_) present &= held.sphere->isInWorld();
+  return present;
+}
+
+void NativeModel::beginStep(const Island& island, const Vec3& hand_end_W, double dt) noexcept {
+  hand_.moveTo(hand_end_W, dt);
+  for (const Held& held : held_) held.sphere->hold(island.state(held.body).point());
+  for (const Coupled& coupled : couplers_) coupled.coupler->pull(island.target(coupled.index), dt);
+}
+
+void NativeModel::endStep(double dt) noexcept {
+  hand_force_W_ = computeContactImpulse(world_, hand_.rigid()) / dt;
+  hand_.arrive();
+}
+
+}  // namespace tandem

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tandem/bullet_bridge/native_coupling.h"
+#include "tandem/coordination/island.h"
+#include "tandem/plugin/site_settings.h"
+
+namespace tandem {
+
+class HapticBody;
+class SphereBody;
+
+/// A site's contact and couplers by what Bullet itself offers, in the host's own world and at the
+/// host's rate. The island then moves nothing: it keeps the states and targets that the site's tick
+/// reads and writes.
+///
+/// The local hand is a kinematic sphere. With soft contact the spheres carry the gains and what
+/// they touch is rigid. Two spheres would be in series, so the hand carries only where it has
+/// something else to touch: a shared object.
+class NativeModel {
+ public:
+  NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& settings, const Vec3& hand_W);
+  /// The damping of objects is off again, as HapticBody has it.
+  ~NativeModel();
+  NativeModel(const NativeModel&) = delete;
+  NativeModel& operator=(const NativeModel&) = delete;
+
+  /// Set-up, once for each thing; may throw std::invalid_argument.
+  void addObject(const HapticBody& object, double damping);
+  void addProxy(const SphereBody& proxy);
+  /// A proxy that is what it was told: a kinematic sphere that stands at the state of `body`.
+  KinematicSphere& addHeldProxy(BodyIndex body, const Vec3& p_W);
+  /// The counterpart of the island's coupler `index`, with its target.
+  void addCoupler(btRigidBody& body, CouplerIndex index, CouplerSettings coupler);
+
+  /// False once somebody has taken the hand or a held proxy out of the world.
+  [[nodiscard]] bool isPresent() const noexcept;
+
+  /// Pre-tick and post-tick of a host step of dt [s], over which the hand moves to `hand_end_W`.
+  void beginStep(const Island& island, const Vec3& hand_end_W, double dt) noexcept;
+  void endStep(double dt) noexcept;
+
+  /// Contact force on the hand: the impulses of the latest host step over its length, in W [N].
+  [[nodiscard]] const Vec3& handForce() const noexcept { return hand_force_W_; }
+
+ private:
+  struct Held {
+    BodyIndex body;
+    std::unique_ptr<KinematicSphere> sphere;
+  };
+  struct Coupled {
+    CouplerIndex index;
+    std::unique_ptr<NativeCoupler> coupler;
+  };
+
+  void guide(btRigidBody& body);
+  void soften(btRigidBody& sphere) const;
+
+  btDiscreteDynamicsWorld& world_;
+  SiteSettings settings_;
+  KinematicSphere hand_;
+  std::vector<Held> held_;
+  std::vector<Coupled> couplers_;
+  std::vector<std::unique_ptr<NativeGuide>> guides_;
+  Vec3 hand_force_W_ = Vec3::Zero();
+  std::vector<btRigidBody*> damped_;
+};
+
+}  // namespace tandem

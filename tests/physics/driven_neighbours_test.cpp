@@ -1,0 +1,231 @@
+// Kinematic bodies of the host: grippers, lifts, belts. They go where the host moves them, and push
+// and rub what the island holds.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "physics/neighbour_scene.h"
+
+namespace tandem {
+namespace {
+
+using test::byWidth;
+using test::kGravity;
+using test::NeighbourScene;
+
+constexpr double kHalf = NeighbourScene::kHalf;  // [m]
+constexpr double kPeriod = 1.0 / 60;             // [s]
+
+/// A scene ticked by hand, with a kinematic box that the host moves along a path.
+struct DrivenScene : NeighbourScene {
+  explicit DrivenScene(bool has_weight) : NeighbourScene(has_weight) {
+    settings.tick_source = TickSource::kCaller;
+    settings.host_step = kPeriod;
+  }
+  btRigidBody& addDriven(const Vec3& half, const Vec3& p_W) {
+    driven = &rig.addBody(rig.makeShape<btBoxShape>(toBullet(half)), 0.0, p_W);
+    rig.world.removeRigidBody(driven);
+    driven->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    driven->setActivationState(DISABLE_DEACTIVATION);
+    driven->setFriction(static_cast<btScalar>(std::sqrt(kFriction)));
+    rig.world.addRigidBody(driven);
+    return *driven;
+  }
+  [[nodiscard]] double now() const { return static_cast<double>(site->tickCount()) / 1000.0; }
+  [[nodiscard]] double hostTime() const { return steps * kPeriod; }
+
+  /// The host, `late` [s], puts the driven body to `place`(t) for the step that ends at t.
+  template <typename Place, typename EachTick>
+  void runDriven(double until, double late, Place place, EachTick each_tick) {
+    while (hostTime() < until - 1e-9) {
+      while (now() < hostTime() + kPeriod + late - 1e-9) {
+        site->tick(now());
+        each_tick();
+      }
+      driven->setWorldTransform(place(hostTime() + kPeriod));
+      rig.step(kPeriod);
+      ++steps;
+    }
+  }
+  btRigidBody* driven = nullptr;
+  int steps = 0;
+};
+
+class DrivenNeighbours : public ::testing::TestWithParam<double> {};
+
+// A lift with a load: Coulomb holds it up to mu g, and it rides along.
+TEST_P(DrivenNeighbours, MovingFloorCarriesTheCube) {
+  DrivenScene scene(true);
+  scene.addDriven(Vec3(0.5, 0.5, 0.05), Vec3(0.0, 0.0, -0.05));
+  scene.start(Vec3(0.0, 0.0, kHalf));
+  // From rest to 0.3 m/s with 1 m/s^2, below mu g = 2.9.
+  const auto x = [](double t) { return t < 0.3 ? 0.5 * t * t : 0.3 * t - 0.045; };
+  scene.runDriven(
+      1.5, GetParam(), [&](double t) { return toBullet(Vec3(x(t), 0.0, -0.05), Quat::Identity()); },
+      [] {});
+  EXPECT_NEAR(scene.site->object(0).v_W.x(), 0.3, 1e-6);
+  EXPECT_NEAR(scene.site->object(0).p_W.z(), kHalf, 1e-5);
+  // What it was late by, it slid: at most v^2 / 2 mu g less than a way of two periods and the
+  // delay.
+  EXPECT_NEAR(scene.positionOf(*scene.cube).x(), x(scene.hostTime()),
+              0.3 * (2 * kPeriod + GetParam()));
+  EXPECT_EQ(scene.site->neighbourCount(), 1);
+}
+
+// Too fast a start: it slips with mu g until it is as fast.
+TEST_P(DrivenNeighbours, MovingFloorSlipsUnderTheCube) {
+  DrivenScene scene(true);
+  scene.addDriven(Vec3(2.0, 0.5, 0.05), Vec3(0.0, 0.0, -0.05));
+  scene.start(Vec3(0.0, 0.0, kHalf));
+  std::vector<Vec3> velocities;
+  scene.runDriven(
+      1.0, GetParam(),
+      [&](double t) { return toBullet(Vec3(t - 0.1, 0.0, -0.05), Quat::Identity()); },
+      [&] { velocities.push_back(scene.site->object(0).v_W); });
+  // 1 m/s at 2.943 m/s^2 takes 0.34 s; it has begun by 0.1 s.
+  const double gained = velocities[300].x() - velocities[200].x();
+  EXPECT_NEAR(gained, 0.1 * NeighbourScene::kFriction * kGravity, 2e-3);
+  EXPECT_NEAR(velocities.back().x(), 1.0, test::byWidth(1e-6, 1e-5));
+}
+
+// A wall pushes it along; face on face, no overlap, at the wall's speed.
+TEST_P(DrivenNeighbours, MovingWallPushesTheCube) {
+  for (const bool on_floor : {false, true}) {
+    DrivenScene scene(on_floor);
+    if (on_floor) scene.addFloor();
+    const double z = on_floor ? kHalf : 0.0;
+    scene.addDriven(Vec3(0.02, 0.1, 0.1), Vec3(-0.08, 0.0, z + 0.11 - kHalf));
+    scene.start(Vec3(0.0, 0.0, z));
+    scene.runDriven(
+        1.0, GetParam(),
+        [&](double t) {
+          return toBullet(Vec3(-0.08 + 0.2 * t, 0.0, z + 0.11 - kHalf), Quat::Identity());
+        },
+        [] {});
+    EXPECT_NEAR(scene.site->object(0).v_W.x(), 0.2, 1e-6) << on_floor;
+    EXPECT_NEAR(scene.positionOf(*scene.cube).x() - scene.positionOf(*scene.driven).x(), 0.04, 1e-5)
+        << on_floor;
+    EXPECT_LT(std::abs(scene.site->object(0).w_W.norm()), 1e-3);
+  }
+}
+
+// To and fro, never steady: what is guessed wrong is mended without a kick.
+TEST_P(DrivenNeighbours, SwingingWallKeepsTheCubeOnItsFace) {
+  DrivenScene scene(true);
+  scene.addFloor();
+  scene.addDriven(Vec3(0.02, 0.1, 0.1), Vec3(-0.0405, 0.0, 0.101));
+  scene.start(Vec3(0.0, 0.0, kHalf));
+  // 3 cm at 0.5 Hz: at most 0.1 m/s.
+  double fastest = 0.0;
+  const auto x = [](double t) { return -0.0405 + 0.03 * std::sin(M_PI * t); };
+  scene.runDriven(
+      2.0, GetParam(), [&](double t) { return toBullet(Vec3(x(t), 0.0, 0.101), Quat::Identity()); },
+      [&] { fastest = std::max(fastest, scene.site->object(0).v_W.norm()); });
+  // It starts at full speed, and is two periods and the delay behind by then, to be made up in 0.1
+  // s.
+  EXPECT_LT(fastest, 0.03 * M_PI * (1.0 + (2 * kPeriod + GetParam()) / 0.1));
+  // It was pushed as far as the wall went, and stays there: friction stops it at once.
+  EXPECT_NEAR(scene.positionOf(*scene.cube).x(), 0.03 - 5e-4, 1.5e-3);
+}
+
+// Turning counts: a paddle that sweeps round meets the cube with w x r.
+TEST_P(DrivenNeighbours, TurningPaddleSweepsTheCube) {
+  DrivenScene scene(false);
+  scene.addDriven(Vec3(0.2, 0.005, 0.05), Vec3(0.0, -0.1, 0.0));
+  scene.start(Vec3(0.15, 0.0, 0.0));
+  const auto pose = [](double t) {
+    return toBullet(Vec3(0.0, -0.1, 0.0), test::turn(1.0 * t, Vec3::UnitZ()));
+  };
+  scene.runDriven(1.0, GetParam(), pose, [] {});
+  const Vec3 v = scene.site->object(0).v_W;
+  // Some 0.15 m/s, across the paddle as it stood then.
+  EXPECT_NEAR(v.norm(), 0.17, 0.06);
+  EXPECT_GT(v.y(), 0.1);
+}
+INSTANTIATE_TEST_SUITE_P(Lateness, DrivenNeighbours, ::testing::Values(0.0, kPeriod, 0.025));
+
+// Bullet has the pose of all sub-steps' end from the first of them on.
+TEST(DrivenNeighbour, SubStepsDoNotMakeItFaster) {
+  NeighbourScene scene;
+  scene.settings.host_step = kPeriod;
+  btRigidBody& wall =
+      scene.rig.addBody(scene.rig.makeShape<btBoxShape>(toBullet(Vec3(0.02, 0.1, 0.1))), 0.0,
+                        Vec3(-0.0405, 0.0, 0.0));
+  scene.rig.world.removeRigidBody(&wall);
+  wall.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+  wall.setActivationState(DISABLE_DEACTIVATION);
+  scene.rig.world.addRigidBody(&wall);
+  scene.start();
+  for (int call = 1; call <= 10; ++call) {
+    const double t = call * 4 * kPeriod;
+    wall.setWorldTransform(toBullet(Vec3(-0.0405 + 0.2 * t, 0.0, 0.0), Quat::Identity()));
+    scene.rig.world.stepSimulation(static_cast<btScalar>(4 * kPeriod), 4,
+                                   static_cast<btScalar>(kPeriod));
+    EXPECT_LT(scene.site->object(0).v_W.x(), 0.2 + 1e-6) << call;
+    EXPECT_NEAR(scene.positionOf(*scene.cube).x() - scene.positionOf(wall).x(), 0.04,
+                call < 2 ? 0.2 * 4 * kPeriod : 1e-4)
+        << call;
+  }
+}
+
+// A body that stays where it is but has a velocity: only its surface moves.
+TEST(DrivenNeighbour, BeltCarriesTheCubeAndStays) {
+  DrivenScene scene(true);
+  btRigidBody& belt = scene.addDriven(Vec3(1.0, 0.2, 0.05), Vec3(0.0, 0.0, -0.05));
+  scene.start(Vec3(0.0, 0.0, kHalf));
+  // Bullet works out kinematic velocities before each step; the host's own callback sets another.
+  struct Belt {
+    static void run(btDynamicsWorld* world, btScalar) {
+      static_cast<btRigidBody*>(world->getWorldUserInfo())
+          ->setLinearVelocity(btVector3(btScalar(0.2), 0, 0));
+    }
+  };
+  scene.site.reset();
+  scene.rig.world.setInternalTickCallback(Belt::run, &belt, true);
+  scene.site = std::make_unique<Site>(scene.settings, scene.rig.world, scene.device);
+  scene.site->share(*scene.cube);
+  scene.runDriven(
+      1.0, 0.0, [&](double) { return toBullet(Vec3(0.0, 0.0, -0.05), Quat::Identity()); }, [] {});
+  EXPECT_NEAR(scene.site->object(0).v_W.x(), 0.2, 1e-6);
+  EXPECT_NEAR(scene.positionOf(*scene.cube).x(), 0.2, 0.03);
+  EXPECT_NEAR(scene.site->object(0).p_W.z(), kHalf, 1e-5);
+  // The belt stops, and so does the load.
+  scene.rig.world.setWorldUserInfo(&scene.rig.addCube(0.0, 0.01, Vec3(0.0, 0.0, 5.0)));
+  scene.runDriven(
+      1.5, 0.0, [&](double) { return toBullet(Vec3(0.0, 0.0, -0.05), Quat::Identity()); }, [] {});
+  EXPECT_LT(scene.site->object(0).v_W.norm(), 1e-6);
+  scene.site.reset();
+}
+
+// The hand is pushed, and pushes back at what does not mind.
+TEST(DrivenNeighbour, IsFeltByTheHand) {
+  DrivenScene scene(false);
+  scene.addDriven(Vec3(0.02, 0.1, 0.1), Vec3(-0.1, 0.0, 0.0));
+  scene.start(Vec3(0.0, 0.5, 0.0));
+  scene.device.sample.hip.p_W = Vec3(0.0, 0.0, 0.0);
+  // Its face comes to 1 cm + 2 mm of overlap from below, and stands there.
+  const auto x = [](double t) { return -0.03 + 0.002 - 0.072 * std::max(0.0, 1.0 - 2.0 * t); };
+  scene.runDriven(
+      2.5, kPeriod, [&](double t) { return toBullet(Vec3(x(t), 0.0, 0.0), Quat::Identity()); },
+      [] {});
+  EXPECT_NEAR(scene.site->force().x(), 2000.0 * 0.002, 1e-4);
+}
+
+// Up and down, slower than it would fall.
+TEST(DrivenNeighbour, LiftCarriesTheCube) {
+  for (const double late : {0.0, kPeriod}) {
+    DrivenScene scene(true);
+    scene.addDriven(Vec3(0.1, 0.1, 0.02), Vec3(0.0, 0.0, -0.02));
+    scene.start(Vec3(0.0, 0.0, kHalf));
+    const auto z = [](double t) { return -0.02 + 0.05 * (1.0 - std::cos(M_PI * t)); };
+    scene.runDriven(
+        2.5, late, [&](double t) { return toBullet(Vec3(0.0, 0.0, z(t)), Quat::Identity()); },
+        [] {});
+    EXPECT_NEAR(scene.positionOf(*scene.cube).z(), z(scene.hostTime()) + 0.04, 3e-3) << late;
+    EXPECT_NEAR(scene.site->object(0).p_W.head<2>().norm(), 0.0, 1e-5) << late;
+  }
+}
+
+}  // namespace
+}  // namespace tandem

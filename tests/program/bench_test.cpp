@@ -1,0 +1,131 @@
+// How `tandem bench` is used, and the errors that the plugin keeps to whatever the host's
+// step. Run times are measured, never asserted.
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program/process.h"
+
+namespace tandem::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Outcome runBench(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"bench", "accuracy", "--quick"});
+  return runTandem(arguments);
+}
+
+TEST(BenchAccuracy, JsonIsExactlyTheFile) {
+  const TempFolder folder;
+  const Outcome outcome = runBench({"--scene", "lone_coupler", "--json", "--out", folder / "a/b"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out, readFile(folder / "a/b/accuracy.json"));
+  const std::vector<std::string> files = {"accuracy.json", "accuracy.png", "accuracy.svg",
+                                          "accuracy_force.png", "accuracy_force.svg"};
+  EXPECT_EQ(listFolder(folder / "a/b"), files);
+}
+
+TEST(BenchAccuracy, TableSaysWhatIsWhat) {
+  const Outcome outcome = runBench({"--scene", "press"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");  // progress is for terminals
+  for (const char* word : {"5 N press", "60 Hz", "plugin handoff", "force injection", "reference"})
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in:\n" << outcome.out;
+}
+
+TEST(BenchAccuracy, RefusesAnUnknownScene) {
+  const Outcome outcome = runBench({"--scene", "moon"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.find("tandem: moon: there is no such scene; allowed: lone_coupler"), 0u)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1);
+}
+
+TEST(BenchAccuracy, NeedsToBeToldWhatToMeasure) {
+  const Outcome outcome = runTandem({"bench"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1);
+}
+
+struct Limit {
+  const char* scene;
+  double error;  // of any position, at any host rate [m]
+};
+
+class BenchLimits : public ::testing::TestWithParam<Limit> {};
+INSTANTIATE_TEST_SUITE_P(Smooth, BenchLimits,
+                         ::testing::Values(Limit{"lone_coupler", 1e-9}, Limit{"press", 1e-6},
+                                           Limit{"impact", 1e-5}, Limit{"chain", 1e-6},
+                                           Limit{"sphere", 1e-6}, Limit{"corner", 1e-6}),
+                         [](const auto& one) { return std::string(one.param.scene); });
+
+TEST_P(BenchLimits, HandoffKeepsToThem) {
+  const Outcome outcome = runBench({"--scene", GetParam().scene, "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json bench = Json::parse(outcome.out);
+  int compared = 0;
+  for (const Json& run : bench["scenes"][0]["runs"]) {
+    if (run["method"] != "plugin handoff") continue;
+    ASSERT_EQ(run["status"], "good") << run;
+    EXPECT_LT(run["errors"]["tool"].get<double>(), GetParam().error) << run;
+    EXPECT_LT(run["errors"]["body"].get<double>(), GetParam().error) << run;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 3);  // host rates of --quick
+}
+
+Outcome runStress(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"bench", "stress"});
+  return runTandem(arguments);
+}
+
+TEST(BenchStress, JsonIsExactlyTheFile) {
+  const TempFolder folder;
+  const Outcome outcome = runStress({"--quick", "--cases", "6", "--json", "--out", folder / "a"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out, readFile(folder / "a/stress.json"));
+  const std::vector<std::string> files = {"stability.png", "stability.svg", "stress.json"};
+  EXPECT_EQ(listFolder(folder / "a"), files);
+}
+
+// All drawn anew from another seed than the documented run's. Counts of work end a case, no clock
+// does; cases that are held to 1e-6 alone are those allowed less than as much again.
+TEST(BenchStress, FindsNothing) {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int kCases = 60;  // half a second each there
+#else
+  constexpr int kCases = 300;
+#endif
+  const Outcome outcome =
+      runStress({"--quick", "--seed", "2", "--cases", std::to_string(kCases), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  const Json bench = Json::parse(outcome.out);
+  EXPECT_EQ(bench["all"]["cases"], kCases);
+  EXPECT_EQ(bench["failed"].size(), 0u);
+  EXPECT_LT(bench["all"]["worst_strict"].get<double>(), 2e-6);
+  for (const Json& map : bench["maps"]) {
+    if (map["method"] != "plugin handoff") continue;
+    for (const Json& line : map["cells"])
+      for (const Json& cell : line) EXPECT_EQ(cell, "stable");
+  }
+}
+
+TEST(BenchStress, ShowsOneCaseWithItsAccount) {
+  const Outcome outcome = runStress({"--case", "5"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* word : {"case 5 of seed 1", "motion", "by targets", "lost", "good"})
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in:\n" << outcome.out;
+}
+
+TEST(BenchStress, RefusesNoCases) {
+  const Outcome outcome = runStress({"--cases", "0"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "tandem: --cases 0: must be 1 to 10000000\n");
+}
+
+}  // namespace
+}  // namespace tandem::test
