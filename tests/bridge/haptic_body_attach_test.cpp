@@ -1,5 +1,4 @@
 #include <cstring>
-#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include "tandem/bullet_bridge/haptic_body.h"
 
 #include "bridge/bullet_rig.h"
+#include "support/random.h"
 
 namespace tandem {
 namespace {
@@ -64,8 +64,8 @@ bool mentions(const HapticBody& body, const std::string& word) {
 TEST(HapticBodyAttach, RestoresEverythingBitForBit) {
   constexpr std::uint64_t kSeed = 7;
   RecordProperty("seed", std::to_string(kSeed));
-  std::mt19937_64 random(kSeed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  test::Random random(kSeed);
+  const auto uniform = [&] { return random.uniform(0.0, 1.0); };
   BulletRig rig(Vec3(0.1, -9.81, 0.3));
   btCollisionShape& shape = rig.makeShape<btBoxShape>(btVector3(1, 2, 3));
   for (int i = 0; i < 500; ++i) {

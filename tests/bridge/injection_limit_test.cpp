@@ -1,11 +1,12 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "tandem/bullet_bridge/haptic_body.h"
+
+#include "support/random.h"
 
 namespace tandem {
 namespace {
@@ -26,8 +27,8 @@ constexpr double kUnit = 1.0 + 1e-7;
 TEST(InjectionStepLimit, IsWhereTheStepMapLeavesTheUnitCircle) {
   constexpr std::uint64_t kSeed = 20090121;
   RecordProperty("seed", std::to_string(kSeed));
-  std::mt19937_64 random(kSeed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  test::Random random(kSeed);
+  const auto uniform = [&] { return random.uniform(0.0, 1.0); };
   for (int i = 0; i < 2000; ++i) {
     const double K = std::pow(10.0, 5.0 * uniform());         // [N/m]
     const double B = std::pow(10.0, -2.0 + 4.0 * uniform());  // [N s/m]

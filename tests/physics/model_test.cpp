@@ -2,21 +2,16 @@
 // of eqs (1)-(14).
 
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "bench/reference/paper_reference.h"
 #include "scenario.h"
+#include "support/random.h"
 #include "virtual_run.h"
 
 namespace tandem::demos {
 namespace {
-
-/// Own distribution: the same draws with every standard library.
-double draw(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-}
 
 Scenario makeScenario(const reference::PaperParameters& p, const Vec3& axis) {
   Scenario s;
@@ -40,28 +35,28 @@ Scenario makeScenario(const reference::PaperParameters& p, const Vec3& axis) {
   return s;
 }
 
-reference::PaperParameters drawParameters(std::mt19937_64& random, reference::Experiment experiment,
+reference::PaperParameters drawParameters(test::Random& random, reference::Experiment experiment,
                                           reference::Scheme scheme) {
   reference::PaperParameters p = experiment == reference::Experiment::kUserContact
                                      ? reference::makeUserContact(scheme)
                                      : reference::makeCooperativeManipulation(scheme);
-  p.hand_force_1 = draw(random, 1.0, 8.0);
-  p.hand_force_2 = draw(random, -2.0, 0.0);
-  p.contact = {draw(random, 800.0, 6000.0), draw(random, 0.5, 8.0)};
-  p.coordination = {draw(random, 80.0, 400.0), draw(random, 8.0, 40.0)};
-  p.object_mass = draw(random, 0.1, 0.6);
-  p.object_damping = draw(random, 0.0, 0.5);
-  p.proxy_mass = draw(random, 0.06, 0.3);
-  p.proxy_damping = draw(random, 0.0, 0.5);
-  p.device_damping = draw(random, 0.2, 3.0);
-  p.sampling.delay = draw(random, 0.01, 0.15);
-  p.sampling.packet_rate = draw(random, 60.0, 400.0);
+  p.hand_force_1 = random.uniform(1.0, 8.0);
+  p.hand_force_2 = random.uniform(-2.0, 0.0);
+  p.contact = {random.uniform(800.0, 6000.0), random.uniform(0.5, 8.0)};
+  p.coordination = {random.uniform(80.0, 400.0), random.uniform(8.0, 40.0)};
+  p.object_mass = random.uniform(0.1, 0.6);
+  p.object_damping = random.uniform(0.0, 0.5);
+  p.proxy_mass = random.uniform(0.06, 0.3);
+  p.proxy_damping = random.uniform(0.0, 0.5);
+  p.device_damping = random.uniform(0.2, 3.0);
+  p.sampling.delay = random.uniform(0.01, 0.15);
+  p.sampling.packet_rate = random.uniform(60.0, 400.0);
   p.sampling.duration = 1.0;
   return p;
 }
 
-Vec3 drawAxis(std::mt19937_64& random) {
-  return Vec3(draw(random, -1, 1), draw(random, -1, 1), draw(random, -1, 1)).normalized();
+Vec3 drawAxis(test::Random& random) {
+  return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
 }
 
 /// Difference of a trace to its reference, over the largest size of the reference.
@@ -136,7 +131,7 @@ class Model : public ::testing::TestWithParam<ModelCase> {};
 // Smooth runs agree within 1 %. Where contact comes and goes the motion is chaotic and the
 // model itself does not tell digits: such draws are counted, and may not be many.
 TEST_P(Model, AgreesForParametersInNoFile) {
-  std::mt19937_64 random(GetParam().seed);
+  test::Random random(GetParam().seed);
   int told = 0;
   constexpr int kTrials = 12;
   for (int trial = 0; trial < kTrials; ++trial) {

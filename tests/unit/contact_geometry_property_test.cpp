@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tandem/coordination/contact_geometry.h"
 
+#include "support/random.h"
 #include "support/solids.h"
 
 // What must hold for any shape in any pose. Scenes are about 1 m large, so that rounding is near
@@ -23,31 +23,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-13;
 constexpr std::uint64_t kSeed = 20090201;
 
-/// Own distributions: the standard ones differ between libraries.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
-  }
-  Vec3 inCube(double half) {
-    const double x = uniform(-half, half), y = uniform(-half, half), z = uniform(-half, half);
-    return {x, y, z};
-  }
-  Vec3 direction() {
-    const double z = uniform(-1.0, 1.0), angle = uniform(0.0, 2.0 * kPi);
-    const double across = std::sqrt(1.0 - z * z);
-    return {across * std::cos(angle), across * std::sin(angle), z};
-  }
-  Quat rotation() {
-    const Vec3 axis = direction();
-    return Quat(Eigen::AngleAxisd(uniform(-kPi, kPi), axis));
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using test::Random;
 
 /// A skew box or octahedron, somewhere near the origin.
 test::Solid makeSkewSolid(double a, double b, double c, Random& random) {

@@ -1,12 +1,12 @@
 #include "tandem/coordination/convex_polyhedron.h"
 
-#include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "tandem/coordination/contact_geometry.h"
 
+#include "support/random.h"
 #include "support/solids.h"
 
 namespace tandem {
@@ -58,10 +58,9 @@ TEST(ConvexPolyhedron, HullOfAGridIsABox) {
   EXPECT_EQ(hull.faces().size(), 12u);
   const Shape shape = ConvexHull{std::make_shared<const ConvexPolyhedron>(hull), 0.0};
   const Shape box = Box{{0.2, 0.15, 0.25}};
-  std::mt19937_64 engine(20090303);
-  const auto uniform = [&] { return static_cast<double>(engine() >> 11U) * 0x1p-53 - 0.5; };
+  test::Random random(20090303);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p(uniform(), uniform(), uniform());
+    const Vec3 p = random.inCube(0.5);
     const auto find = [&](const Shape& one) {
       return findSphereContact(p, 0.01, one, Vec3::Zero(), Quat::Identity());
     };
@@ -72,8 +71,8 @@ TEST(ConvexPolyhedron, HullOfAGridIsABox) {
 
 // A hull's faces are planes through its points that have all others behind.
 TEST(ConvexPolyhedron, HullHoldsAllPoints) {
-  std::mt19937_64 engine(20090304);
-  const auto uniform = [&] { return static_cast<double>(engine() >> 11U) * 0x1p-52 - 1.0; };
+  test::Random random(20090304);
+  const auto uniform = [&] { return random.uniform(-1.0, 1.0); };
   for (int scene = 0; scene < 200; ++scene) {
     SCOPED_TRACE(scene);
     std::vector<Vec3> points;

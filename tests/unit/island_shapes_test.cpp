@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "tandem/coordination/contact_geometry.h"
 #include "tandem/coordination/island.h"
 
+#include "support/random.h"
 #include "support/solids.h"
 
 namespace tandem {
@@ -208,10 +208,7 @@ TEST(MeshBracket, PushesWithBothSidesOfItsGroove) {
 TEST(MeshBracket, ForceIsContinuous) {
   constexpr std::uint64_t kSeed = 20090301;
   SCOPED_TRACE(kSeed);
-  std::mt19937_64 engine(kSeed);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11U) * 0x1p-53;
-  };
+  test::Random random(kSeed);
   const Shape bracket = test::makeMesh(makeBracket());
   PulledBall ball(at(bracket));
   const auto force = [&](const Vec3& p) {
@@ -225,8 +222,10 @@ TEST(MeshBracket, ForceIsContinuous) {
   };
   int touching = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p(uniform(-0.04, 0.06), uniform(-0.04, 0.06), uniform(-0.07, 0.07));
-    const Vec3 move = 1e-4 * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    const Vec3 p(random.uniform(-0.04, 0.06), random.uniform(-0.04, 0.06),
+                 random.uniform(-0.07, 0.07));
+    const Vec3 move =
+        1e-4 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const auto depth = [](const Vec3& c) {
       const bool low = c.x() > -0.02 && c.x() < 0.04 && c.y() > -0.02 && c.y() < 0;
       const bool high = c.x() > -0.02 && c.x() < 0 && c.y() > -0.02 && c.y() < 0.04;
@@ -250,14 +249,11 @@ TEST(MeshBowl, PushesOnce) {
   for (Vec3& p : corners) p.y() = (p.x() * p.x() + p.z() * p.z()) / 0.16;
   const Shape bowl = test::makeMesh(corners);
   PulledBall ball(at(bowl));
-  std::mt19937_64 engine(20090305);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11U) * 0x1p-53;
-  };
+  test::Random random(20090305);
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 foot(uniform(-0.03, 0.03), 0.0, uniform(-0.03, 0.03));
+    const Vec3 foot(random.uniform(-0.03, 0.03), 0.0, random.uniform(-0.03, 0.03));
     RigidState state;
-    state.p_W = foot + Vec3(0.0, foot.squaredNorm() / 0.16 + uniform(-0.004, 0.009), 0.0);
+    state.p_W = foot + Vec3(0.0, foot.squaredNorm() / 0.16 + random.uniform(-0.004, 0.009), 0.0);
     ball.island->setState(ball.ball, state);
     const double push = ball.island->computeContactForce(ball.ball).norm() / kContact.stiffness;
     const double gap =
@@ -319,14 +315,13 @@ class Bounce : public ::testing::TestWithParam<int> {
 TEST_P(Bounce, KeepsTheEnergy) {
   constexpr std::uint64_t kSeed = 20090302;
   SCOPED_TRACE(kSeed);
-  std::mt19937_64 engine(kSeed);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11U) * 0x1p-53;
-  };
+  test::Random random(kSeed);
   const Shape shape = make();
   for (int i = 0; i < 100; ++i) {
-    const Vec3 towards = Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
-    const Vec3 at(uniform(-0.015, 0.015), uniform(-0.015, 0.015), uniform(-0.015, 0.015));
+    const Vec3 towards =
+        Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
+    const Vec3 at(random.uniform(-0.015, 0.015), random.uniform(-0.015, 0.015),
+                  random.uniform(-0.015, 0.015));
     const double speed = i % 2 ? 2.0 : 0.4;  // [m/s]
     const double change = bounce(shape, at - 0.09 * towards, speed * towards);
     EXPECT_LT(std::abs(change), GetParam() < 5 ? 3e-5 : 2e-6)

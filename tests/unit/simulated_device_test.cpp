@@ -3,11 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "support/random.h"
 
 namespace tandem {
 namespace {
@@ -26,15 +27,6 @@ DeviceSample readTicks(HapticDevice& device, int ticks) {
   DeviceSample sample;
   for (int i = 0; i <= ticks; ++i) sample = device.read(i * kPeriod);
   return sample;
-}
-
-/// Even on [low, high); own, so that a seed means the same everywhere.
-double draw(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
-
-Vec3 drawVector(std::mt19937_64& random, double size) {
-  return {draw(random, -size, size), draw(random, -size, size), draw(random, -size, size)};
 }
 
 /// Scalar closed form of m x'' + b x' = f from rest, b > 0, in extended precision:
@@ -131,15 +123,15 @@ TEST(SimulatedDevice, ReachesTheTerminalVelocity) {
 TEST(SimulatedDevice, StateDoesNotDependOnHowReadsAreGrouped) {
   const std::uint64_t seed = 20090201;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  test::Random random(seed);
   for (const double damping : {0.0, 0.5, 300.0}) {
     SimulatedDeviceSettings settings;
     settings.damping = damping;
-    const Vec3 f = drawVector(random, 5.0);
+    const Vec3 f = random.inCube(5.0);
     SimulatedDevice once = makeDevice(settings, f);
     SimulatedDevice often = makeDevice(settings, f);
     const PointState expected = once.read(1.0).hip;
-    for (double t = 0.0; t < 1.0; t += draw(random, 0.0, 0.02)) (void)often.read(t);
+    for (double t = 0.0; t < 1.0; t += random.uniform(0.0, 0.02)) (void)often.read(t);
     const PointState hip = often.read(1.0).hip;
     // At most 4000 sub-steps in either way, each within one rounding of the exact map.
     EXPECT_LT((hip.p_W - expected.p_W).norm(), 8000 * kEps * expected.p_W.norm()) << damping;
@@ -365,14 +357,14 @@ TEST(SimulatedDevice, TellsItsCapabilities) {
 TEST(SimulatedDevice, GuideKeepsTheMotionOnItsLine) {
   const std::uint64_t seed = 5;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  test::Random random(seed);
   for (int round = 0; round < 20; ++round) {
     SimulatedDeviceSettings settings;
-    const Vec3 axis = drawVector(random, 1.0).normalized();
+    const Vec3 axis = random.inCube(1.0).normalized();
     settings.guide = axis;
-    settings.start_W = drawVector(random, 0.5);
+    settings.start_W = random.inCube(0.5);
     settings.encoder_resolution = round % 2 == 0 ? 0.0 : 1e-4;
-    SimulatedDevice device(settings, makeSineHand(drawVector(random, 5.0), 2.0, 0.4));
+    SimulatedDevice device(settings, makeSineHand(random.inCube(5.0), 2.0, 0.4));
     for (int i = 0; i <= 2000; ++i) {
       const PointState hip = device.read(i * kPeriod).hip;
       // One rounding of start + s * guide per component, whatever has happened before.
@@ -380,7 +372,7 @@ TEST(SimulatedDevice, GuideKeepsTheMotionOnItsLine) {
       const double tolerance = 4.0 * kEps * (settings.start_W.norm() + moved.norm());
       ASSERT_LE(moved.cross(axis).norm(), tolerance) << i;
       ASSERT_LE(hip.v_W.cross(axis).norm(), 4.0 * kEps * hip.v_W.norm()) << i;
-      device.write(drawVector(random, 3.0));
+      device.write(random.inCube(3.0));
     }
   }
 }
@@ -388,11 +380,11 @@ TEST(SimulatedDevice, GuideKeepsTheMotionOnItsLine) {
 TEST(SimulatedDevice, GuideLetsThroughTheForceAlongIt) {
   const std::uint64_t seed = 6;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  test::Random random(seed);
   for (int round = 0; round < 20; ++round) {
-    const Vec3 axis = drawVector(random, 1.0).normalized();
-    const Vec3 hand = drawVector(random, 5.0);
-    const Vec3 rendered = drawVector(random, 5.0);
+    const Vec3 axis = random.inCube(1.0).normalized();
+    const Vec3 hand = random.inCube(5.0);
+    const Vec3 rendered = random.inCube(5.0);
     SimulatedDeviceSettings settings;
     settings.guide = axis;
     SimulatedDevice device = makeDevice(settings, hand);
@@ -418,70 +410,6 @@ TEST(SimulatedDevice, GuideAlongAnAxisLeavesTheOthersUntouched) {
   EXPECT_GT(hip.p_W.x(), 1.0);
   EXPECT_EQ(hip.p_W.tail<2>(), settings.start_W.tail<2>());
   EXPECT_EQ(hip.v_W.tail<2>(), Eigen::Vector2d::Zero());
-}
-
-// --- the encoder -------------------------------------------------------------------------------
-
-TEST(SimulatedDevice, EncoderIsOffByHalfAStepAtMost) {
-  const std::uint64_t seed = 7;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
-  SimulatedDeviceSettings settings;
-  settings.start_W = Vec3(0.01234, -0.2, 0.3);
-  settings.encoder_resolution = 6e-5;
-  SimulatedDevice device(settings, makeSineHand(Vec3(3, 2, -1), 1.5, 0.2));
-  for (int i = 0; i <= 2000; ++i) {
-    const Vec3 reading = device.read(i * kPeriod).hip.p_W;
-    const Vec3 error = reading - device.handle().p_W;
-    ASSERT_LE(error.cwiseAbs().maxCoeff(), 0.5 * settings.encoder_resolution + 4 * kEps) << i;
-    // A whole number of steps from the start; the subtraction is off by eps / resolution steps.
-    const Vec3 steps = (reading - settings.start_W) / settings.encoder_resolution;
-    ASSERT_LE((steps - steps.array().round().matrix()).cwiseAbs().maxCoeff(), 1e-10) << i;
-    device.write(drawVector(random, 1.0));
-  }
-}
-
-TEST(SimulatedDevice, EncoderVelocityIsTheFirstDifferenceOfReadings) {
-  SimulatedDeviceSettings settings;
-  settings.encoder_resolution = 1e-4;
-  SimulatedDevice device = makeDevice(settings, Vec3(2, -1, 0));
-  DeviceSample last = device.read(0.05);
-  EXPECT_EQ(last.hip.v_W, Vec3::Zero()) << "the first read has nothing to compare with";
-  double last_time = 0.05;
-  for (const double now : {0.051, 0.052, 0.06, 0.0600001, 0.2}) {
-    const DeviceSample sample = device.read(now);
-    const Vec3 expected = (sample.hip.p_W - last.hip.p_W) / (now - last_time);
-    EXPECT_LT((sample.hip.v_W - expected).norm(), 8 * kEps / (now - last_time)) << now;
-    const DeviceSample again = device.read(now);
-    EXPECT_EQ(again.hip.p_W, sample.hip.p_W) << now;
-    EXPECT_EQ(again.hip.v_W, sample.hip.v_W) << now;
-    last = sample;
-    last_time = now;
-  }
-}
-
-TEST(SimulatedDevice, EncoderStandsStillBelowHalfAStep) {
-  SimulatedDeviceSettings settings;
-  settings.damping = 0.0;
-  settings.encoder_resolution = 1e-3;
-  SimulatedDevice device = makeDevice(settings, Vec3(0.1, 0, 0));  // 1 m/s^2
-  for (int i = 0; i <= 31; ++i) {                                  // 0.48 mm
-    const PointState hip = device.read(i * kPeriod).hip;
-    EXPECT_EQ(hip.p_W, Vec3::Zero()) << i;
-    EXPECT_EQ(hip.v_W, Vec3::Zero()) << i;
-  }
-  EXPECT_EQ(device.read(0.032).hip.p_W, Vec3(1e-3, 0, 0));  // 0.512 mm
-}
-
-TEST(SimulatedDevice, EncoderDoesNotChangeTheMotion) {
-  SimulatedDeviceSettings settings;
-  SimulatedDevice exact = makeDevice(settings, Vec3(5, 0, 0));
-  settings.encoder_resolution = 1e-3;
-  SimulatedDevice coarse = makeDevice(settings, Vec3(5, 0, 0));
-  (void)readTicks(exact, 100);
-  (void)readTicks(coarse, 100);
-  EXPECT_EQ(coarse.handle().p_W, exact.handle().p_W);
-  EXPECT_EQ(coarse.handle().v_W, exact.handle().v_W);
 }
 
 // --- settings ----------------------------------------------------------------------------------

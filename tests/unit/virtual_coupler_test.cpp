@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "support/random.h"
 
 namespace tandem {
 namespace {
@@ -14,16 +15,9 @@ constexpr CouplerGains kCoordination{200.0, 30.0};  // [N/m], [N s/m]
 constexpr CouplerGains kContact{4000.0, 1.0};       // [N/m], [N s/m]
 constexpr std::uint64_t kSeed = 7;
 
-/// Own distribution: the standard one differs between libraries.
-Vec3 drawVector(std::mt19937_64& engine) {
-  const auto draw = [&engine] { return static_cast<double>(engine() >> 11U) * 0x1p-52 - 1.0; };
-  const double x = draw(), y = draw(), z = draw();
-  return {x, y, z};
-}
-
-PointState drawState(std::mt19937_64& engine) {
-  const Vec3 p_W = drawVector(engine);
-  return {p_W, drawVector(engine)};
+PointState drawState(test::Random& random) {
+  const Vec3 p_W = random.inCube(1.0);
+  return {p_W, random.inCube(1.0)};
 }
 
 TEST(VirtualCoupler, PullsFollowerTowardsLeader) {
@@ -44,26 +38,26 @@ TEST(VirtualCoupler, RestsWhereBothAgree) {
 }
 
 TEST(VirtualCoupler, WithoutGainsThereIsNoForce) {
-  std::mt19937_64 engine(kSeed);
-  const PointState leader = drawState(engine), follower = drawState(engine);
+  test::Random random(kSeed);
+  const PointState leader = drawState(random), follower = drawState(random);
   EXPECT_EQ(computeCouplerForce({}, leader, follower), Vec3::Zero());
 }
 
 // Exact: rounding is symmetric, so what one body gains the other loses to the last bit.
 TEST(VirtualCoupler, ReactionIsOppositeToTheLastBit) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937_64 engine(kSeed);
+  test::Random random(kSeed);
   for (int i = 0; i < 1000; ++i) {
-    const PointState a = drawState(engine), b = drawState(engine);
+    const PointState a = drawState(random), b = drawState(random);
     EXPECT_EQ(computeCouplerForce(kCoordination, a, b), -computeCouplerForce(kCoordination, b, a));
   }
 }
 
 TEST(VirtualCoupler, DampingNeverFeedsTheMotionBetweenBoth) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937_64 engine(kSeed);
+  test::Random random(kSeed);
   for (int i = 0; i < 1000; ++i) {
-    const PointState leader = drawState(engine), follower = drawState(engine);
+    const PointState leader = drawState(random), follower = drawState(random);
     const Vec3 force = computeCouplerForce({0.0, 30.0}, leader, follower);
     const double power = force.dot(follower.v_W) - force.dot(leader.v_W);  // into both bodies [W]
     EXPECT_LE(power, 0.0);
@@ -73,10 +67,10 @@ TEST(VirtualCoupler, DampingNeverFeedsTheMotionBetweenBoth) {
 // The force turns with the scene, and a common shift or drift is not felt.
 TEST(VirtualCoupler, SeesOnlyTheRelativeState) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937_64 engine(kSeed);
+  test::Random random(kSeed);
   for (int i = 0; i < 1000; ++i) {
-    const PointState leader = drawState(engine), follower = drawState(engine);
-    const Vec3 shift = drawVector(engine), drift = drawVector(engine);
+    const PointState leader = drawState(random), follower = drawState(random);
+    const Vec3 shift = random.inCube(1.0), drift = random.inCube(1.0);
     const Quat turn(Eigen::AngleAxisd(3.0 * shift.x(), drift.normalized()));
     const auto move = [&](const PointState& s) {
       return PointState{turn * s.p_W + shift, turn * s.v_W + drift};
