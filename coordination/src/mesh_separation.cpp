@@ -21,7 +21,7 @@ using Meeting = TriangleMesh::Meeting;
 /// would take it to [m]: exactly one, however many planes meet there.
 constexpr double kOnPlane = 1e-12;
 
-/// Depths nearer than this are equal, and the triangle that comes first has the centre [m].
+/// What rounding may do to a depth [m].
 constexpr double kSameDepth = 1e-12;
 
 /// Height of c over the plane through p, never 0; `normal` and its opposite give opposite heights.
@@ -158,8 +158,9 @@ double computeLeadOverOthers(const TriangleMesh& mesh, int piece,
     const Claim claim = findClaim(mesh, other, c);
     if (claim.feature < 0) return;
     const double theirs = std::abs(leaveByFeature(other, claim.feature, c).distance);
+    // By the last bit, so that of any number of faces that are about equally near one is first.
     double ahead = theirs - depth;
-    if (std::abs(ahead) <= kSameDepth) ahead = piece < place ? kSameDepth : -kSameDepth;
+    if (ahead == 0.0) ahead = piece < place ? kSameDepth : -kSameDepth;
     lead = std::min(lead, ahead);
   });
   return lead;

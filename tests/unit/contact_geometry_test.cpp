@@ -1,8 +1,12 @@
 #include "tandem/coordination/contact_geometry.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
+
+#include "support/random.h"
+#include "support/solids.h"
 
 namespace tandem {
 namespace {
@@ -153,6 +157,22 @@ TEST(SphereOnPlane, NormalIsUnitForOneThatNearlyIs) {
 
 // A quarter turn about z stands the capsule along -x; the box comes to lie on its edge at an
 // eighth.
+// Faces about equally far: by rounding each may find another nearer, and yet one must push.
+TEST(SphereOnMesh, MiddleOfABoxIsPushedByAFace) {
+  constexpr std::uint64_t kSeed = 20260309;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  for (int i = 0; i < 2000; ++i) {
+    const double half = random.logUniform(1e-6, 1e3);  // [m]
+    const Shape box = test::makeMesh(
+        test::cutIntoTriangles(test::makeBoxSolid(Vec3::Constant(half) + random.inCube(1e-12))));
+    const Vec3 middle = random.inCube(i % 2 == 0 ? 1e-12 : 1e-13 * half);
+    const SphereContact contact =
+        findSphereContact(middle, kRadius, box, Vec3::Zero(), Quat::Identity());
+    ASSERT_NEAR(contact.gap, -half - kRadius, 1e-11 + 1e-13 * half) << half;
+  }
+}
+
 TEST(SphereContact, FollowsThePoseOfTheBody) {
   const Vec3 p_WB(1.0, -2.0, 0.5);
   const Quat quarter(Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()));
