@@ -1,17 +1,15 @@
 #include "tandem/coordination/island.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "tandem/coordination/assert.h"
 
 #include "bad_value.h"
+#include "island_catch_up.h"
 #include "island_model.h"
 #include "rest.h"
 #include "slot_motion.h"
 #include "spatial_motion.h"
-#include "turn.h"
 
 namespace tandem {
 namespace {
@@ -57,14 +55,7 @@ struct Island::Impl {
   std::optional<SpatialMotion> spatial;
   std::vector<Wrench> wrenches;
   States states;
-  /// Work space of catchUp().
-  struct {
-    std::vector<ModelBody> bodies;
-    std::vector<ModelCoupler> couplers;
-    std::vector<IslandContact> contacts;
-    std::vector<BodyIndex> slots;
-    const std::vector<Obstacle>* obstacles = nullptr;
-  } set_aside;
+  IslandCatchUp catch_up;
   bool prepared = false;
   bool asleep = false;
   std::uint64_t obstacles_hash = 0;  ///< when it fell asleep
@@ -109,56 +100,6 @@ struct Island::Impl {
       sum.t_W += pull.t_W;
     }
     return sum;
-  }
-
-  /// What is past already: others' couplers and the touches among them.
-  void setAside(const std::vector<BodyIndex>& slots) noexcept {
-    set_aside.slots.assign(slots.begin(), slots.end());
-    set_aside.couplers.clear();
-    set_aside.contacts.clear();
-    swapPast();
-    set_aside.obstacles = std::exchange(model.obstacles, nullptr);
-  }
-  void takeBack() noexcept {
-    swapPast();
-    model.obstacles = set_aside.obstacles;
-  }
-  void swapPast() noexcept {
-    model.couplers.swap(set_aside.couplers);
-    model.contacts.swap(set_aside.contacts);
-    model.is_listed = false;
-    model.slots.swap(set_aside.slots);
-  }
-
-  /// Another body takes part with its mass, but with no force of its own on it.
-  void sendAlong(BodyIndex b, const RigidState& from, const RigidState& to, double duration,
-                 const Aside& aside) noexcept {
-    ModelBody& body = model.bodies[b];
-    set_aside.bodies[b] = body;
-    body.settings.damping = body.settings.angular_damping = 0.0;
-    body.f_external_W.setZero();
-    body.t_external_W.setZero();
-    // Round, so that it turns steadily.
-    body.settings.inertia_B.setConstant(body.settings.inertia_B.mean());
-    body.inverse_inertia_B.setConstant(body.inverse_inertia_B.mean());
-    const Aside steady = computeSteady(from, to, duration);
-    body.state = {from.p_W + aside.offset_W, from.q_WB, steady.v_W + aside.v_W,
-                  steady.w_W + aside.w_W};
-    spatial->refill(model, b);
-  }
-  void bringBack(BodyIndex b, const RigidState& from, const RigidState& to, double duration,
-                 Aside& aside) noexcept {
-    const RigidState end = model.bodies[b].state;
-    const Aside steady = computeSteady(from, to, duration);
-    if (model.bodies[b].isDynamic())
-      aside = {end.p_W - to.p_W, end.v_W - steady.v_W, end.w_W - steady.w_W};
-    model.bodies[b] = set_aside.bodies[b];
-  }
-  /// Velocities that lead from one pose to another.
-  [[nodiscard]] static Aside computeSteady(const RigidState& from, const RigidState& to,
-                                           double duration) noexcept {
-    const Vec3 turn_W = computeTurn(from.q_WB.coeffs().data(), to.q_WB.coeffs().data()).toVec3();
-    return {Vec3::Zero(), (to.p_W - from.p_W) / duration, turn_W / duration};
   }
 
   /// Contact wrenches of the free island at this instant, into `wrenches`.
@@ -265,8 +206,7 @@ void Island::prepare() {
   for (ModelBody& body : impl.model.bodies) body.is_asleep = false;
   impl.model.reserveLists();
   impl.model.listPresent();
-  impl.set_aside.bodies = impl.model.bodies;
-  impl.set_aside.slots.reserve(impl.model.slots.size());
+  impl.catch_up.prepare(impl.model);
   impl.prepared = true;
 }
 
@@ -362,23 +302,8 @@ void Island::catchUp(const std::vector<BodyIndex>& slots, const std::vector<Rigi
                      std::vector<Aside>& asides) noexcept {
   Impl& impl = *impl_;
   TANDEM_ASSERT(impl.prepared && impl.spatial && duration > 0.0);
-  const auto count = static_cast<BodyIndex>(impl.model.bodies.size());
-  const auto is_other = [&](BodyIndex b) {
-    return std::find(slots.begin(), slots.end(), b) == slots.end();
-  };
   wake();
-  impl.spatial->setAside();
-  impl.setAside(slots);
-  for (BodyIndex b = 0; b < count; ++b)
-    if (is_other(b)) impl.sendAlong(b, from[b], to[b], duration, asides[b]);
-  const double steps = std::ceil(duration / impl.model.settings.haptic_period * (1.0 - 1e-9));
-  for (double i = 0; i < steps; ++i)
-    impl.spatial->advance(impl.model, duration / steps, impl.counters);
-  for (BodyIndex b = 0; b < count; ++b)
-    if (is_other(b)) impl.bringBack(b, from[b], to[b], duration, asides[b]);
-  impl.takeBack();
-  impl.spatial->takeBack(impl.model, slots);
-  impl.asleep = false;
+  impl.catch_up.run(impl.model, *impl.spatial, impl.counters, slots, from, to, duration, asides);
 }
 
 bool Island::isAsleep() const noexcept { return impl_->asleep; }

@@ -192,9 +192,8 @@ void SpatialMotion::findTouches(const IslandModel& model, IslandCounters& counte
       forEachPiece(model, touch, states_, allowance, [&](const Touch& piece, double gap) {
         if (gap < allowance) addTouch(piece);
       });
-    } else if (touches_.size() < touches_.capacity() &&
-               computeTouchState(model, touch, states_).geometry.gap < allowance) {
-      touches_.push_back(touch);
+    } else if (computeTouchState(model, touch, states_).geometry.gap < allowance) {
+      addTouch(touch);
     }
   });
 }

@@ -135,6 +135,7 @@ struct Site::Impl final : HostStepListener {
   // What is around: site_surroundings.cpp
   void updateSurroundings(double dt);
   [[nodiscard]] std::size_t countHapticBodies() const noexcept;
+  [[nodiscard]] bool isFullSearch() const noexcept;
   [[nodiscard]] double computeSpeedInSprings() noexcept;
   void updateNeighbours(double horizon);
   void catchUp();

@@ -23,9 +23,6 @@ constexpr double kSafety = 1.5;
 
 constexpr double kSameTime = 1e-9;  // [s]
 
-/// Around bodies that sleep with nothing awake near them it is enough to look now and then.
-constexpr std::uint64_t kStepsBetweenFullSearches = 8;
-
 /// States kept besides those that a host as late as it may be asks for.
 constexpr std::size_t kSpareSnapshots = 4;
 
@@ -57,8 +54,7 @@ void Site::Impl::updateSurroundings(double dt) {
   }
   std::fill(moves.begin(), moves.end(), char{0});
   for (const BodyIndex b : island.awakeBodies()) moves[static_cast<std::size_t>(b)] = 1;
-  const bool is_full = counters.searches % kStepsBetweenFullSearches == 0;
-  const std::vector<char>* of_interest = is_full ? nullptr : &moves;
+  const std::vector<char>* of_interest = isFullSearch() ? nullptr : &moves;
   bool changed =
       obstacles.update(scratch_states, kStandingMargin + kSafety * speed * horizon, of_interest);
   island.setObstacles(obstacles.nearSpheres());
@@ -72,6 +68,12 @@ void Site::Impl::updateSurroundings(double dt) {
   }
   if (changed) island.wake();
   catchUp();
+}
+
+/// Around bodies that sleep with nothing awake near them it is enough to look now and then.
+bool Site::Impl::isFullSearch() const noexcept {
+  constexpr std::uint64_t kStepsBetweenFullSearches = 8;
+  return counters.searches % kStepsBetweenFullSearches == 0;
 }
 
 std::size_t Site::Impl::countHapticBodies() const noexcept {
@@ -105,7 +107,7 @@ double Site::Impl::computeSpeedInSprings() noexcept {
 
 void Site::Impl::updateNeighbours(double horizon) {
   if (neighbours.empty()) return;
-  const bool is_full = counters.searches % kStepsBetweenFullSearches == 0;
+  const bool is_full = isFullSearch();
   const auto is_calm = [&](const SiteBody& body) {
     return !is_full && body.bullet->isParked() && !body.was_near_awake;
   };
@@ -163,14 +165,11 @@ void Site::Impl::catchUp() {
   });
 }
 
-/// States of all bodies at a moment that was kept, or now.
+/// States of all bodies at a moment.
 void Site::Impl::readStates(double time, std::vector<RigidState>& states) {
   const std::vector<RigidState>* kept = snapshots.find(time, kSameTime);
-  for (std::size_t b = 0; b < states.size(); ++b) {
-    const RigidState& now = island.state(static_cast<BodyIndex>(b));
-    states[b] = kept ? (*kept)[b] : now;
-    if (!kept) states[b].p_W -= (island_time - time) * now.v_W;
-  }
+  for (std::size_t b = 0; b < states.size(); ++b)
+    states[b] = kept ? (*kept)[b] : stateAt(static_cast<BodyIndex>(b), time);
   for (const Neighbour& neighbour : neighbours)
     if (neighbour.driven) states[neighbour.body.index] = neighbour.driven->at(time);
 }
