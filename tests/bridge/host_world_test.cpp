@@ -1,10 +1,8 @@
 #include "tandem/bullet_bridge/host_world.h"
 
 #include <cmath>
-#include <functional>
 #include <new>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,8 +14,8 @@ namespace {
 
 using test::BulletRig;
 
-/// What ran, in order. One per test and thread.
-thread_local std::string trace;
+/// What ran, in order. One per test.
+std::string trace;
 
 struct TracingListener final : HostStepListener {
   void beforeHostStep(double dt) noexcept override {
@@ -218,25 +216,6 @@ TEST_P(SubStepGrouping, GivesEachSubStepItsOwnCallback) {
   EXPECT_EQ(trace, expected);
 }
 INSTANTIATE_TEST_SUITE_P(SubStepsPerCall, SubStepGrouping, ::testing::Values(1, 4, 16));
-
-TEST(HostWorld, AttachesWorldsInTwoThreadsAtOnce) {
-  const auto run = [](std::size_t& count) {
-    for (int round = 0; round < 50; ++round) {
-      BulletRig rig;
-      TracingListener listener;
-      const HostWorld attached(rig.world, listener);
-      for (int i = 0; i < 20; ++i) rig.step(1e-3);
-      count += listener.steps.size();
-    }
-  };
-  std::size_t first = 0;
-  std::size_t second = 0;
-  std::thread other(run, std::ref(first));
-  run(second);
-  other.join();
-  EXPECT_EQ(first, 1000u);
-  EXPECT_EQ(second, 1000u);
-}
 
 }  // namespace
 }  // namespace tandem
