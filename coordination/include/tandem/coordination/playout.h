@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tandem/coordination/link.h"
+#include "tandem/coordination/windowed_minimum.h"
+
+namespace tandem {
+
+struct PlayoutSettings {
+  bool is_on = true;       ///< off: states are applied as they come, as in the paper
+  double most = 0.05;      ///< longest wait for slower packets [s]; longer smooths more jitter
+  double quantile = 0.99;  ///< share of the packets of the last 2 s that the wait should cover
+  double slew = 0.01;      ///< change of the wait [s/s]; faster follows, slower is steadier
+  double max_late = 0.5;   ///< later than the fastest by more [s]: too old to be applied
+  std::size_t room = 64;   ///< packets that may wait at a time
+};
+
+/// Throws std::invalid_argument, naming the value and what is allowed.
+void checkPlayoutSettings(const PlayoutSettings& settings);
+
+/// Turns jitter into constant delay: a state is given when the time since it was sent is that of
+/// the fastest packets plus a wait that covers most of the slower ones. Only differences of the
+/// sender's clock count, so the clocks need not agree; their drift is followed.
+///
+///   sent     |    |    |    |
+///   arrived       |     |  |      |          lateness: beyond the fastest of the last 2 s
+///   given          |    |    |    |          fastest + wait after it was sent
+///
+/// A packet slower than the wait is given at once, if nothing newer was given before. What comes
+/// half a second late, as a burst after an outage does, is never applied, unless all has come about
+/// equally late for 2 s: then the way has become longer. Pure; real-time safe after construction.
+class Playout {
+ public:
+  enum class Verdict : std::uint8_t {
+    kWaits,    ///< or is given at once
+    kStale,    ///< something newer was given before
+    kTooLate,  ///< beyond max_late
+    kFull,     ///< no room; the newest are kept
+  };
+  struct Counts {
+    std::uint64_t given = 0, stale = 0, too_late = 0, full = 0;
+  };
+
+  /// Throws std::invalid_argument for settings out of range. Allocates.
+  explicit Playout(const PlayoutSettings& settings = {});
+
+  /// A packet sent at `sent` (sender's clock) arrived at `now` [s]; `now` must not run back.
+  Verdict push(const StatePacket& packet, double sent, double now) noexcept;
+
+  /// The next packet due before `until`, stamped with the moment it was due, but not before `from`.
+  [[nodiscard]] std::optional<Arrival> pop(double from, double until) noexcept;
+
+  /// Forgets all: the sender has begun anew.
+  void clear() noexcept;
+
+  /// Now kept on top of the fastest packets' delay [s].
+  [[nodiscard]] double wait() const noexcept { return wait_; }
+  /// Lateness that `quantile` of the recent packets keep [s].
+  [[nodiscard]] double jitter() const noexcept { return jitter_; }
+  [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+
+ private:
+  struct Waiting {
+    StatePacket packet;
+    double due = 0.0;
+  };
+  struct LateRun {
+    double since = 0.0, least = 0.0, most = 0.0;
+  };
+  void learn(double lateness, double now) noexcept;
+  [[nodiscard]] bool isNewRoute(double transit, double now) noexcept;
+  [[nodiscard]] bool isStale(const StatePacket& packet) const noexcept;
+
+  static constexpr double kWindow = 2.0;           // [s]
+  static constexpr std::size_t kRemembered = 256;  // latenesses
+
+  PlayoutSettings settings_;
+  WindowedMinimum fastest_{kWindow};
+  std::optional<LateRun> late_run_;  ///< of packets that came too late, one after the other
+  std::array<double, kRemembered> lateness_{}, sorted_{};
+  std::size_t remembered_ = 0;
+  std::uint64_t learnt_ = 0;
+  double wait_ = 0.0, jitter_ = 0.0;
+  double start_ = 0.0, last_ = 0.0;
+  bool has_begun_ = false;
+  std::optional<std::uint64_t> given_;  ///< sequence of the newest given
+  std::vector<Waiting> waiting_;        ///< capacity settings_.room
+  Counts counts_;
+};
+
+}  // namespace tandem

@@ -1,0 +1,257 @@
+#include "tandem/coordination/playout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kPeriod = 1.0 / 128.0;  // of packets [s]
+constexpr double kTick = 1e-3;
+constexpr double kDelay = 0.05;
+constexpr double kSkew = 1234.5;  // sender's clock - own [s]
+
+StatePacket makeNumbered(std::uint64_t sequence) {
+  StatePacket packet;
+  packet.sequence = sequence;
+  return packet;
+}
+
+TEST(Playout, WithoutJitterGivesAtOnce) {
+  Playout playout;
+  for (std::uint64_t n = 0; n < 500; ++n) {
+    const double now = static_cast<double>(n) * kPeriod + kDelay;
+    EXPECT_EQ(playout.push(makeNumbered(n), now - kDelay + kSkew, now), Playout::Verdict::kWaits);
+    const auto given = playout.pop(now, now + kTick);
+    ASSERT_TRUE(given);
+    EXPECT_EQ(given->packet.sequence, n);
+    EXPECT_NEAR(given->time, now, 1e-9);
+  }
+  EXPECT_LT(playout.wait(), 1e-9);
+}
+
+/// Sends for so long with a jitter that draws the lateness of each packet; gives the spread of
+/// what was given late in the run, and how many were given of those sent then.
+struct Spread {
+  double least = 1e9, most = -1e9;
+  int sent = 0, given = 0;
+};
+template <typename Draw>
+Spread run(Playout& playout, double seconds, double drift, Draw draw) {
+  struct Flight {
+    std::uint64_t n;
+    double arrival;
+  };
+  std::vector<Flight> flights;
+  Spread spread;
+  std::uint64_t n = 0;
+  const auto ticks = static_cast<std::uint64_t>(seconds / kTick);
+  for (std::uint64_t tick = 0; tick < ticks; ++tick) {
+    const double now = static_cast<double>(tick) * kTick;
+    const bool counts = now > 0.6 * seconds;
+    while (static_cast<double>(n) * kPeriod < now) {
+      flights.push_back({n, static_cast<double>(n) * kPeriod + kDelay + draw()});
+      spread.sent += counts;
+      ++n;
+    }
+    for (std::size_t i = 0; i < flights.size();) {
+      if (flights[i].arrival > now) {
+        ++i;
+        continue;
+      }
+      const double sent = static_cast<double>(flights[i].n) * kPeriod;
+      (void)playout.push(makeNumbered(flights[i].n), sent * (1.0 + drift) + kSkew, now);
+      flights.erase(flights.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    while (const auto given = playout.pop(now, now + kTick)) {
+      if (!counts) continue;
+      const double after = given->time - static_cast<double>(given->packet.sequence) * kPeriod;
+      spread.least = std::min(spread.least, after);
+      spread.most = std::max(spread.most, after);
+      ++spread.given;
+    }
+  }
+  return spread;
+}
+
+TEST(Playout, TurnsJitterIntoConstantDelay) {
+  constexpr std::uint64_t kSeed = 20090401;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  Playout playout;
+  const Spread spread = run(playout, 30.0, 0.0, [&] { return random.uniform(0.0, 0.02); });
+  // Nearly all after the same time, up to the tick in which an arrival is seen.
+  EXPECT_LT(spread.most - spread.least, 0.002);
+  EXPECT_NEAR(spread.least, kDelay + 0.02, 0.002);
+  EXPECT_GT(spread.given, 0.97 * spread.sent);
+}
+
+TEST(Playout, FollowsClocksThatDrift) {
+  test::Random random(3);
+  for (const double drift : {-500e-6, 500e-6}) {
+    Playout playout;
+    const Spread spread = run(playout, 60.0, drift, [&] { return random.uniform(0.0, 0.01); });
+    // In 2 s the clocks part by a millisecond.
+    EXPECT_NEAR(spread.least, kDelay + 0.01, 0.004) << drift;
+    EXPECT_GT(spread.given, 0.9 * spread.sent) << drift;
+  }
+}
+
+TEST(Playout, NeverWaitsLongerThanTheMost) {
+  test::Random random(4);
+  PlayoutSettings settings;
+  settings.most = 0.03;
+  Playout playout(settings);
+  run(playout, 10.0, 0.0, [&] { return random.uniform(0.0, 0.2); });
+  EXPECT_LE(playout.wait(), 0.03);
+  EXPECT_GT(playout.jitter(), 0.15);
+}
+
+TEST(Playout, SlewsTheWait) {
+  Playout playout;
+  double lateness = 0.0, last_wait = 0.0;
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    if (n == 1000) lateness = 0.03;
+    const double now = sent + kDelay + (n % 2 == 0 ? 0.0 : lateness);
+    (void)playout.push(makeNumbered(n), sent, now);
+    while (playout.pop(now, now + kTick)) {
+    }
+    if (n > 300) {
+      EXPECT_LE(std::abs(playout.wait() - last_wait), 0.01 * 0.04 + 1e-12) << n;
+    }
+    last_wait = playout.wait();
+  }
+  EXPECT_NEAR(playout.wait(), 0.03, 1e-3);
+}
+
+TEST(Playout, OffAppliesAsItComes) {
+  PlayoutSettings settings;
+  settings.is_on = false;
+  Playout playout(settings);
+  test::Random random(5);
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod, now = sent + random.uniform(0.0, 0.007);
+    (void)playout.push(makeNumbered(n), sent, now);
+    const auto given = playout.pop(now, now + kTick);
+    ASSERT_TRUE(given);
+    EXPECT_EQ(given->time, now);
+  }
+}
+
+TEST(Playout, OvertakenPacketsAreStale) {
+  Playout playout;
+  (void)playout.push(makeNumbered(5), 0.05, 0.1);
+  ASSERT_TRUE(playout.pop(0.1, 0.101));
+  EXPECT_EQ(playout.push(makeNumbered(4), 0.04, 0.101), Playout::Verdict::kStale);
+  EXPECT_EQ(playout.push(makeNumbered(5), 0.05, 0.101), Playout::Verdict::kStale);
+  EXPECT_FALSE(playout.pop(0.2, 0.3));
+  EXPECT_EQ(playout.counts().stale, 2u);
+}
+
+// What a way has kept for seconds comes all at once; none of it may be felt.
+TEST(Playout, BurstAfterAnOutageIsRefused) {
+  Playout playout;
+  std::uint64_t n = 0;
+  double now = 0.0;
+  for (; now < 3.0; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    now = sent + kDelay;
+    (void)playout.push(makeNumbered(n), sent, now);
+    while (playout.pop(now, now + kTick)) {
+    }
+  }
+  const double burst = now + 5.0;
+  for (; static_cast<double>(n) * kPeriod + kDelay < burst; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    const bool is_old = burst - sent - kDelay > 0.5;
+    EXPECT_EQ(playout.push(makeNumbered(n), sent, burst) == Playout::Verdict::kTooLate, is_old);
+  }
+  const auto given = playout.pop(burst, burst + kTick);
+  ASSERT_TRUE(given);
+  EXPECT_GT(static_cast<double>(given->packet.sequence) * kPeriod, burst - kDelay - 0.5 - 1e-9);
+}
+
+TEST(Playout, QueueThatRunsEmptySlowlyIsRefusedToo) {
+  Playout playout;
+  std::uint64_t n = 0;
+  for (; n < 384; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    (void)playout.push(makeNumbered(n), sent, sent + kDelay);
+  }
+  // Held for 8 s, then sent on twice as fast as it was sent.
+  const double start = static_cast<double>(n) * kPeriod + 8.0;
+  for (const std::uint64_t first = n;; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    const double now = start + static_cast<double>(n - first) * kPeriod / 2.0;
+    if (now - sent < kDelay + 0.5) break;
+    EXPECT_EQ(playout.push(makeNumbered(n), sent, now), Playout::Verdict::kTooLate) << now - sent;
+  }
+}
+
+TEST(Playout, LongerWayIsAcceptedAfterAWhile) {
+  Playout playout;
+  std::uint64_t n = 0;
+  for (; n < 384; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    (void)playout.push(makeNumbered(n), sent, sent + kDelay);
+  }
+  int refused = 0;
+  for (; n < 384 + 512; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    refused +=
+        playout.push(makeNumbered(n), sent, sent + kDelay + 0.7) == Playout::Verdict::kTooLate;
+  }
+  EXPECT_NEAR(refused, 2.0 / kPeriod, 2.0);
+}
+
+TEST(Playout, FullKeepsTheNewest) {
+  PlayoutSettings settings;
+  settings.room = 2;
+  Playout playout(settings);
+  for (const std::uint64_t n : {1u, 2u, 3u}) (void)playout.push(makeNumbered(n), 0.0, 0.0);
+  EXPECT_EQ(playout.push(makeNumbered(0), 0.0, 0.0), Playout::Verdict::kFull);
+  EXPECT_EQ(playout.counts().full, 2u);
+  EXPECT_EQ(playout.pop(0.0, 1.0)->packet.sequence, 2u);
+  EXPECT_EQ(playout.pop(0.0, 1.0)->packet.sequence, 3u);
+}
+
+TEST(Playout, ClearForgetsTheSender) {
+  Playout playout;
+  (void)playout.push(makeNumbered(900), 50.0, 1.0);
+  ASSERT_TRUE(playout.pop(1.0, 2.0));
+  playout.clear();
+  EXPECT_EQ(playout.push(makeNumbered(0), 0.0, 2.0), Playout::Verdict::kWaits);
+  EXPECT_EQ(playout.pop(2.0, 2.1)->packet.sequence, 0u);
+}
+
+TEST(Playout, RefusesBadSettingsByName) {
+  const auto refusal = [](auto spoil) -> std::string {
+    PlayoutSettings settings;
+    spoil(settings);
+    try {
+      checkPlayoutSettings(settings);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal([](auto& s) { s.most = -1.0; }).find("most"), std::string::npos);
+  EXPECT_NE(refusal([](auto& s) { s.quantile = 1.5; }).find("quantile"), std::string::npos);
+  EXPECT_NE(refusal([](auto& s) { s.slew = kNan; }).find("slew"), std::string::npos);
+  EXPECT_NE(refusal([](auto& s) { s.max_late = 0.0; }).find("max_late"), std::string::npos);
+  EXPECT_NE(refusal([](auto& s) { s.room = 0; }).find("room"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tandem
