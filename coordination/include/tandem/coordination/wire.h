@@ -1,0 +1,150 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tandem/coordination/types.h"
+
+/// \file
+/// What every datagram has: bytes, header, named refusals. The format is coordination/STANDARD.md;
+/// section numbers refer to it. All functions of the wire are pure, check every byte, never throw
+/// and, unless they say so, never allocate: they may be called from any thread and in the tick.
+namespace tandem {
+
+inline constexpr std::uint8_t kWireVersion = 1;
+inline constexpr std::size_t kMaxDatagramSize = 1200;  ///< [bytes], with tag
+inline constexpr std::size_t kHeaderSize = 20;         ///< [bytes]
+inline constexpr std::size_t kTagSize = 16;            ///< [bytes] behind a sealed payload
+inline constexpr std::size_t kMaxPayloadSize = kMaxDatagramSize - kHeaderSize - kTagSize;
+inline constexpr std::uint32_t kMaxWirePeer = 8;  ///< ids on the wire are 1 to this
+
+/// Latest time on the wire [us], 35 years: seconds in a double still name each microsecond.
+inline constexpr std::int64_t kMaxWireTimeUs = std::int64_t{1} << 50;
+
+/// Bytes to read; whoever owns them must outlive the view.
+struct ByteView {
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+};
+
+/// Room to write to.
+struct ByteSpan {
+  std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+};
+
+/// Why bytes are not taken (section 10). A receiver drops them and counts by this.
+enum class WireRefusal : std::uint8_t {
+  kNone,
+  kTooShort,
+  kTooLong,
+  kWrongSize,
+  kMagic,
+  kVersion,
+  kType,
+  kSession,
+  kSender,
+  kKeyEpoch,
+  kSequence,
+  kReceiver,
+  kRole,
+  kZero,
+  kCode,
+  kTerms,
+  kProfile,
+  kObjectCount,
+  kFlags,
+  kTime,
+  kEnergy,
+  kObjectId,
+  kObjectTwice,
+  kNotFinite,
+  kPosition,
+  kVelocity,
+  kAngularVelocity,
+  kOrientation,
+  kPart,
+  kParts,
+  kKey,
+  kValue,
+  kOrder,
+  kVerdict,
+  kReason,
+};
+
+inline constexpr std::size_t kWireRefusals = static_cast<std::size_t>(WireRefusal::kReason) + 1;
+
+/// The refusal's name in the standard, such as "too_short"; "none" for kNone.
+[[nodiscard]] const char* name(WireRefusal refusal) noexcept;
+
+/// A value that was read, or why there is none. `*decoded` means something only if `decoded`.
+template <class T>
+class Decoded {
+ public:
+  Decoded(WireRefusal refusal) noexcept : refusal_(refusal) {}  // NOLINT: `return kTooShort;`
+
+  [[nodiscard]] explicit operator bool() const noexcept { return refusal_ == WireRefusal::kNone; }
+  [[nodiscard]] WireRefusal refusal() const noexcept { return refusal_; }
+  [[nodiscard]] const T& operator*() const noexcept { return value_; }
+  [[nodiscard]] const T* operator->() const noexcept { return &value_; }
+  [[nodiscard]] T& operator*() noexcept { return value_; }
+  [[nodiscard]] T* operator->() noexcept { return &value_; }
+
+  /// For decoders, which fill in the value first; kNone lets it pass.
+  void refuse(WireRefusal refusal) noexcept { refusal_ = refusal; }
+
+ private:
+  T value_{};
+  WireRefusal refusal_;
+};
+
+enum class MessageType : std::uint8_t {
+  kHello = 1,
+  kCookie = 2,
+  kOpen = 3,
+  kAccept = 4,
+  kRefuse = 5,
+  kState = 16,
+  kAgree = 17,
+  kAgreeAck = 18,
+  kBye = 19,
+};
+
+/// True for the types whose payload is sealed, false for those of the handshake.
+[[nodiscard]] constexpr bool isSealed(MessageType type) noexcept {
+  return static_cast<std::uint8_t>(type) >= static_cast<std::uint8_t>(MessageType::kState);
+}
+
+/// The clear beginning of every datagram (section 3).
+struct ClearHeader {
+  MessageType type = MessageType::kState;
+  std::uint8_t version = kWireVersion;  ///< another one only in REFUSE
+  std::uint32_t session = 0;            ///< chosen by the datagram's receiver; 0: none yet
+  PeerId sender{};
+  std::uint16_t key_epoch = 0;
+  std::uint64_t sequence = 0;
+};
+
+/// Writes the header's kHeaderSize bytes and gives their number; 0, and nothing written, if there
+/// is no room or the header is outside the standard.
+[[nodiscard]] std::size_t encodeHeader(const ClearHeader& header, ByteSpan out) noexcept;
+
+/// The header of a datagram as it came in, or opened. Checks steps 1 to 3 of section 5: the length
+/// against 20 and 1200, magic, version, type, and the ranges of the other fields.
+[[nodiscard]] Decoded<ClearHeader> decodeHeader(ByteView datagram) noexcept;
+
+/// What follows the header; the datagram has one.
+[[nodiscard]] inline ByteView payloadOf(ByteView datagram) noexcept {
+  return {datagram.data + kHeaderSize, datagram.size - kHeaderSize};
+}
+
+/// Why the sender leaves (section 9).
+enum class ByeReason : std::uint8_t { kUserLeaves, kProgramEnds, kFault, kConfigurationsDiffer };
+
+inline constexpr std::size_t kByeSize = 1;  ///< [bytes], payload
+
+/// Payload of BYE; 0 if there is no room.
+[[nodiscard]] std::size_t encodeBye(ByeReason reason, ByteSpan out) noexcept;
+[[nodiscard]] Decoded<ByeReason> decodeBye(ByteView payload) noexcept;
+
+}  // namespace tandem

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "tandem/coordination/wire_state.h"
+
+/// \file
+/// The gate of STATE, the same for what is sent and what is taken. Bounds are asked so that a NaN
+/// never passes.
+namespace tandem::wire {
+
+/// Ids of the objects in one datagram: each known and there once.
+class ObjectIds {
+ public:
+  [[nodiscard]] WireRefusal add(ObjectId id) noexcept {
+    if (id >= kMaxSharedObjects) return WireRefusal::kObjectId;
+    std::uint64_t& word = seen_[id / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (id % 64);
+    if ((word & bit) != 0) return WireRefusal::kObjectTwice;
+    word |= bit;
+    return WireRefusal::kNone;
+  }
+
+ private:
+  std::array<std::uint64_t, kMaxSharedObjects / 64> seen_{};
+};
+
+inline double computeSquaredLength(const Quat& q) noexcept {
+  return q.w() * q.w() + q.x() * q.x() + q.y() * q.y() + q.z() * q.z();
+}
+
+/// A quaternion that is of unit length to rounding stays as it is, so that float64 comes out as it
+/// went in.
+inline void makeUnit(Quat& q) noexcept {
+  constexpr double kRounding = 1e-14;
+  const double squared_length = computeSquaredLength(q);
+  if (std::abs(squared_length - 1.0) > kRounding) q.coeffs() /= std::sqrt(squared_length);
+}
+
+class StateGate {
+ public:
+  explicit StateGate(const WireLimits& limits) noexcept : limits_(limits) {}
+
+  [[nodiscard]] WireRefusal check(const PointState& state) const noexcept {
+    if (!isFinite(state)) return WireRefusal::kNotFinite;
+    return checkMotion(state.p_W, state.v_W);
+  }
+
+  [[nodiscard]] WireRefusal check(const RigidState& state) const noexcept {
+    constexpr double kUnitTolerance = 1e-3;
+    if (!isFinite(state)) return WireRefusal::kNotFinite;
+    if (const auto fault = checkMotion(state.p_W, state.v_W); fault != WireRefusal::kNone)
+      return fault;
+    if (!isWithin(state.w_W, limits_.angular_velocity)) return WireRefusal::kAngularVelocity;
+    if (!(std::abs(computeSquaredLength(state.q_WB) - 1.0) < kUnitTolerance))
+      return WireRefusal::kOrientation;
+    return WireRefusal::kNone;
+  }
+
+  [[nodiscard]] WireRefusal checkBlock(const StateMessage& message,
+                                       std::int64_t state_time_us) const noexcept {
+    if ((message.flags & ~kStateFlags) != 0) return WireRefusal::kFlags;
+    for (const std::int64_t time : {message.send_time_us, state_time_us, message.echo_send_time_us})
+      if (time < 0 || time > kMaxWireTimeUs) return WireRefusal::kTime;
+    if (!(std::abs(message.port_energy) <= limits_.energy)) return WireRefusal::kEnergy;
+    return WireRefusal::kNone;
+  }
+
+  /// All that a receiver would look at.
+  [[nodiscard]] WireRefusal check(const StateMessage& message) const noexcept {
+    const StatePacket& packet = message.packet;
+    if (message.profile > WireProfile::kFloat64) return WireRefusal::kProfile;
+    if (packet.object_count > packet.objects.size()) return WireRefusal::kObjectCount;
+    if (const auto fault = checkBlock(message, toMicroseconds(packet.time));
+        fault != WireRefusal::kNone)
+      return fault;
+    if (const auto fault = check(packet.user); fault != WireRefusal::kNone) return fault;
+    ObjectIds seen;
+    for (std::size_t i = 0; i < packet.object_count; ++i) {
+      const ObjectState& object = packet.objects[i];
+      if (const auto fault = seen.add(object.id); fault != WireRefusal::kNone) return fault;
+      if (const auto fault = check(object.state); fault != WireRefusal::kNone) return fault;
+    }
+    return WireRefusal::kNone;
+  }
+
+ private:
+  static bool isWithin(const Vec3& vector, double bound) noexcept {
+    return vector.cwiseAbs().maxCoeff() <= bound;
+  }
+
+  [[nodiscard]] WireRefusal checkMotion(const Vec3& position, const Vec3& velocity) const noexcept {
+    if (!isWithin(position, limits_.position)) return WireRefusal::kPosition;
+    if (!isWithin(velocity, limits_.velocity)) return WireRefusal::kVelocity;
+    return WireRefusal::kNone;
+  }
+
+  WireLimits limits_;
+};
+
+}  // namespace tandem::wire

@@ -1,0 +1,187 @@
+#include "tandem/coordination/wire_state.h"
+
+#include <cmath>
+
+#include "wire/byte_reader.h"
+#include "wire/byte_writer.h"
+#include "wire/state_gate.h"
+
+//   0 send_time_us i64 | state_time_us i64 | state_sequence u64 | echo_send_time_us i64
+//  32 echo_hold_us u32 | ack_bits u32 | port_energy f64 | flags u16 | profile u8 | objects u8
+//  52 config_hash u32 | DEVICE {p, v} | OBJECT {id u16, zero u16, p, q, v, w} ...
+namespace tandem {
+namespace {
+
+/// Writes vectors in a profile's width; what passed the gate rounds to a finite float.
+template <class Real>
+class RecordWriter {
+ public:
+  explicit RecordWriter(wire::ByteWriter& writer) noexcept : writer_(writer) {}
+
+  void write(const PointState& state) noexcept {
+    write(state.p_W);
+    write(state.v_W);
+  }
+
+  void write(const ObjectState& object) noexcept {
+    writer_.write(static_cast<std::uint16_t>(object.id));
+    writer_.write(std::uint16_t{0});
+    const RigidState& state = object.state;
+    write(state.p_W);
+    write(state.q_WB.w());
+    write(Vec3(state.q_WB.vec()));
+    write(state.v_W);
+    write(state.w_W);
+  }
+
+ private:
+  void write(double number) noexcept { writer_.write(static_cast<Real>(number)); }
+
+  void write(const Vec3& vector) noexcept {
+    write(vector.x());
+    write(vector.y());
+    write(vector.z());
+  }
+
+  wire::ByteWriter& writer_;
+};
+
+template <class Real>
+class RecordReader {
+ public:
+  explicit RecordReader(wire::ByteReader& reader) noexcept : reader_(reader) {}
+
+  void read(PointState& state) noexcept {
+    read(state.p_W);
+    read(state.v_W);
+  }
+
+  void read(RigidState& state) noexcept {
+    read(state.p_W);
+    read(state.q_WB.w());
+    read(state.q_WB.x());
+    read(state.q_WB.y());
+    read(state.q_WB.z());
+    read(state.v_W);
+    read(state.w_W);
+  }
+
+ private:
+  void read(double& number) noexcept {
+    if constexpr (sizeof(Real) == sizeof(float)) {
+      number = static_cast<double>(reader_.readFloat());
+    } else {
+      number = reader_.readDouble();
+    }
+  }
+
+  void read(Vec3& vector) noexcept {
+    read(vector.x());
+    read(vector.y());
+    read(vector.z());
+  }
+
+  wire::ByteReader& reader_;
+};
+
+template <class Real>
+void writeRecords(const StatePacket& packet, wire::ByteWriter& writer) noexcept {
+  RecordWriter<Real> records(writer);
+  records.write(packet.user);
+  for (std::size_t i = 0; i < packet.object_count; ++i) records.write(packet.objects[i]);
+}
+
+/// Reads and checks the records one by one; the packet knows how many there are.
+template <class Real>
+WireRefusal readRecords(wire::ByteReader& reader, const wire::StateGate& gate,
+                        StatePacket& packet) noexcept {
+  RecordReader<Real> records(reader);
+  wire::ObjectIds seen;
+  records.read(packet.user);
+  if (const auto fault = gate.check(packet.user); fault != WireRefusal::kNone) return fault;
+  for (std::size_t i = 0; i < packet.object_count; ++i) {
+    ObjectState& object = packet.objects[i];
+    object.id = reader.read<std::uint16_t>();
+    const bool zero = reader.read<std::uint16_t>() == 0;
+    if (const auto fault = seen.add(object.id); fault != WireRefusal::kNone) return fault;
+    if (!zero) return WireRefusal::kZero;
+    records.read(object.state);
+    if (const auto fault = gate.check(object.state); fault != WireRefusal::kNone) return fault;
+    wire::makeUnit(object.state.q_WB);
+  }
+  return WireRefusal::kNone;
+}
+
+WireRefusal readState(ByteView payload, const WireLimits& limits, StateMessage& message) noexcept {
+  if (payload.size < kStateBlockSize) return WireRefusal::kTooShort;
+  wire::ByteReader reader(payload);
+  StatePacket& packet = message.packet;
+  message.send_time_us = reader.readTime();
+  const std::int64_t state_time_us = reader.readTime();
+  packet.sequence = reader.read<std::uint64_t>();
+  message.echo_send_time_us = reader.readTime();
+  message.echo_hold_us = reader.read<std::uint32_t>();
+  message.ack_bits = reader.read<std::uint32_t>();
+  message.port_energy = reader.readDouble();
+  message.flags = reader.read<std::uint16_t>();
+  const auto profile = reader.read<std::uint8_t>();
+  packet.object_count = reader.read<std::uint8_t>();
+  message.config_hash = reader.read<std::uint32_t>();
+  packet.time = static_cast<double>(state_time_us) / 1e6;
+
+  if (profile > static_cast<std::uint8_t>(WireProfile::kFloat64)) return WireRefusal::kProfile;
+  message.profile = static_cast<WireProfile>(profile);
+  if (packet.object_count > packet.objects.size()) return WireRefusal::kObjectCount;
+  if (payload.size != computeStateSize(message.profile, packet.object_count))
+    return WireRefusal::kWrongSize;
+  const wire::StateGate gate(limits);
+  if (const auto fault = gate.checkBlock(message, state_time_us); fault != WireRefusal::kNone)
+    return fault;
+  return message.profile == WireProfile::kFloat32 ? readRecords<float>(reader, gate, packet)
+                                                  : readRecords<double>(reader, gate, packet);
+}
+
+}  // namespace
+
+std::int64_t toMicroseconds(double seconds) noexcept {
+  const double microseconds = seconds * 1e6;
+  if (!(microseconds >= 0.0 && microseconds <= static_cast<double>(kMaxWireTimeUs))) return -1;
+  return std::llround(microseconds);
+}
+
+std::size_t encodeState(const StateMessage& message, ByteSpan out,
+                        const WireLimits& limits) noexcept {
+  const StatePacket& packet = message.packet;
+  const wire::StateGate gate(limits);
+  if (gate.check(message) != WireRefusal::kNone || !isSane(packet)) return 0;
+  if (out.size < computeStateSize(message.profile, packet.object_count)) return 0;
+
+  wire::ByteWriter writer(out);
+  writer.write(message.send_time_us);
+  writer.write(toMicroseconds(packet.time));
+  writer.write(packet.sequence);
+  writer.write(message.echo_send_time_us);
+  writer.write(message.echo_hold_us);
+  writer.write(message.ack_bits);
+  writer.write(message.port_energy);
+  writer.write(message.flags);
+  writer.write(static_cast<std::uint8_t>(message.profile));
+  writer.write(static_cast<std::uint8_t>(packet.object_count));
+  writer.write(message.config_hash);
+  if (message.profile == WireProfile::kFloat32) {
+    writeRecords<float>(packet, writer);
+  } else {
+    writeRecords<double>(packet, writer);
+  }
+  return writer.size();
+}
+
+Decoded<StateMessage> decodeState(ByteView payload, PeerId sender,
+                                  const WireLimits& limits) noexcept {
+  Decoded<StateMessage> message(WireRefusal::kNone);
+  message->packet.sender = sender;
+  message.refuse(readState(payload, limits, *message));
+  return message;
+}
+
+}  // namespace tandem

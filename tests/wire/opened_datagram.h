@@ -1,0 +1,39 @@
+#pragma once
+
+#include "tandem/coordination/wire_agree.h"
+#include "tandem/coordination/wire_handshake.h"
+#include "tandem/coordination/wire_state.h"
+
+/// \file
+/// Every decoder behind one door.
+namespace tandem::test {
+
+/// Why a clear or opened datagram is refused, by the decoder of its type.
+inline WireRefusal findRefusal(ByteView datagram) {
+  const auto header = decodeHeader(datagram);
+  if (!header) return header.refusal();
+  const ByteView payload = payloadOf(datagram);
+  switch (header->type) {
+    case MessageType::kHello:
+      return decodeHello(datagram).refusal();
+    case MessageType::kCookie:
+      return decodeCookie(datagram).refusal();
+    case MessageType::kOpen:
+      return decodeOpen(datagram).refusal();
+    case MessageType::kAccept:
+      return decodeAccept(datagram).refusal();
+    case MessageType::kRefuse:
+      return decodeRefuse(datagram).refusal();
+    case MessageType::kState:
+      return decodeState(payload, header->sender).refusal();
+    case MessageType::kAgree:
+      return decodeAgree(payload).refusal();
+    case MessageType::kAgreeAck:
+      return decodeAgreeAck(payload).refusal();
+    case MessageType::kBye:
+      return decodeBye(payload).refusal();
+  }
+  return WireRefusal::kType;
+}
+
+}  // namespace tandem::test

@@ -1,0 +1,298 @@
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tandem/coordination/wire_state.h"
+
+#include "wire/golden.h"
+
+namespace tandem {
+namespace {
+
+using test::Bytes;
+using test::collect;
+using test::makeFullState;
+using test::makeState;
+using test::viewOf;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Bytes encode(const StateMessage& message, const WireLimits& limits = {}) {
+  return collect([&](ByteSpan out) { return encodeState(message, out, limits); });
+}
+
+Decoded<StateMessage> decode(const Bytes& bytes, const WireLimits& limits = {}) {
+  return decodeState(viewOf(bytes), PeerId{1}, limits);
+}
+
+TEST(WireState, SizesAreThoseOfTheStandard) {
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 0), 80U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1), 136U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 212U);
+  EXPECT_EQ(kMaxStateSize, 968U);
+  EXPECT_LE(kMaxStateSize, kMaxPayloadSize);
+}
+
+TEST(WireState, SecondsAreWholeMicroseconds) {
+  EXPECT_EQ(toMicroseconds(0.0), 0);
+  EXPECT_EQ(toMicroseconds(1.0 / 128.0), 7813);  // 7812.5
+  EXPECT_EQ(toMicroseconds(-1e-6), -1);
+  EXPECT_EQ(toMicroseconds(std::nan("")), -1);
+  EXPECT_EQ(toMicroseconds(kInfinity), -1);
+  EXPECT_EQ(toMicroseconds(1.2e9), -1);
+}
+
+// Why times end at 2^50 us: up to there seconds in a double come back to the microsecond.
+TEST(WireState, EveryMicrosecondComesBack) {
+  constexpr std::uint64_t kSeed = 2;
+  std::mt19937_64 random(kSeed);
+  for (int i = 0; i < 100000; ++i) {
+    const auto bits = random() % 51;
+    const auto us = static_cast<std::int64_t>(random() % (std::uint64_t{1} << bits) + 1);
+    ASSERT_EQ(toMicroseconds(static_cast<double>(us) / 1e6), us) << "seed " << kSeed;
+  }
+  EXPECT_EQ(toMicroseconds(static_cast<double>(kMaxWireTimeUs) / 1e6), kMaxWireTimeUs);
+}
+
+/// All reals of the records.
+std::vector<double*> listReals(StatePacket& packet) {
+  std::vector<double*> reals;
+  const auto add = [&reals](auto& numbers) {
+    for (Eigen::Index i = 0; i < numbers.size(); ++i) reals.push_back(&numbers[i]);
+  };
+  add(packet.user.p_W);
+  add(packet.user.v_W);
+  for (std::size_t i = 0; i < packet.object_count; ++i) {
+    RigidState& state = packet.objects[i].state;
+    add(state.p_W);
+    add(state.q_WB.coeffs());
+    add(state.v_W);
+    add(state.w_W);
+  }
+  return reals;
+}
+
+/// Whether the real at this place of the list belongs to a quaternion.
+bool isOfOrientation(std::size_t index) {
+  return index >= 6 && (index - 6) % 13 >= 3 && (index - 6) % 13 < 7;
+}
+
+class WireStateProfiles : public ::testing::TestWithParam<WireProfile> {};
+
+/// Anything that may be sent.
+StateMessage drawState(std::mt19937_64& random, WireProfile profile) {
+  const auto draw = [&random](double bound) {
+    // Half of them small, on a logarithmic scale.
+    const double unit = static_cast<double>(random() >> 11) * 0x1p-53;
+    const double size = random() % 2 == 0 ? unit : std::pow(10.0, -20.0 * unit);
+    return (random() % 2 == 0 ? bound : -bound) * size;
+  };
+  const auto drawVector = [&draw](double bound) {
+    const double x = draw(bound), y = draw(bound), z = draw(bound);
+    return Vec3(x, y, z);
+  };
+  StateMessage message;
+  message.profile = profile;
+  message.packet.sender = PeerId{1};
+  message.packet.sequence = random();
+  message.packet.time = static_cast<double>(random() >> 14) / 1e6;
+  message.send_time_us = static_cast<std::int64_t>(random() >> 14);
+  message.echo_send_time_us = static_cast<std::int64_t>(random() >> 14);
+  message.echo_hold_us = static_cast<std::uint32_t>(random());
+  message.ack_bits = static_cast<std::uint32_t>(random());
+  message.port_energy = draw(1e9);
+  message.flags = static_cast<std::uint16_t>(random() & kStateFlags);
+  message.config_hash = static_cast<std::uint32_t>(random());
+  message.packet.user = {drawVector(1e3), drawVector(1e2)};
+  message.packet.object_count = static_cast<std::uint32_t>(random() % (kMaxObjectsPerPacket + 1));
+  const auto first = static_cast<ObjectId>(random());
+  for (ObjectId i = 0; i < message.packet.object_count; ++i) {
+    Quat q(draw(1.0), draw(1.0), draw(1.0), 0.5);
+    message.packet.objects[i] = {
+        (first + 7 * i) % kMaxSharedObjects,
+        {drawVector(1e3), q.normalized(), drawVector(1e2), drawVector(1e3)}};
+  }
+  return message;
+}
+
+void expectEqualBlocks(const StateMessage& a, const StateMessage& b) {
+  EXPECT_EQ(a.send_time_us, b.send_time_us);
+  EXPECT_EQ(a.echo_send_time_us, b.echo_send_time_us);
+  EXPECT_EQ(a.echo_hold_us, b.echo_hold_us);
+  EXPECT_EQ(a.ack_bits, b.ack_bits);
+  EXPECT_EQ(a.port_energy, b.port_energy);
+  EXPECT_EQ(a.flags, b.flags);
+  EXPECT_EQ(a.profile, b.profile);
+  EXPECT_EQ(a.config_hash, b.config_hash);
+  EXPECT_EQ(a.packet.sender, b.packet.sender);
+  EXPECT_EQ(a.packet.sequence, b.packet.sequence);
+  EXPECT_EQ(a.packet.time, b.packet.time);
+}
+
+TEST_P(WireStateProfiles, WhatGoesInComesOut) {
+  constexpr std::uint64_t kSeed = 3;
+  std::mt19937_64 random(kSeed);
+  for (int i = 0; i < 5000; ++i) {
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", case " + std::to_string(i));
+    StateMessage sent = drawState(random, GetParam());
+    const Bytes bytes = encode(sent);
+    ASSERT_EQ(bytes.size(), computeStateSize(sent.profile, sent.packet.object_count));
+    auto got = decode(bytes);
+    ASSERT_TRUE(got) << name(got.refusal());
+    ASSERT_TRUE(isSane(got->packet));
+    expectEqualBlocks(*got, sent);
+    ASSERT_EQ(got->packet.object_count, sent.packet.object_count);
+    for (std::size_t k = 0; k < sent.packet.object_count; ++k)
+      EXPECT_EQ(got->packet.objects[k].id, sent.packet.objects[k].id);
+    if (GetParam() == WireProfile::kFloat32) {
+      for (double* real : listReals(sent.packet)) *real = static_cast<float>(*real);
+      for (std::size_t k = 0; k < sent.packet.object_count; ++k)
+        sent.packet.objects[k].state.q_WB.normalize();
+    }
+    const auto expected = listReals(sent.packet);
+    const auto reals = listReals(got->packet);
+    for (std::size_t k = 0; k < reals.size(); ++k) {
+      // To the bit, but for float's orientations: those off by less than 1e-14 stay as they are.
+      const bool divided = GetParam() == WireProfile::kFloat32 && isOfOrientation(k);
+      ASSERT_NEAR(*reals[k], *expected[k], divided ? 1e-14 : 0.0) << "number " << k;
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST_P(WireStateProfiles, OddNumbersAreNumbers) {
+  for (const double odd : {-0.0, 5e-324, -1e-310, 1e-40, -1e-45}) {
+    StateMessage message = makeState(GetParam());
+    message.port_energy = odd;
+    message.packet.user.p_W.x() = message.packet.objects[0].state.w_W.z() = odd;
+    const auto got = decode(encode(message));
+    ASSERT_TRUE(got);
+    const double expected =
+        GetParam() == WireProfile::kFloat32 ? static_cast<double>(static_cast<float>(odd)) : odd;
+    EXPECT_EQ(got->port_energy, odd);
+    EXPECT_EQ(got->packet.user.p_W.x(), expected);
+    EXPECT_EQ(got->packet.objects[0].state.w_W.z(), expected);
+    EXPECT_EQ(std::signbit(got->packet.user.p_W.x()), std::signbit(odd));
+  }
+}
+
+TEST_P(WireStateProfiles, EachRealMustBeFiniteAndInBounds) {
+  StateMessage good = makeFullState();
+  good.profile = GetParam();
+  const std::size_t count = listReals(good.packet).size();
+  ASSERT_EQ(count, 6U + 13U * kMaxObjectsPerPacket);
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity, 1e300, -1e300, 1001.0}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      StateMessage message = good;
+      *listReals(message.packet)[i] = bad;
+      EXPECT_TRUE(encode(message).empty()) << bad << " as number " << i;
+    }
+  }
+}
+
+/// Writes a real of the records where it stands in the payload; returns it as the profile has it.
+void overwriteReal(Bytes& payload, WireProfile profile, std::size_t index, double value) {
+  const std::size_t width = profile == WireProfile::kFloat32 ? 4 : 8;
+  const std::size_t heads = index < 6 ? 0 : 1 + (index - 6) / 13;  // of object records before it
+  std::uint8_t* const place = payload.data() + kStateBlockSize + index * width + 4 * heads;
+  const auto narrow = static_cast<float>(value);
+  if (profile == WireProfile::kFloat32) {
+    std::memcpy(place, &narrow, sizeof narrow);
+  } else {
+    std::memcpy(place, &value, sizeof value);
+  }
+}
+
+// The same on the receiver's side, where an encoder has no say: each real, in its place.
+TEST_P(WireStateProfiles, EachRealIsCheckedOnArrival) {
+  constexpr double kHuge = 3e38;  // a float's, too
+  StateMessage message = makeFullState();
+  message.profile = GetParam();
+  const Bytes good = encode(message);
+  for (std::size_t i = 0; i < 6 + 13 * kMaxObjectsPerPacket; ++i) {
+    const std::size_t place = i < 6 ? i : (i - 6) % 13;
+    const WireRefusal bounded = i < 3        ? WireRefusal::kPosition
+                                : i < 6      ? WireRefusal::kVelocity
+                                : place < 3  ? WireRefusal::kPosition
+                                : place < 7  ? WireRefusal::kOrientation
+                                : place < 10 ? WireRefusal::kVelocity
+                                             : WireRefusal::kAngularVelocity;
+    for (const double bad : {std::nan(""), kInfinity, -kInfinity, kHuge, -kHuge}) {
+      Bytes bytes = good;
+      overwriteReal(bytes, GetParam(), i, bad);
+      EXPECT_EQ(decode(bytes).refusal(), std::isfinite(bad) ? bounded : WireRefusal::kNotFinite)
+          << bad << " as number " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BothProfiles, WireStateProfiles,
+                         ::testing::Values(WireProfile::kFloat32, WireProfile::kFloat64),
+                         [](const auto& tested) {
+                           return tested.param == WireProfile::kFloat32 ? "Float32" : "Float64";
+                         });
+
+TEST(WireState, SenderKeepsToTheGate) {
+  const std::vector<std::function<void(StateMessage&)>> faults = {
+      [](StateMessage& m) { m.send_time_us = -1; },
+      [](StateMessage& m) { m.send_time_us = kMaxWireTimeUs + 1; },
+      [](StateMessage& m) { m.echo_send_time_us = -1; },
+      [](StateMessage& m) { m.packet.time = -1.0; },
+      [](StateMessage& m) { m.packet.time = std::nan(""); },
+      [](StateMessage& m) { m.packet.time = 1.2e9; },
+      [](StateMessage& m) { m.port_energy = std::nan(""); },
+      [](StateMessage& m) { m.port_energy = -1.1e9; },
+      [](StateMessage& m) { m.flags = 8; },
+      [](StateMessage& m) { m.profile = WireProfile{2}; },
+      [](StateMessage& m) { m.packet.object_count = kMaxObjectsPerPacket + 1; },
+      [](StateMessage& m) { m.packet.objects[0].id = kMaxSharedObjects; },
+      [](StateMessage& m) { m.packet.objects[1].id = m.packet.objects[0].id; },
+      [](StateMessage& m) { m.packet.objects[7].state.q_WB.w() = 1e-2; },
+      [](StateMessage& m) { m.packet.objects[7].state.q_WB.coeffs() *= 1.0001; },
+  };
+  EXPECT_FALSE(encode(makeFullState()).empty());
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    StateMessage message = makeFullState();
+    faults[i](message);
+    EXPECT_TRUE(encode(message).empty()) << "fault " << i;
+  }
+}
+
+TEST(WireState, WritesNothingWithoutRoom) {
+  const StateMessage message = makeState(WireProfile::kFloat64);
+  const std::size_t size = computeStateSize(message.profile, 1);
+  Bytes bytes(size, 0xee);
+  EXPECT_EQ(encodeState(message, {bytes.data(), size - 1}), 0U);
+  EXPECT_EQ(bytes, Bytes(size, 0xee));
+  EXPECT_EQ(encodeState(message, {bytes.data(), size}), size);
+}
+
+TEST(WireState, ReceiverMayBeNarrower) {
+  WireLimits narrow;
+  narrow.position = 2.0;
+  const Bytes bytes = encode(makeState(WireProfile::kFloat64));
+  EXPECT_TRUE(decode(bytes));
+  EXPECT_EQ(decode(bytes, narrow).refusal(), WireRefusal::kPosition);
+}
+
+// Off by less than 1e-3, as of a peer that rounds otherwise: taken, and made a unit again.
+TEST(WireState, OrientationsBecomeUnits) {
+  Bytes bytes = encode(makeState(WireProfile::kFloat64));
+  overwriteReal(bytes, WireProfile::kFloat64, 6 + 3, 0.6004);  // w; the square is off by 4.8e-4
+  const auto got = decode(bytes);
+  ASSERT_TRUE(got);
+  const Quat& q = got->packet.objects[0].state.q_WB;
+  EXPECT_NEAR(q.norm(), 1.0, 1e-15);
+  EXPECT_NEAR(q.w() / q.y(), 0.6004 / -0.8, 1e-15);
+  overwriteReal(bytes, WireProfile::kFloat64, 6 + 3, 0.6009);
+  EXPECT_EQ(decode(bytes).refusal(), WireRefusal::kOrientation);
+}
+
+}  // namespace
+}  // namespace tandem
