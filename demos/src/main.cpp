@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "tandem/plugin/key_file.h"
+
 #include "bench/accuracy_command.h"
 #include "bench/speed/speed_command.h"
 #include "bench/stress_command.h"
@@ -69,6 +71,12 @@ int runScenario(const RunOptions& options) {
   return kDone;
 }
 
+int makeKey(const std::string& path) {
+  makeKeyFile(path);
+  fmt::print("{}: a new key; copy it to the other site by a way that nobody reads along\n", path);
+  return kDone;
+}
+
 int runProgram(int argc, char** argv) {
   CLI::App app{"Tandem: networked haptic cooperation in Bullet Physics by remote dynamic proxies.",
                "tandem"};
@@ -125,18 +133,25 @@ int runProgram(int argc, char** argv) {
   stress->add_option("--out", stress_options.folder,
                      "folder for stress.json, stability.svg, stability.png");
 
+  std::string key_path;
+  CLI::App* key = app.add_subcommand("key", "keys that two sites share");
+  key->require_subcommand(1, 1);
+  CLI::App* new_key = key->add_subcommand("new", "write a new random key into a file of your own");
+  new_key->add_option("file", key_path, "a name that is not there yet")->required();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     if (app.get_subcommands().empty() && !app.remaining().empty())
       throw UsageError(app.remaining().front() +
-                       ": no such command; allowed: run, plot, bench; see tandem --help");
+                       ": no such command; allowed: run, plot, bench, key; see tandem --help");
     throw UsageError(fmt::format("{}; see tandem --help", error.what()));
   }
   if (app.get_subcommands().empty())
-    throw UsageError("a command is missing; allowed: run, plot, bench; see tandem --help");
+    throw UsageError("a command is missing; allowed: run, plot, bench, key; see tandem --help");
   if (run->parsed()) return runScenario(run_options);
+  if (new_key->parsed()) return makeKey(key_path);
   if (accuracy->parsed()) {
     bench::runAccuracyCommand(accuracy_options);
     return kDone;

@@ -1,0 +1,63 @@
+#include "secure/cookie.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace tandem::secure {
+namespace {
+
+constexpr std::size_t kLongestAddress = 16;
+constexpr std::size_t kFixedPart = 8 + 8 + 3 * 2 + 1;
+
+}  // namespace
+
+CookieMaker::CookieMaker(SecretKey secret, double slot_length)
+    : secret_(std::move(secret)), slot_length_(slot_length) {
+  if (!(slot_length > 0.0) || !std::isfinite(slot_length))
+    throw std::invalid_argument("slot_length is " + std::to_string(slot_length) +
+                                " s, must be finite and above 0");
+  if (secret_.isEmpty()) throw std::invalid_argument("the secret of the cookies was moved away");
+}
+
+std::int64_t CookieMaker::slotAt(double now) const noexcept {
+  // What no clock shows must not be undefined either.
+  constexpr double kFarAway = 9e18;
+  const double slot = std::floor(now / slot_length_);
+  return std::abs(slot) < kFarAway ? static_cast<std::int64_t>(slot) : 0;
+}
+
+Cookie CookieMaker::makeIn(std::int64_t slot, const CookieSubject& subject) const noexcept {
+  const std::size_t address_size = std::min(subject.address.size(), kLongestAddress);
+  std::array<std::uint8_t, kFixedPart + kLongestAddress> text;
+  std::uint8_t* end = putLittleEndian(text.data(), static_cast<std::uint64_t>(slot));
+  end = putLittleEndian(end, subject.nonce);
+  end = putLittleEndian(end, subject.port);
+  end = putLittleEndian(end, subject.from);
+  end = putLittleEndian(end, subject.to);
+  *end++ = static_cast<std::uint8_t>(address_size);
+  std::copy_n(subject.address.begin(), address_size, end);
+
+  Cookie cookie;
+  crypto_generichash(cookie.data(), cookie.size(), text.data(), kFixedPart + address_size,
+                     secret_.data(), SecretKey::kSize);
+  return cookie;
+}
+
+Cookie CookieMaker::make(const CookieSubject& subject, double now) const noexcept {
+  return makeIn(slotAt(now), subject);
+}
+
+bool CookieMaker::accepts(const Cookie& cookie, const CookieSubject& subject,
+                          double now) const noexcept {
+  const std::int64_t slot = slotAt(now);
+  for (const std::int64_t made_in : {slot, slot - 1}) {
+    const Cookie right = makeIn(made_in, subject);
+    if (sodium_memcmp(cookie.data(), right.data(), right.size()) == 0) return true;
+  }
+  return false;
+}
+
+}  // namespace tandem::secure
