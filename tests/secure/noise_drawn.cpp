@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tandem/coordination/wire_sealing.h"
+
 #include "secure/cookie.h"
 #include "secure/seal.h"
 #include "secure/secure_support.h"
@@ -27,7 +29,7 @@ nlohmann::json drawDatagram(Draw& draw, SecretKey key) {
                        {"header", toHex(header)},
                        {"text", toHex(text)}};
   drawn["key"] = toHex(key);
-  secure::Sealer sealer(std::move(key), secure::makeSalt(sender, epoch));
+  secure::Sealer sealer(std::move(key), computeNonceSalt(PeerId{sender}, epoch));
   ByteVector datagram(text.size() + secure::kTagSize);
   while (sealer.nextSequence() < sequence) (void)sealer.seal(header, datagram);
   std::copy(text.begin(), text.end(), datagram.begin());

@@ -202,7 +202,7 @@ def check_drawn(comparison, number, case):
     comparison.expect(f"{name}, key to the initiator", back, case["to_initiator"])
 
     sent = case["datagram"]
-    nonce = (sent["sender"] << 16 | sent["epoch"]).to_bytes(4, "little")
+    nonce = sent["sender"].to_bytes(2, "little") + sent["epoch"].to_bytes(2, "little")
     nonce += sent["sequence"].to_bytes(8, "little")
     comparison.expect(f"{name}, datagram",
                       seal(bytes.fromhex(sent["key"]), nonce, bytes.fromhex(sent["header"]),

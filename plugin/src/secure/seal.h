@@ -16,13 +16,6 @@ namespace tandem::secure {
 /// So many datagrams are sealed under one key at most.
 inline constexpr std::uint64_t kSealLimit = std::uint64_t{1} << 32;
 
-/// Salt of the nonces of a sender (site number) in an epoch (handshakes of the pair so far). Keys
-/// are fresh for each direction and epoch anyway; a mistake with them would not repeat a nonce as
-/// well.
-[[nodiscard]] constexpr std::uint32_t makeSalt(std::uint16_t sender, std::uint16_t epoch) noexcept {
-  return (std::uint32_t{sender} << 16) | epoch;
-}
-
 /// Seals. It owns the sequence number, which only goes up: no nonce is used twice under its key, as
 /// long as no other Sealer is made from the same key. Moves, and what it was moved from seals
 /// nothing.
