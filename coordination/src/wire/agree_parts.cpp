@@ -69,6 +69,8 @@ bool AgreeCollector::complete() const noexcept {
   return !parts_.empty() && received_ == all;
 }
 
+Configuration AgreeCollector::items() const { return join(parts_); }
+
 AgreeAnswer AgreeCollector::answer(const Configuration& here) {
   AgreeAnswer answer;
   answer.config_hash = config_hash_;

@@ -47,6 +47,8 @@ class AgreeCollector {
 
   [[nodiscard]] std::uint32_t partsReceived() const noexcept { return received_; }
   [[nodiscard]] bool complete() const noexcept;
+  /// What came in so far.
+  [[nodiscard]] Configuration items() const;
 
   /// The answer to the peer, with what came in so far compared with the configuration here. Parts
   /// that do not make the hash which they carry are no configuration: all are forgotten.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace tandem {
+
+/// Where datagrams go to and come from. IPv4 is kept as IPv6 has it, ::ffff:a.b.c.d.
+struct Address {
+  std::array<std::uint8_t, 16> ip{};
+  std::uint16_t port = 0;
+  std::uint32_t scope = 0;  ///< interface of a link-local IPv6 address
+
+  [[nodiscard]] friend bool operator==(const Address& a, const Address& b) noexcept {
+    return a.ip == b.ip && a.port == b.port && a.scope == b.scope;
+  }
+  [[nodiscard]] friend bool operator!=(const Address& a, const Address& b) noexcept {
+    return !(a == b);
+  }
+};
+
+/// "10.0.0.2:7001" or "[fe80::1%3]:7001".
+[[nodiscard]] std::string toString(const Address& address);
+
+/// The address of "host:port", "[ipv6]:port" or ":port" (this machine; for `--bind`, every
+/// interface of it). Asks the system's resolver, so it may take seconds. Throws
+/// std::invalid_argument in one line if the text is no address or the host is not known.
+[[nodiscard]] Address resolveAddress(const std::string& text);
+
+}  // namespace tandem

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tandem/coordination/configuration.h"
+#include "tandem/coordination/link.h"
+#include "tandem/coordination/playout.h"
+#include "tandem/coordination/wire_state.h"
+#include "tandem/plugin/peer_status.h"
+#include "tandem/plugin/secret_key.h"
+
+namespace tandem {
+
+/// A remote site and how it is reached.
+struct UdpPeer {
+  PeerId id{};
+  std::optional<Address> address;  ///< nothing: it is to call us
+  SecretKey key;                   ///< that this pair shares
+};
+
+struct UdpMeshSettings {
+  PeerId self{1};
+  Address bind;                 ///< port 0: any
+  Configuration configuration;  ///< must be equal at all sites
+  PlayoutSettings playout;
+  WireProfile profile = WireProfile::kFloat32;
+};
+
+/// What came in so far, and why some of it was dropped; a name for each reason, as in
+/// coordination/STANDARD.md.
+struct RefusedDatagrams {
+  std::string reason;
+  std::uint64_t count = 0;
+};
+
+/// The ways to all remote sites over one UDP socket: sealed, replay-proof, with constant delay.
+///
+/// Used from the thread that ticks the site. poll() drains at most 64 datagrams and never blocks;
+/// states cost no allocation, handshakes (at the start, every two minutes and after silence) some.
+class UdpMesh {
+ public:
+  /// Throws std::invalid_argument for settings out of range or an address that cannot be bound,
+  /// tandem::Error if the system gives no socket.
+  UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers);
+  ~UdpMesh();
+  UdpMesh(const UdpMesh&) = delete;
+  UdpMesh& operator=(const UdpMesh&) = delete;
+
+  /// The way to a peer, for Site::connect(); lives as long as this. Throws std::invalid_argument
+  /// for an id that is no peer.
+  [[nodiscard]] Link& link(PeerId peer);
+
+  /// Takes in what is there and says what is due. Call it before each tick. `now` [s] is the
+  /// site's clock and must not run back.
+  void poll(double now) noexcept;
+
+  /// Waits until something comes in or so many seconds have passed.
+  void wait(double seconds) const noexcept;
+
+  /// Says farewell to all: poll for another 100 ms until all have been told.
+  void leave(double now) noexcept;
+
+  [[nodiscard]] PeerStatus status(PeerId peer, double now) const;
+  [[nodiscard]] std::uint64_t received() const noexcept;
+  /// Reasons that occurred.
+  [[nodiscard]] std::vector<RefusedDatagrams> refused() const;
+  /// Where the socket is bound.
+  [[nodiscard]] Address bound() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tandem

@@ -1,0 +1,50 @@
+#include "net/answerer.h"
+
+#include <array>
+
+#include "net/random.h"
+
+namespace tandem::net {
+
+std::optional<SessionKeys> Answerer::onOpen(const OpenMessage& message, const Address& from,
+                                            double now, Outlet& outlet, Outcome& outcome) noexcept {
+  std::optional<SessionKeys> keys;
+  const bool is_again = answered_ && answered_->route.nonce == message.route.nonce &&
+                        answered_->noise == message.noise;
+  if (!is_again) {
+    try {
+      keys = answer(message, now, outcome);
+    } catch (const std::exception&) {
+      outcome = Refusal::kTooMany;  // no memory to lock: OPEN will come again
+    }
+    if (!keys) return std::nullopt;
+  }
+  std::array<std::uint8_t, kAcceptSize> datagram;
+  const std::size_t size = encodeAccept(accept_, {datagram.data(), datagram.size()});
+  outlet.send({datagram.data(), size}, from);
+  outcome = {};
+  return keys;
+}
+
+std::optional<SessionKeys> Answerer::answer(const OpenMessage& message, double now,
+                                            Outcome& outcome) {
+  secure::Responder noise(key_, writeNoisePrologue(pair_.peer, pair_.self));
+  SessionTermsBytes bytes{};
+  outcome = Refusal::kKey;
+  const auto size = noise.readMessage(message.noise, bytes);
+  if (!size || *size != bytes.size()) return std::nullopt;
+  const auto terms = readSessionTerms(bytes);
+  if (!terms || terms->key_epoch != message.key_epoch) return std::nullopt;
+  const auto mine = drawNumber<std::uint32_t>();
+  accept_.route = {pair_.self, pair_.peer, message.route.nonce};
+  accept_.session = terms->session;
+  accept_.key_epoch = terms->key_epoch;
+  const SessionTermsBytes answer_terms = writeSessionTerms({mine, terms->key_epoch, 0});
+  if (!noise.writeMessage(answer_terms, accept_.noise)) return std::nullopt;
+  auto keys = noise.split();
+  if (!keys) return std::nullopt;
+  answered_ = message;
+  return SessionKeys(pair_, std::move(*keys), mine, terms->session, terms->key_epoch, now);
+}
+
+}  // namespace tandem::net

@@ -1,0 +1,111 @@
+#include "net/caller.h"
+
+#include <algorithm>
+#include <array>
+
+#include "net/random.h"
+
+namespace tandem::net {
+namespace {
+
+/// OPENs without an answer after which the cookie may be too old.
+constexpr int kOpensPerCookie = 8;
+
+}  // namespace
+
+void Caller::start(std::uint16_t epoch, double now) noexcept {
+  stage_ = Stage::kHello;
+  epoch_ = epoch;
+  nonce_ = drawNumber<std::uint64_t>();
+  noise_.reset();
+  retry_.start(now);
+}
+
+void Caller::stop() noexcept {
+  stage_ = Stage::kIdle;
+  noise_.reset();
+}
+
+void Caller::advance(double now, const Address& to, Outlet& outlet) noexcept {
+  if (stage_ == Stage::kOpen && retry_.tries() >= kOpensPerCookie) start(epoch_, now);
+  if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
+  std::array<std::uint8_t, kHelloSize> datagram;
+  const ByteSpan out{datagram.data(), datagram.size()};
+  const std::size_t size = stage_ == Stage::kHello
+                               ? encodeHello({{pair_.self, pair_.peer, nonce_}}, out)
+                               : encodeOpen(open_, out);
+  outlet.send({datagram.data(), size}, to);
+}
+
+bool Caller::isAnswer(const HandshakeRoute& route) const noexcept {
+  return stage_ != Stage::kIdle && route.sender == pair_.peer && route.receiver == pair_.self &&
+         route.nonce == nonce_;
+}
+
+Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
+  const auto message = decodeCookie(datagram);
+  if (!message) return message.refusal();
+  if (!isAnswer(message->route) || stage_ != Stage::kHello) return Refusal::kOutOfTurn;
+  try {
+    const NoisePrologue prologue = writeNoisePrologue(pair_.self, pair_.peer);
+    session_ = drawNumber<std::uint32_t>();
+    const SessionTermsBytes terms = writeSessionTerms({session_, epoch_, 0});
+    noise_.emplace(key_, prologue);
+    open_.route = {pair_.self, pair_.peer, nonce_};
+    open_.key_epoch = epoch_;
+    open_.cookie = message->cookie;
+    if (!noise_->writeMessage(terms, open_.noise)) return Refusal::kOutOfTurn;
+  } catch (const std::exception&) {
+    return Refusal::kTooMany;  // no memory to lock: HELLO will be said again
+  }
+  stage_ = Stage::kOpen;
+  retry_.start(now);
+  return {};
+}
+
+std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
+                                            Outcome& outcome) noexcept {
+  const auto message = decodeAccept(datagram);
+  if (!message) {
+    outcome = message.refusal();
+    return std::nullopt;
+  }
+  const bool is_expected = stage_ == Stage::kOpen && isAnswer(message->route) &&
+                           message->session == session_ && message->key_epoch == epoch_;
+  if (!is_expected) {
+    outcome = Refusal::kOutOfTurn;
+    return std::nullopt;
+  }
+  try {
+    SessionTermsBytes bytes{};
+    outcome = Refusal::kKey;
+    const auto size = noise_->readMessage(message->noise, bytes);
+    if (!size || *size != bytes.size()) return std::nullopt;
+    const auto terms = readSessionTerms(bytes);
+    if (!terms || terms->key_epoch != epoch_) return std::nullopt;
+    auto keys = noise_->split();
+    if (!keys) return std::nullopt;
+    outcome = {};
+    stop();
+    refused_.reset();
+    return SessionKeys(pair_, std::move(*keys), session_, terms->session, epoch_, now);
+  } catch (const std::exception&) {
+    outcome = Refusal::kTooMany;
+    return std::nullopt;
+  }
+}
+
+Outcome Caller::onRefuse(ByteView datagram, double now) noexcept {
+  const auto message = decodeRefuse(datagram);
+  if (!message) return message.refusal();
+  if (!isAnswer(message->route)) return Refusal::kOutOfTurn;
+  refused_ = *message;
+  if (message->code == RefuseCode::kCookie && stage_ == Stage::kOpen) {
+    start(epoch_, now);
+    // Not at once, or a forger could make us say HELLO as often as it likes.
+    (void)retry_.isDue(now);
+  }
+  return {};
+}
+
+}  // namespace tandem::net

@@ -1,0 +1,183 @@
+#include "net/mesh.h"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace tandem::net {
+namespace {
+
+constexpr double kHellosPerSecond = 200.0;  ///< each costs a hash and a datagram of 48 bytes
+constexpr double kOpensPerSecond = 50.0;    ///< each costs two X25519
+constexpr double kRefusalsPerSecond = 5.0;
+
+secure::CookieSubject makeSubject(const HandshakeRoute& route, const Address& from) noexcept {
+  return {from.ip, from.port, static_cast<std::uint16_t>(route.sender),
+          static_cast<std::uint16_t>(route.receiver), route.nonce};
+}
+
+void checkIds(PeerId self, const std::vector<Mesh::Peer>& peers) {
+  const auto check = [](PeerId id) {
+    const auto number = static_cast<std::uint32_t>(id);
+    if (number < 1 || number > 8)
+      throw std::invalid_argument("peer id " + std::to_string(number) + ": must be 1 to 8");
+  };
+  check(self);
+  for (std::size_t i = 0; i < peers.size(); ++i) {
+    check(peers[i].id);
+    bool is_twice = peers[i].id == self;
+    for (std::size_t j = 0; j < i; ++j) is_twice |= peers[i].id == peers[j].id;
+    if (is_twice)
+      throw std::invalid_argument("peer id " +
+                                  std::to_string(static_cast<std::uint32_t>(peers[i].id)) +
+                                  " is there twice; every site has an id of its own");
+  }
+}
+
+}  // namespace
+
+/// One pair's states, for a Site.
+class Mesh::PeerLink final : public Link {
+ public:
+  PeerLink(PeerSession& session, Outlet& outlet) noexcept : session_(session), outlet_(outlet) {}
+  void send(const StatePacket& packet, double now) noexcept override {
+    session_.send(packet, now, outlet_);
+  }
+  [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override {
+    return session_.pop(from, until);
+  }
+
+ private:
+  PeerSession& session_;
+  Outlet& outlet_;
+};
+
+Mesh::Mesh(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common, Outlet& outlet)
+    : self_(self),
+      outlet_(outlet),
+      hellos_(kHellosPerSecond),
+      opens_(kOpensPerSecond),
+      refusals_(kRefusalsPerSecond) {
+  checkIds(self, peers);
+  for (Peer& peer : peers) {
+    sessions_.push_back(std::make_unique<PeerSession>(Pair{self, peer.id}, peer.address,
+                                                      std::move(peer.key), common));
+    links_.push_back(std::make_unique<PeerLink>(*sessions_.back(), outlet));
+  }
+}
+
+Mesh::~Mesh() = default;
+
+void Mesh::receive(ByteSpan datagram, const Address& from, double now) noexcept {
+  const Outcome outcome = handle(datagram, from, now);
+  counts_.add(outcome.refusal);
+  if (outcome.refusal == Refusal::kForm) ++counts_.form[static_cast<std::size_t>(outcome.form)];
+}
+
+void Mesh::advance(double now) noexcept {
+  for (auto& session : sessions_) session->advance(now, outlet_);
+}
+
+void Mesh::leave(ByeReason reason, double now) noexcept {
+  for (auto& session : sessions_) session->leave(reason, now);
+}
+
+Link& Mesh::link(PeerId peer) {
+  for (std::size_t i = 0; i < sessions_.size(); ++i)
+    if (sessions_[i]->pair().peer == peer) return *links_[i];
+  throw std::invalid_argument("site " + std::to_string(static_cast<std::uint32_t>(peer)) +
+                              " is no peer of this mesh");
+}
+
+PeerStatus Mesh::status(PeerId peer, double now) const {
+  for (const auto& session : sessions_)
+    if (session->pair().peer == peer) return session->status(now);
+  return {};
+}
+
+PeerSession* Mesh::find(PeerId peer) noexcept {
+  for (auto& session : sessions_)
+    if (session->pair().peer == peer) return session.get();
+  return nullptr;
+}
+
+Outcome Mesh::handle(ByteSpan datagram, const Address& from, double now) noexcept {
+  const ByteView bytes{datagram.data, datagram.size};
+  const auto header = decodeHeader(bytes);
+  if (!header) {
+    std::array<std::uint8_t, kRefuseSize> answer;
+    const bool is_other_version = header.refusal() == WireRefusal::kVersion;
+    if (is_other_version && refusals_.take(now)) {
+      const std::size_t size = encodeVersionRefusal(bytes, {answer.data(), answer.size()});
+      if (size > 0) outlet_.send({answer.data(), size}, from);
+    }
+    return header.refusal();
+  }
+  if (isSealed(header->type)) return handleSealed(*header, datagram, from, now);
+  if (header->type == MessageType::kHello) return handleHello(bytes, from, now);
+  if (header->type == MessageType::kOpen) return handleOpen(bytes, from, now);
+  PeerSession* session = find(header->sender);
+  if (!session) return Refusal::kNotForMe;
+  switch (header->type) {
+    case MessageType::kCookie:
+      return session->onCookie(bytes, now);
+    case MessageType::kAccept:
+      return session->onAccept(bytes, from, now);
+    default:
+      return session->onRefuse(bytes, now);
+  }
+}
+
+Outcome Mesh::handleHello(ByteView datagram, const Address& from, double now) noexcept {
+  const auto hello = decodeHello(datagram);
+  if (!hello) return hello.refusal();
+  if (hello->route.receiver != self_ || !find(hello->route.sender)) {
+    refuse(hello->route, RefuseCode::kUnknownPeer, from, now);
+    return Refusal::kNotForMe;
+  }
+  if (!hellos_.take(now)) return Refusal::kTooMany;
+  const CookieMessage answer{{self_, hello->route.sender, hello->route.nonce},
+                             cookies_.make(makeSubject(hello->route, from), now)};
+  std::array<std::uint8_t, kCookieSize> bytes;
+  const std::size_t size = encodeCookie(answer, {bytes.data(), bytes.size()});
+  outlet_.send({bytes.data(), size}, from);
+  return {};
+}
+
+Outcome Mesh::handleOpen(ByteView datagram, const Address& from, double now) noexcept {
+  const auto open = decodeOpen(datagram);
+  if (!open) return open.refusal();
+  PeerSession* session = open->route.receiver == self_ ? find(open->route.sender) : nullptr;
+  if (!session) return Refusal::kNotForMe;
+  if (!cookies_.accepts(open->cookie, makeSubject(open->route, from), now)) {
+    refuse(open->route, RefuseCode::kCookie, from, now);
+    return Refusal::kCookie;
+  }
+  if (!opens_.take(now)) {
+    refuse(open->route, RefuseCode::kBusy, from, now);
+    return Refusal::kTooMany;
+  }
+  const Outcome outcome = session->onOpen(*open, from, now, outlet_);
+  if (outcome.refusal == Refusal::kKey) refuse(open->route, RefuseCode::kKey, from, now);
+  return outcome;
+}
+
+Outcome Mesh::handleSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
+                           double now) noexcept {
+  for (auto& session : sessions_)
+    if (session->has(header)) return session->onSealed(header, datagram, from, now, outlet_);
+  return Refusal::kUnknownSession;
+}
+
+void Mesh::refuse(const HandshakeRoute& asked, RefuseCode code, const Address& to,
+                  double now) noexcept {
+  if (!refusals_.take(now)) return;
+  RefuseMessage message;
+  message.route = {asked.receiver, asked.sender, asked.nonce};
+  message.code = code;
+  std::array<std::uint8_t, kRefuseSize> bytes;
+  const std::size_t size = encodeRefuse(message, {bytes.data(), bytes.size()});
+  if (size > 0) outlet_.send({bytes.data(), size}, to);
+}
+
+}  // namespace tandem::net

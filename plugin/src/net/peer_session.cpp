@@ -1,0 +1,286 @@
+#include "net/peer_session.h"
+
+#include <algorithm>
+#include <array>
+
+#include "net/random.h"
+
+namespace tandem::net {
+namespace {
+
+constexpr double kSilence = 1.0;       ///< after which a peer is called again [s]
+constexpr double kGone = 5.0;          ///< after which it counts as not there [s]
+constexpr double kPreviousKeys = 2.0;  ///< for which replaced keys still open [s]
+constexpr double kAgreePeriod = 0.25;  // [s]
+constexpr double kByePeriod = 0.01;    // [s]
+constexpr int kByes = 10;
+
+/// Room for a whole datagram, and for a payload in its place.
+struct Room {
+  std::array<std::uint8_t, kMaxDatagramSize> bytes;
+  [[nodiscard]] ByteSpan datagram() noexcept { return {bytes.data(), bytes.size()}; }
+  [[nodiscard]] ByteSpan payload() noexcept {
+    return {bytes.data() + kHeaderSize, bytes.size() - kHeaderSize - secure::kTagSize};
+  }
+};
+
+}  // namespace
+
+PeerSession::PeerSession(const Pair& pair, std::optional<Address> address, SecretKey key,
+                         const Common& common)
+    : pair_(pair),
+      address_(address),
+      key_(std::move(key)),
+      caller_(pair, key_),
+      answerer_(pair, key_),
+      agreement_(common.configuration),
+      stream_(common.playout, common.profile, agreement_.hash()),
+      epoch_(drawNumber<std::uint16_t>()) {}
+
+void PeerSession::advance(double now, Outlet& outlet) noexcept {
+  dropOldKeys(now);
+  if (bye_reason_) {
+    sayBye(now, outlet);
+    return;
+  }
+  callIfNeeded(now, outlet);
+  tellConfiguration(now, outlet);
+}
+
+void PeerSession::dropOldKeys(double now) noexcept {
+  if (previous_ && now >= previous_until_) previous_.reset();
+  if (coming_ && coming_->age(now) == secure::KeyAge::kExpired) coming_.reset();
+  // Silence alone takes no keys: what comes first after an outage shall count.
+  if (keys_ && keys_->age(now) == secure::KeyAge::kExpired) forgetKeys();
+}
+
+void PeerSession::forgetKeys() noexcept {
+  keys_.reset();
+  coming_.reset();
+  previous_.reset();
+}
+
+void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
+  if (!pair_.isInitiator() || !address_) return;
+  const bool is_needed =
+      !keys_ || keys_->age(now) == secure::KeyAge::kDue || now - heard_at_ > kSilence;
+  if (is_needed && !caller_.isActive()) {
+    epoch_ = static_cast<std::uint16_t>(epoch_ == 65535 ? 1 : epoch_ + 1);
+    caller_.start(epoch_, now);
+  }
+  caller_.advance(now, *address_, outlet);
+}
+
+void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
+  if (!keys_ || !agreement_.hasMoreToSay() || now < agree_at_) return;
+  agree_at_ = now + kAgreePeriod;
+  try {
+    for (;;) {
+      Room room;
+      const std::size_t size = agreement_.nextPart(room.payload());
+      if (size == 0) return;
+      sendSealed(MessageType::kAgree, size, room.datagram(), outlet);
+    }
+  } catch (const std::bad_alloc&) {
+    // Next time.
+  }
+}
+
+void PeerSession::leave(ByeReason reason, double now) noexcept {
+  if (bye_reason_) return;
+  bye_reason_ = reason;
+  byes_left_ = kByes;
+  bye_at_ = now;
+}
+
+void PeerSession::sayBye(double now, Outlet& outlet) noexcept {
+  if (byes_left_ == 0 || now < bye_at_) return;
+  Room room;
+  if (keys_)
+    sendSealed(MessageType::kBye, encodeBye(*bye_reason_, room.payload()), room.datagram(), outlet);
+  bye_at_ = now + kByePeriod;
+  if (--byes_left_ == 0) forgetKeys();
+}
+
+Outcome PeerSession::onCookie(ByteView datagram, double now) noexcept {
+  return caller_.onCookie(datagram, now);
+}
+
+Outcome PeerSession::onAccept(ByteView datagram, const Address& from, double now) noexcept {
+  Outcome outcome;
+  auto keys = caller_.onAccept(datagram, now, outcome);
+  if (!keys) return outcome;
+  address_ = from;
+  install(std::move(*keys), now);
+  return {};
+}
+
+Outcome PeerSession::onRefuse(ByteView datagram, double now) noexcept {
+  return caller_.onRefuse(datagram, now);
+}
+
+Outcome PeerSession::onOpen(const OpenMessage& message, const Address& from, double now,
+                            Outlet& outlet) noexcept {
+  if (bye_reason_) return Refusal::kAfterBye;
+  Outcome outcome;
+  auto keys = answerer_.onOpen(message, from, now, outlet, outcome);
+  if (keys) coming_ = std::move(keys);
+  return outcome;
+}
+
+void PeerSession::install(SessionKeys keys, double now) noexcept {
+  if (keys_) {
+    previous_ = std::move(keys_);
+    previous_until_ = now + kPreviousKeys;
+  }
+  keys_ = std::move(keys);
+  epoch_ = keys_->epoch();
+  heard_at_ = now;
+  newest_sequence_ = 0;
+  left_.reset();
+  stream_.startKeys();
+  agreement_.restart();
+  agree_at_ = now;
+}
+
+bool PeerSession::has(const ClearHeader& header) const noexcept {
+  return (keys_ && keys_->isFor(header)) || (coming_ && coming_->isFor(header)) ||
+         (previous_ && previous_->isFor(header));
+}
+
+Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
+                              double now, Outlet& outlet) noexcept {
+  const bool is_coming = coming_ && coming_->isFor(header);
+  const bool is_current = keys_ && keys_->isFor(header);
+  std::optional<SessionKeys>& keys = is_coming ? coming_ : is_current ? keys_ : previous_;
+  if (!keys || !keys->isFor(header)) return Refusal::kUnknownSession;
+  const Refusal refusal = keys->open(header, datagram, now);
+  if (refusal != Refusal::kNone) return refusal;
+  if (is_coming) {
+    // The initiator has the keys, too.
+    install(std::move(*coming_), now);
+    coming_.reset();
+  }
+  heard_at_ = now;
+  std::optional<std::uint64_t> sequence;  // under the present keys
+  if (is_coming || is_current) {
+    sequence = header.sequence;
+    stream_.note(*sequence, now);
+    if (*sequence >= newest_sequence_) {
+      newest_sequence_ = *sequence;
+      address_ = from;
+    }
+  }
+  const ByteView payload{datagram.data + kHeaderSize,
+                         datagram.size - kHeaderSize - secure::kTagSize};
+  try {
+    return handle(header.type, sequence, payload, now, outlet);
+  } catch (const std::bad_alloc&) {
+    return Refusal::kTooMany;  // of a configuration: it comes again
+  }
+}
+
+Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> sequence,
+                            ByteView payload, double now, Outlet& outlet) {
+  if (bye_reason_) return Refusal::kAfterBye;
+  Room room;
+  switch (type) {
+    case MessageType::kState:
+      return stream_.read(payload, pair_.peer, sequence, agreement_.isEqual(), now);
+    case MessageType::kAgree: {
+      const auto part = decodeAgree(payload);
+      if (!part) return part.refusal();
+      const std::size_t size = agreement_.onAgree(*part, room.payload());
+      if (size > 0) sendSealed(MessageType::kAgreeAck, size, room.datagram(), outlet);
+      return {};
+    }
+    case MessageType::kAgreeAck: {
+      const auto answer = decodeAgreeAck(payload);
+      if (!answer) return answer.refusal();
+      agreement_.onAnswer(*answer);
+      return {};
+    }
+    case MessageType::kBye: {
+      const auto reason = decodeBye(payload);
+      if (!reason) return reason.refusal();
+      left_ = *reason;
+      forgetKeys();
+      return {};
+    }
+    default:
+      return Refusal::kOutOfTurn;
+  }
+}
+
+void PeerSession::send(const StatePacket& packet, double now, Outlet& outlet) noexcept {
+  if (!keys_ || bye_reason_) return;
+  Room room;
+  const std::size_t size = stream_.write(packet, now, room.payload());
+  if (size == 0) {
+    ++states_unsent_;
+    return;
+  }
+  sendSealed(MessageType::kState, size, room.datagram(), outlet);
+  ++states_sent_;
+}
+
+void PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+                             Outlet& outlet) noexcept {
+  if (!keys_ || !address_) return;
+  const std::size_t size = keys_->seal(type, payload_size, datagram);
+  if (size > 0) outlet.send({datagram.data, size}, *address_);
+}
+
+PeerStatus PeerSession::status(double now) const {
+  PeerStatus status;
+  status.peer = pair_.peer;
+  if (left_)
+    status.phase = PeerPhase::kLeft;
+  else if (!keys_ || now - heard_at_ > kGone)
+    status.phase = PeerPhase::kCalling;
+  else if (agreement_.isEqual())
+    status.phase = PeerPhase::kLive;
+  else
+    status.phase = agreement_.difference() ? PeerPhase::kDifferent : PeerPhase::kAgreeing;
+  status.address = address_;
+  status.silence = keys_ ? now - heard_at_ : 0.0;
+  status.round_trip = stream_.trip().trip();
+  status.clock_offset = stream_.trip().offset();
+  const Playout& playout = stream_.playout();
+  status.wait = playout.wait();
+  status.jitter = playout.jitter();
+  status.loss = stream_.loss();
+  status.key_epoch = keys_ ? keys_->epoch() : std::uint16_t{0};
+  status.states_sent = states_sent_;
+  status.states_given = playout.counts().given;
+  status.states_stale = playout.counts().stale;
+  status.states_too_late = playout.counts().too_late;
+  if (const auto& refused = caller_.refused(); refused && !keys_) {
+    status.refused = refused->code;
+    status.refused_version = refused->version;
+  }
+  if (keys_) status.difference = agreement_.difference();
+  return status;
+}
+
+}  // namespace tandem::net
+
+namespace tandem {
+
+const char* name(PeerPhase phase) noexcept {
+  switch (phase) {
+    case PeerPhase::kCalling:
+      return "calling";
+    case PeerPhase::kAgreeing:
+      return "agreeing";
+    case PeerPhase::kDifferent:
+      return "different";
+    case PeerPhase::kLive:
+      return "live";
+    case PeerPhase::kLeft:
+      return "left";
+  }
+  return "";
+}
+
+}  // namespace tandem

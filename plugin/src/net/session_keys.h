@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "tandem/coordination/replay_window.h"
+#include "tandem/coordination/wire.h"
+#include "tandem/coordination/wire_sealing.h"
+
+#include "net/refusal.h"
+#include "secure/handshake.h"
+#include "secure/rekey_policy.h"
+#include "secure/seal.h"
+
+namespace tandem::net {
+
+/// Who talks to whom.
+struct Pair {
+  PeerId self{}, peer{};
+  /// The peer with the lower id begins.
+  [[nodiscard]] bool isInitiator() const noexcept { return self < peer; }
+};
+
+/// What one handshake gave: a key for each direction, the numbers by which both sides name the
+/// session, and which datagrams were taken under it. All but making one is real-time safe.
+class SessionKeys {
+ public:
+  SessionKeys(const Pair& pair, secure::TransportKeys keys, std::uint32_t mine,
+              std::uint32_t theirs, std::uint16_t epoch, double now) noexcept
+      : pair_(pair),
+        sealer_(std::move(keys.send), computeNonceSalt(pair.self, epoch)),
+        opener_(std::move(keys.receive), computeNonceSalt(pair.peer, epoch)),
+        policy_(now),
+        mine_(mine),
+        theirs_(theirs),
+        epoch_(epoch) {}
+
+  [[nodiscard]] bool isFor(const ClearHeader& header) const noexcept {
+    return header.session == mine_ && header.key_epoch == epoch_ && header.sender == pair_.peer;
+  }
+  [[nodiscard]] std::uint16_t epoch() const noexcept { return epoch_; }
+  [[nodiscard]] secure::KeyAge age(double now) const noexcept {
+    return policy_.age(now, sealer_.nextSequence());
+  }
+
+  /// Writes header and tag around a payload that stands at `datagram.data + kHeaderSize`; gives the
+  /// whole size, 0 if the key is used up or there is no room.
+  [[nodiscard]] std::size_t seal(MessageType type, std::size_t payload_size,
+                                 ByteSpan datagram) noexcept;
+
+  /// Opens a datagram of this session in place, once only.
+  [[nodiscard]] Refusal open(const ClearHeader& header, ByteSpan datagram, double now) noexcept;
+
+ private:
+  Pair pair_;
+  secure::Sealer sealer_;
+  secure::Opener opener_;
+  secure::RekeyPolicy policy_;
+  ReplayWindow window_;
+  std::uint32_t mine_, theirs_;
+  std::uint16_t epoch_;
+};
+
+}  // namespace tandem::net

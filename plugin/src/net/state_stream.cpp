@@ -1,0 +1,104 @@
+#include "net/state_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem::net {
+namespace {
+
+constexpr double kLossPeriod = 1.0;  // [s]
+constexpr double kMicro = 1e-6;
+
+double toSeconds(std::int64_t microseconds) noexcept {
+  return kMicro * static_cast<double>(microseconds);
+}
+
+}  // namespace
+
+std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan payload) noexcept {
+  StateMessage message;
+  message.packet = packet;
+  // It names the datagram, so it goes up whatever the clock does.
+  message.send_time_us = std::max(toMicroseconds(now), last_sent_us_ + 1);
+  last_sent_us_ = message.send_time_us;
+  if (has_news_) {
+    const double hold = std::max(toSeconds(message.send_time_us) - newest_at_, 0.0);
+    message.echo_send_time_us = newest_sent_us_;
+    message.echo_hold_us = static_cast<std::uint32_t>(std::min(hold / kMicro, 4294967295.0));
+    message.ack_bits = computeAckBits();
+  }
+  message.profile = profile_;
+  message.config_hash = config_hash_;
+  return encodeState(message, payload);
+}
+
+Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::uint64_t> sequence,
+                          bool is_agreed, double now) noexcept {
+  auto message = decodeState(payload, sender);
+  if (!message) return message.refusal();
+  if (!sequence && !is_first_of_keys_) return Refusal::kExpired;
+  if (sequence && (!has_news_ || *sequence > newest_)) {
+    has_news_ = true;
+    newest_ = *sequence;
+    newest_sent_us_ = message->send_time_us;
+    newest_at_ = now;
+  }
+  if (message->echo_send_time_us != 0)
+    trip_.add(toSeconds(message->echo_send_time_us), toSeconds(message->send_time_us),
+              kMicro * static_cast<double>(message->echo_hold_us), now);
+  if (!is_agreed || message->config_hash != config_hash_) return Refusal::kNotAgreed;
+  StatePacket& packet = message->packet;
+  if (sequence && is_first_of_keys_) {
+    const bool has_begun_anew = has_state_ && packet.sequence + offset_ <= highest_;
+    if (has_begun_anew) {
+      offset_ = highest_ + 1;
+      playout_.clear();
+    }
+    is_first_of_keys_ = false;
+  }
+  packet.sequence += offset_;
+  highest_ = has_state_ ? std::max(highest_, packet.sequence) : packet.sequence;
+  has_state_ = true;
+  (void)playout_.push(packet, toSeconds(message->send_time_us), now);
+  return {};
+}
+
+void StateStream::startKeys() noexcept {
+  top_.reset();
+  came_ = 0;
+  has_news_ = false;
+  newest_ = 0;
+  is_first_of_keys_ = true;
+  loss_received_ = 0;
+}
+
+void StateStream::note(std::uint64_t sequence, double now) noexcept {
+  countLoss(sequence, now);
+  if (!top_) top_ = sequence;
+  if (sequence > *top_) {
+    const std::uint64_t ahead = sequence - *top_;
+    came_ = ahead < 64 ? came_ << ahead : 0;
+    top_ = sequence;
+  }
+  const std::uint64_t behind = *top_ - sequence;
+  if (behind < 64) came_ |= std::uint64_t{1} << behind;
+}
+
+std::uint32_t StateStream::computeAckBits() const noexcept {
+  const std::uint64_t behind = *top_ - newest_ + 1;
+  return behind < 64 ? static_cast<std::uint32_t>(came_ >> behind) : 0;
+}
+
+void StateStream::countLoss(std::uint64_t sequence, double now) noexcept {
+  if (loss_received_ == 0) {
+    loss_first_ = sequence;
+    loss_since_ = now;
+  }
+  ++loss_received_;
+  if (now - loss_since_ < kLossPeriod || sequence < loss_first_) return;
+  const double sent = static_cast<double>(sequence - loss_first_ + 1);
+  loss_ = std::clamp(1.0 - static_cast<double>(loss_received_) / sent, 0.0, 1.0);
+  loss_received_ = 0;
+}
+
+}  // namespace tandem::net

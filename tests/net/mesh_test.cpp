@@ -1,0 +1,329 @@
+// Two and more sites over a virtual network, from the first datagram to the farewell.
+
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "net/virtual_net.h"
+
+namespace tandem {
+namespace {
+
+using net::Refusal;
+using test::NetConditions;
+using test::VirtualNet;
+using test::VirtualSites;
+
+TEST(Mesh, GoesLiveInFourRoundTrips) {
+  VirtualSites sites(2);
+  ASSERT_TRUE(sites.goLive(1.0));
+  EXPECT_LT(sites.clock(), 4 * 2 * sites.net.conditions.delay + 0.01);
+  sites.run(1.0);
+  for (const int id : {1, 2}) {
+    const auto& given = sites.at(id).given[static_cast<std::size_t>(3 - id)];
+    EXPECT_GT(given.size(), 115u);
+    const PeerStatus status = sites.status(id, 3 - id);
+    EXPECT_NEAR(status.round_trip, 0.04, 2e-3);
+    EXPECT_NEAR(status.clock_offset, 0.0, 2e-3);
+    EXPECT_EQ(status.loss, 0.0);
+  }
+}
+
+TEST(Mesh, StatesComeWholeAndInOrder) {
+  VirtualSites sites(2, {0.05, 0.02, 0.05, 0.05, 0.0}, 7);
+  ASSERT_TRUE(sites.goLive(5.0));
+  sites.run(10.0);
+  double last = -1.0;
+  int counted = 0;
+  for (const Arrival& arrival : sites.at(2).given[1]) {
+    EXPECT_GT(arrival.packet.time, last);
+    last = arrival.packet.time;
+    EXPECT_EQ(arrival.packet.sender, PeerId{1});
+    // float32 on the wire.
+    EXPECT_NEAR(arrival.packet.user.p_W.x(), arrival.packet.time, 1e-6 * arrival.packet.time);
+    EXPECT_EQ(arrival.packet.user.p_W.y(), 1.0);
+    ++counted;
+  }
+  EXPECT_GT(counted, 1000);
+  EXPECT_NEAR(sites.status(2, 1).loss, 0.05, 0.06);
+}
+
+TEST(Mesh, JitterBecomesConstantDelay) {
+  VirtualSites sites(2, {0.05, 0.02, 0.0, 0.0, 0.0}, 8);
+  ASSERT_TRUE(sites.goLive(2.0));
+  sites.run(4.0);
+  sites.at(2).given[1].clear();
+  sites.run(10.0);
+  double least = 1e9, most = 0.0;
+  for (const Arrival& arrival : sites.at(2).given[1]) {
+    least = std::min(least, arrival.time - arrival.packet.time);
+    most = std::max(most, arrival.time - arrival.packet.time);
+  }
+  EXPECT_NEAR(least, 0.07, 0.003);
+  EXPECT_NEAR(most, 0.07, 0.003);
+}
+
+TEST(Mesh, EightPeers) {
+  VirtualSites sites(8);
+  ASSERT_TRUE(sites.goLive(2.0));
+  sites.run(0.5);
+  for (int id = 1; id <= 8; ++id)
+    for (int other = 1; other <= 8; ++other)
+      if (id != other) {
+        EXPECT_GT(sites.at(id).given[static_cast<std::size_t>(other)].size(), 30u);
+      }
+}
+
+TEST(Mesh, LateComerIsTakenIn) {
+  VirtualSites sites(3);
+  sites.stop(3);
+  sites.run(10.0);
+  EXPECT_EQ(sites.status(1, 2).phase, PeerPhase::kLive);
+  EXPECT_EQ(sites.status(1, 3).phase, PeerPhase::kCalling);
+  sites.start(3);
+  EXPECT_TRUE(sites.goLive(1.5));
+}
+
+TEST(Mesh, HandshakeSurvivesABadNetwork) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    VirtualSites sites(2, {0.25, 0.25, 0.25, 0.25, 0.05}, seed);
+    EXPECT_TRUE(sites.goLive(60.0));
+  }
+}
+
+TEST(Mesh, AnotherKeyIsRefusedAndSaid) {
+  VirtualSites sites(2);
+  sites.start(2, 0x43);
+  sites.run(3.0);
+  EXPECT_EQ(sites.status(1, 2).phase, PeerPhase::kCalling);
+  ASSERT_TRUE(sites.status(1, 2).refused);
+  EXPECT_EQ(*sites.status(1, 2).refused, RefuseCode::kKey);
+  EXPECT_GT(sites.at(2).mesh->counts().of(Refusal::kKey), 0u);
+  EXPECT_TRUE(sites.at(1).given[2].empty());
+}
+
+TEST(Mesh, OtherConfigurationsAreComparedByName) {
+  VirtualSites sites(2);
+  sites.start(2, 0x42,
+              makeConfiguration({{"coordination.stiffness", "200"}, {"object.mass", "0.3"}}));
+  sites.run(2.0);
+  for (const int id : {1, 2}) {
+    const PeerStatus status = sites.status(id, 3 - id);
+    EXPECT_EQ(status.phase, PeerPhase::kDifferent);
+    ASSERT_TRUE(status.difference);
+    EXPECT_EQ(status.difference->key, "coordination.stiffness");
+    EXPECT_EQ(id == 2 ? status.difference->here : status.difference->there, "200");
+    EXPECT_TRUE(sites.at(id).given[static_cast<std::size_t>(3 - id)].empty());
+    EXPECT_GT(sites.at(id).mesh->counts().of(Refusal::kNotAgreed), 0u);
+  }
+  // Mended, and begun anew.
+  sites.start(2);
+  EXPECT_TRUE(sites.goLive(3.0));
+}
+
+TEST(Mesh, AnotherVersionIsToldOurs) {
+  VirtualSites sites(2);
+  sites.stop(1);
+  std::vector<std::uint8_t> hello(kHelloSize, 0);
+  ASSERT_GT(encodeHello({{PeerId{1}, PeerId{2}, 77}}, {hello.data(), hello.size()}), 0u);
+  hello[2] = 9;
+  std::vector<std::uint8_t> answer;
+  sites.net.tap = [&](const auto& bytes, const auto&, const auto&) { answer = bytes; };
+  sites.at(2).mesh->receive({hello.data(), hello.size()}, VirtualNet::addressOf(1), 0.0);
+  const auto refuse = decodeRefuse({answer.data(), answer.size()});
+  ASSERT_TRUE(refuse);
+  EXPECT_EQ(refuse->code, RefuseCode::kVersion);
+  EXPECT_EQ(refuse->version, kWireVersion);
+}
+
+TEST(Mesh, StrangersGetLessThanTheySend) {
+  VirtualSites sites(2);
+  sites.stop(1);
+  std::uint64_t out = 0, in = 0;
+  sites.net.tap = [&](const auto& bytes, const auto&, const auto&) { out += bytes.size(); };
+  const auto throwAt = [&](std::vector<std::uint8_t> bytes, double now) {
+    in += bytes.size();
+    sites.at(2).mesh->receive({bytes.data(), bytes.size()}, VirtualNet::addressOf(9), now);
+    EXPECT_LE(out, in);
+  };
+  for (int i = 0; i < 1000; ++i) {
+    const double now = 1e-3 * i;
+    std::vector<std::uint8_t> hello(kHelloSize);
+    (void)encodeHello({{PeerId{1}, PeerId{2}, 77}}, {hello.data(), hello.size()});
+    throwAt(hello, now);
+    (void)encodeHello({{PeerId{1}, PeerId{3}, 77}}, {hello.data(), hello.size()});
+    throwAt(hello, now);
+    OpenMessage open;
+    open.route = {PeerId{1}, PeerId{2}, 5};
+    open.key_epoch = 1;
+    std::vector<std::uint8_t> bytes(kOpenSize);
+    (void)encodeOpen(open, {bytes.data(), bytes.size()});
+    throwAt(bytes, now);
+  }
+  EXPECT_GT(sites.at(2).mesh->counts().of(Refusal::kTooMany), 0u);
+  EXPECT_EQ(sites.at(2).mesh->counts().of(Refusal::kCookie), 1000u);
+  EXPECT_EQ(sites.status(2, 1).phase, PeerPhase::kCalling);
+}
+
+// Every datagram of a live pair, whole, changed, cut and again: nothing comes of it.
+TEST(Mesh, ForgedAndReplayedDatagramsChangeNothing) {
+  constexpr std::uint64_t kSeed = 20090403;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  VirtualSites sites(2);
+  std::vector<std::vector<std::uint8_t>> heard;
+  sites.net.tap = [&](const auto& bytes, const auto&, const auto& to) {
+    if (to == VirtualNet::addressOf(2)) heard.push_back(bytes);
+  };
+  ASSERT_TRUE(sites.goLive(1.0));
+  sites.run(1.0);
+  sites.net.tap = nullptr;
+  sites.run(0.1);
+  const std::size_t given = sites.at(2).given[1].size();
+  const net::DatagramCounts before = sites.at(2).mesh->counts();
+  const Address stranger = VirtualNet::addressOf(9);
+  std::uint64_t thrown = 0;
+  for (int i = 0; i < 20000; ++i) {
+    auto bytes = heard[static_cast<std::size_t>(random.below(static_cast<int>(heard.size())))];
+    switch (i % 4) {
+      case 0:
+        break;
+      case 1:
+        bytes[static_cast<std::size_t>(random.below(static_cast<int>(bytes.size())))] ^=
+            static_cast<std::uint8_t>(1 << random.below(8));
+        break;
+      case 2:
+        bytes.resize(static_cast<std::size_t>(random.below(static_cast<int>(bytes.size()))));
+        break;
+      default:
+        for (int k = 12; k < 20; ++k) bytes[static_cast<std::size_t>(k)] = 0x7f;  // far ahead
+    }
+    // HELLO gets a cookie, whoever says it: that is no state.
+    if (bytes.size() > 3 && bytes[3] == static_cast<std::uint8_t>(MessageType::kHello)) continue;
+    sites.at(2).mesh->receive({bytes.data(), bytes.size()}, stranger, sites.clock());
+    ++thrown;
+  }
+  const net::DatagramCounts& after = sites.at(2).mesh->counts();
+  EXPECT_EQ(after.taken, before.taken);
+  EXPECT_EQ(after.received, before.received + thrown);
+  EXPECT_EQ(sites.status(2, 1).phase, PeerPhase::kLive);
+  EXPECT_EQ(*sites.status(2, 1).address, VirtualNet::addressOf(1));
+  sites.run(0.5);
+  EXPECT_GT(sites.at(2).given[1].size(), given + 55);
+}
+
+TEST(Mesh, RestartedPeerGoesOnWhereItEnded) {
+  for (const int restarted : {1, 2}) {
+    SCOPED_TRACE(restarted);
+    VirtualSites sites(2);
+    ASSERT_TRUE(sites.goLive(1.0));
+    sites.run(2.0);
+    sites.stop(restarted);
+    sites.run(0.3);
+    sites.start(restarted);
+    sites.run(4.0);
+    EXPECT_TRUE(sites.areLive());
+    const int other = 3 - restarted;
+    std::uint64_t last = 0;
+    double newest = 0.0;
+    for (const Arrival& arrival : sites.at(other).given[static_cast<std::size_t>(restarted)]) {
+      EXPECT_GT(arrival.packet.sequence + 1, last);
+      last = arrival.packet.sequence + 1;
+      newest = arrival.packet.time;
+    }
+    EXPECT_GT(newest, sites.clock() - 0.1);
+  }
+}
+
+TEST(Mesh, KeysAreRenewedWithoutAGap) {
+  VirtualSites sites(2);
+  ASSERT_TRUE(sites.goLive(1.0));
+  const std::uint16_t epoch = sites.status(1, 2).key_epoch;
+  std::set<std::vector<std::uint8_t>> headers;
+  sites.net.tap = [&](const auto& bytes, const auto& from, const auto&) {
+    if (bytes[3] < 16) return;
+    // Nonce and key together: sender's port, session, epoch, sequence.
+    std::vector<std::uint8_t> nonce(bytes.begin() + 4, bytes.begin() + 20);
+    nonce.push_back(from.ip[15]);
+    EXPECT_TRUE(headers.insert(nonce).second);
+  };
+  sites.run(130.0);
+  EXPECT_NE(sites.status(1, 2).key_epoch, epoch);
+  double last = 0.0;
+  for (const Arrival& arrival : sites.at(2).given[1]) {
+    if (last > 0.0) {
+      EXPECT_LT(arrival.time - last, 0.02);
+    }
+    last = arrival.time;
+  }
+  EXPECT_GT(last, sites.clock() - 0.05);
+}
+
+TEST(Mesh, FollowsAPeerToAnotherAddress) {
+  VirtualSites sites(2);
+  ASSERT_TRUE(sites.goLive(1.0));
+  sites.at(2).port->address.port = 7999;  // as a NAT does
+  sites.run(1.0);
+  EXPECT_EQ(sites.status(1, 2).address->port, 7999);
+  EXPECT_TRUE(sites.areLive());
+  EXPECT_GT(sites.at(2).given[1].back().packet.time, sites.clock() - 0.05);
+}
+
+TEST(Mesh, FirstDatagramAfterAnOutageCounts) {
+  for (const double outage : {0.25, 1.0, 5.0, 60.0}) {
+    SCOPED_TRACE(outage);
+    VirtualSites sites(2);
+    ASSERT_TRUE(sites.goLive(1.0));
+    sites.run(1.0);
+    sites.net.is_down = true;
+    sites.run(outage);
+    const std::size_t before = sites.at(2).given[1].size();
+    sites.net.is_down = false;
+    const double back = sites.clock();
+    while (sites.at(2).given[1].size() == before && sites.clock() < back + 5.0) sites.step();
+    EXPECT_LT(sites.clock() - back, 2 * sites.net.conditions.delay + 0.02);
+    sites.run(1.0);
+    EXPECT_TRUE(sites.areLive());
+  }
+}
+
+TEST(Mesh, FarewellIsHeardThroughLoss) {
+  VirtualSites sites(2, {0.02, 0.0, 0.5, 0.0, 0.0}, 11);
+  ASSERT_TRUE(sites.goLive(60.0));
+  sites.at(1).mesh->leave(ByeReason::kUserLeaves, sites.clock());
+  sites.run(0.3);
+  EXPECT_EQ(sites.status(2, 1).phase, PeerPhase::kLeft);
+  sites.start(1);
+  EXPECT_TRUE(sites.goLive(60.0));
+}
+
+TEST(Mesh, LeaverWithTheHigherIdMayComeBack) {
+  VirtualSites sites(2);
+  ASSERT_TRUE(sites.goLive(1.0));
+  sites.at(2).mesh->leave(ByeReason::kUserLeaves, sites.clock());
+  sites.run(3.0);
+  EXPECT_EQ(sites.status(1, 2).phase, PeerPhase::kLeft);
+  sites.start(2);
+  EXPECT_TRUE(sites.goLive(2.0));
+}
+
+TEST(Mesh, RefusesIdsThatCannotBe) {
+  VirtualNet net;
+  VirtualNet::Port port(net, VirtualNet::addressOf(1));
+  const auto make = [&](std::uint32_t self, std::vector<std::uint32_t> ids) {
+    std::vector<net::Mesh::Peer> peers;
+    for (const std::uint32_t id : ids)
+      peers.push_back({PeerId{id}, std::nullopt, test::makeKey(1)});
+    const net::Mesh mesh(PeerId{self}, std::move(peers), {}, port);
+  };
+  EXPECT_THROW(make(0, {2}), std::invalid_argument);
+  EXPECT_THROW(make(1, {9}), std::invalid_argument);
+  EXPECT_THROW(make(1, {1}), std::invalid_argument);
+  EXPECT_THROW(make(1, {2, 2}), std::invalid_argument);
+  EXPECT_NO_THROW(make(1, {2, 3}));
+}
+
+}  // namespace
+}  // namespace tandem

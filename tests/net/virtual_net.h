@@ -1,0 +1,211 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "net/mesh.h"
+#include "support/random.h"
+
+namespace tandem::test {
+
+/// What a virtual network does to datagrams.
+struct NetConditions {
+  double delay = 0.02, jitter = 0.0;  // [s]
+  double loss = 0.0, duplicate = 0.0, corrupt = 0.0;
+};
+
+/// Sites with a mesh each, and a network between them in virtual time.
+class VirtualNet {
+ public:
+  struct Datagram {
+    double due = 0.0;
+    std::uint64_t number = 0;
+    Address from, to;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  explicit VirtualNet(const NetConditions& usual = {}, std::uint64_t seed = 1)
+      : conditions(usual), random_(seed) {}
+
+  static Address addressOf(int site) {
+    Address address;
+    address.ip[10] = address.ip[11] = 0xff;
+    address.ip[12] = 10;
+    address.ip[15] = static_cast<std::uint8_t>(site);
+    address.port = 7000;
+    return address;
+  }
+
+  /// A port of the network, for sites and strangers.
+  class Port final : public net::Outlet {
+   public:
+    Port(VirtualNet& owner, const Address& own) : address(own), owner_(owner) {}
+    void send(ByteView datagram, const Address& to) noexcept override {
+      bytes_sent += datagram.size;
+      owner_.carry({datagram.data, datagram.data + datagram.size}, address, to);
+    }
+
+    Address address;
+    std::uint64_t bytes_sent = 0;
+
+   private:
+    VirtualNet& owner_;
+  };
+
+  void carry(std::vector<std::uint8_t> bytes, const Address& from, const Address& to) {
+    if (tap) tap(bytes, from, to);
+    if (is_down || random_.uniform(0, 1) < conditions.loss) return;
+    const int copies = random_.uniform(0, 1) < conditions.duplicate ? 2 : 1;
+    for (int i = 0; i < copies; ++i) {
+      Datagram datagram{now + conditions.delay + random_.uniform(0, 1) * conditions.jitter,
+                        number_++, from, to, bytes};
+      if (random_.uniform(0, 1) < conditions.corrupt)
+        datagram.bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] ^=
+            static_cast<std::uint8_t>(1 << random_.below(8));
+      flying_.push_back(std::move(datagram));
+    }
+  }
+
+  /// Delivers all that is due until `time`, through `take`.
+  template <typename Take>
+  void deliverUntil(double time, Take take) {
+    for (;;) {
+      const auto next = std::min_element(
+          flying_.begin(), flying_.end(), [](const Datagram& a, const Datagram& b) {
+            return a.due != b.due ? a.due < b.due : a.number < b.number;
+          });
+      if (next == flying_.end() || next->due > time) break;
+      Datagram datagram = std::move(*next);
+      flying_.erase(next);
+      now = datagram.due;
+      take(datagram);
+    }
+    now = time;
+  }
+
+  NetConditions conditions;
+  double now = 0.0;
+  bool is_down = false;
+  std::function<void(const std::vector<std::uint8_t>&, const Address&, const Address&)> tap;
+
+ private:
+  Random random_;
+  std::vector<Datagram> flying_;
+  std::uint64_t number_ = 0;
+};
+
+/// The key of a pair in tests: all bytes alike.
+inline SecretKey makeKey(std::uint8_t byte) {
+  std::array<std::uint8_t, SecretKey::kSize> bytes;
+  bytes.fill(byte);
+  return SecretKey::take(bytes);
+}
+
+/// Several sites that send states at 128 Hz as soon as they can.
+class VirtualSites {
+ public:
+  struct Site {
+    int id = 1;
+    std::unique_ptr<VirtualNet::Port> port;
+    std::unique_ptr<net::Mesh> mesh;
+    std::uint64_t sequence = 0;
+    std::vector<std::vector<Arrival>> given;  ///< by peer id
+  };
+
+  explicit VirtualSites(int count, const NetConditions& conditions = {}, std::uint64_t seed = 1)
+      : net(conditions, seed) {
+    sites_.resize(static_cast<std::size_t>(count));
+    for (int i = 1; i <= count; ++i) {
+      at(i).id = i;
+      at(i).port = std::make_unique<VirtualNet::Port>(net, VirtualNet::addressOf(i));
+    }
+    for (int i = 1; i <= count; ++i) start(i);
+  }
+
+  /// (Re)starts a site's program, with nothing known of before.
+  void start(int id, std::uint8_t key = 0x42, const Configuration& configuration = usual()) {
+    Site& site = at(id);
+    std::vector<net::Mesh::Peer> peers;
+    for (const Site& other : sites_)
+      if (other.id != id)
+        peers.push_back({PeerId{static_cast<std::uint32_t>(other.id)},
+                         VirtualNet::addressOf(other.id), makeKey(key)});
+    net::PeerSession::Common common;
+    common.configuration = configuration;
+    site.mesh = std::make_unique<net::Mesh>(PeerId{static_cast<std::uint32_t>(id)},
+                                            std::move(peers), common, *site.port);
+    site.sequence = 0;
+    site.given.assign(sites_.size() + 1, {});
+  }
+  void stop(int id) { at(id).mesh.reset(); }
+
+  static Configuration usual() { return makeConfiguration({{"object.mass", "0.2"}}); }
+
+  void run(double seconds) {
+    const double end = net.now + seconds;
+    while (net.now < end - 1e-9) step();
+  }
+
+  /// One millisecond.
+  void step() {
+    net.deliverUntil(net.now + 1e-3, [&](VirtualNet::Datagram& datagram) {
+      for (Site& site : sites_)
+        if (site.mesh && site.port->address == datagram.to)
+          site.mesh->receive({datagram.bytes.data(), datagram.bytes.size()}, datagram.from,
+                             clock());
+    });
+    for (Site& site : sites_)
+      if (site.mesh) act(site);
+    ++steps_;
+  }
+
+  [[nodiscard]] double clock() const { return net.now; }
+  [[nodiscard]] Site& at(int id) { return sites_[static_cast<std::size_t>(id - 1)]; }
+  [[nodiscard]] PeerStatus status(int at_site, int of) {
+    return at(at_site).mesh->status(PeerId{static_cast<std::uint32_t>(of)}, clock());
+  }
+  [[nodiscard]] bool areLive() {
+    for (Site& site : sites_)
+      for (const Site& other : sites_)
+        if (site.id != other.id &&
+            (!site.mesh || status(site.id, other.id).phase != PeerPhase::kLive))
+          return false;
+    return true;
+  }
+  /// Until all are live; false after `seconds`.
+  [[nodiscard]] bool goLive(double seconds) {
+    const double end = net.now + seconds;
+    while (net.now < end && !areLive()) step();
+    return areLive();
+  }
+
+  VirtualNet net;
+
+ private:
+  void act(Site& site) {
+    site.mesh->advance(clock());
+    for (const Site& other : sites_) {
+      if (other.id == site.id) continue;
+      Link& link = site.mesh->link(PeerId{static_cast<std::uint32_t>(other.id)});
+      if (steps_ % 8 == 0) {
+        StatePacket packet;
+        packet.sender = PeerId{static_cast<std::uint32_t>(site.id)};
+        packet.sequence = site.sequence;
+        packet.time = clock();
+        packet.user.p_W = Vec3(clock(), site.id, 0.0);
+        link.send(packet, clock());
+      }
+      while (const auto arrival = link.receive(clock(), clock() + 1e-3))
+        site.given[static_cast<std::size_t>(other.id)].push_back(*arrival);
+    }
+    if (steps_ % 8 == 0) ++site.sequence;
+  }
+
+  std::vector<Site> sites_;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace tandem::test
