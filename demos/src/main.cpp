@@ -13,6 +13,7 @@
 #include "bench/accuracy_command.h"
 #include "bench/speed/speed_command.h"
 #include "bench/stress_command.h"
+#include "peer/peer_command.h"
 #include "plot/plot.h"
 #include "run_output.h"
 #include "scenario.h"
@@ -133,6 +134,26 @@ int runProgram(int argc, char** argv) {
   stress->add_option("--out", stress_options.folder,
                      "folder for stress.json, stability.svg, stability.png");
 
+  PeerCommand peer_options;
+  CLI::App* peer = app.add_subcommand("peer", "one site of a scenario, live over UDP");
+  peer->add_option("--scenario", peer_options.scenario, "scenario file (TOML)")->required();
+  peer->add_option("--set", peer_options.overrides, "override a key, as for tandem run")
+      ->allow_extra_args(false)
+      ->take_all();
+  peer->add_option("--site", peer_options.site, "which site this is: 1 or 2")->required();
+  peer->add_option("--bind", peer_options.bind, "own address, e.g. :7001")->required();
+  peer->add_option("--peer", peer_options.peer, "the other site's address, e.g. host:7002")
+      ->required();
+  peer->add_option("--key", peer_options.key, "key file that both sites share")->required();
+  peer->add_option("--out", peer_options.folder, "folder for siteN.csv and siteN.json");
+  peer->add_option("--wait", peer_options.patience, "seconds to wait for the other site");
+  peer->add_option("--playout", peer_options.playout,
+                   "on: jitter becomes constant delay; off: states are applied as they come")
+      ->check(CLI::IsMember({"on", "off"}));
+  peer->add_option("--wire", peer_options.profile, "width of numbers on the way")
+      ->check(CLI::IsMember({"float32", "float64"}));
+  peer->add_flag("--quiet", peer_options.quiet, "print nothing but errors");
+
   std::string key_path;
   CLI::App* key = app.add_subcommand("key", "keys that two sites share");
   key->require_subcommand(1, 1);
@@ -144,14 +165,20 @@ int runProgram(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     if (app.get_subcommands().empty() && !app.remaining().empty())
-      throw UsageError(app.remaining().front() +
-                       ": no such command; allowed: run, plot, bench, key; see tandem --help");
+      throw UsageError(
+          app.remaining().front() +
+          ": no such command; allowed: run, plot, bench, peer, key; see tandem --help");
     throw UsageError(fmt::format("{}; see tandem --help", error.what()));
   }
   if (app.get_subcommands().empty())
-    throw UsageError("a command is missing; allowed: run, plot, bench, key; see tandem --help");
+    throw UsageError(
+        "a command is missing; allowed: run, plot, bench, peer, key; see tandem --help");
   if (run->parsed()) return runScenario(run_options);
   if (new_key->parsed()) return makeKey(key_path);
+  if (peer->parsed()) {
+    runPeerCommand(peer_options);
+    return kDone;
+  }
   if (accuracy->parsed()) {
     bench::runAccuracyCommand(accuracy_options);
     return kDone;

@@ -1,0 +1,86 @@
+#include "peer/peer_command.h"
+
+#include <csignal>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tandem/plugin/key_file.h"
+
+#include "peer/peer_configuration.h"
+#include "peer/peer_output.h"
+#include "peer/peer_run.h"
+#include "run_output.h"
+#include "usage_error.h"
+
+namespace tandem::demos {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+extern "C" void askToStop(int) { stop_asked = 1; }
+
+/// SIGINT and SIGTERM end the run instead of the program.
+void catchSignals() {
+  struct sigaction action {};
+  action.sa_handler = &askToStop;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void print(const PeerReport& report) {
+  const PeerStatus& peer = report.peer;
+  std::string time = report.has_start ? fmt::format("{:8.1f} s", report.time) : "   waiting";
+  fmt::print(
+      "{} | {:9} | round trip {:6.1f} ms | wait {:5.1f} ms | jitter {:5.1f} ms | loss "
+      "{:4.1f} % | force {:6.3f} N | coherency {:7.3f} mm\n",
+      time, name(peer.phase), 1e3 * peer.round_trip, 1e3 * peer.wait, 1e3 * peer.jitter,
+      1e2 * peer.loss, report.force, 1e3 * report.coherency);
+  std::fflush(stdout);
+}
+
+void checkCommand(const PeerCommand& command) {
+  if (command.site != 1 && command.site != 2)
+    throw UsageError(fmt::format("--site {}: must be 1 or 2", command.site));
+  if (!(command.patience > 0.0 && command.patience <= 86400.0))
+    throw UsageError("--wait: must be above 0 and at most 86400 s");
+}
+
+UdpMeshSettings makeSettings(const PeerCommand& command, const Scenario& scenario) {
+  UdpMeshSettings settings;
+  settings.self = PeerId{static_cast<std::uint32_t>(command.site)};
+  settings.bind = resolveAddress(command.bind);
+  settings.profile = command.profile == "float64" ? WireProfile::kFloat64 : WireProfile::kFloat32;
+  settings.playout.is_on = command.playout == "on";
+  Configuration items = makePeerConfiguration(scenario);
+  items.push_back({"wire.profile", command.profile});
+  settings.configuration = makeConfiguration(std::move(items));
+  return settings;
+}
+
+}  // namespace
+
+void runPeerCommand(const PeerCommand& command) {
+  checkCommand(command);
+  const Scenario scenario = loadScenario(command.scenario, command.overrides);
+  if (command.folder) prepareFolder(*command.folder);
+  UdpPeer peer{PeerId{static_cast<std::uint32_t>(3 - command.site)}, resolveAddress(command.peer),
+               readKeyFile(command.key)};
+  if (!peer.key.isLocked())
+    fmt::print(stderr, "tandem: note: the key may be swapped to disk; raise ulimit -l\n");
+  catchSignals();
+  PeerRun run(scenario, command.site - 1, makeSettings(command, scenario), std::move(peer));
+  const auto stop = [] { return stop_asked != 0; };
+  const auto report = [&](const PeerReport& one) {
+    if (!command.quiet) print(one);
+  };
+  if (!command.quiet) fmt::print("site {} on {}\n", command.site, toString(run.mesh().bound()));
+  if (!run.waitForPeer(command.patience, stop, report)) return;
+  run.run(stop, report);
+  const nlohmann::json summary = makePeerSummary(scenario, command.site, run);
+  if (command.folder) writePeerRun(*command.folder, command.site, summary, run);
+  if (!command.quiet) printPeerSummary(summary, command.site);
+}
+
+}  // namespace tandem::demos

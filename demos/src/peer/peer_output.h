@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "peer/peer_run.h"
+
+namespace tandem::demos {
+
+/// What one site's live run came to: the keys of summary.json that one site can know, its network
+/// and its loop.
+[[nodiscard]] nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run);
+
+/// Writes siteN.csv and siteN.json: both, or on an error none.
+void writePeerRun(const std::filesystem::path& folder, int site, const nlohmann::json& summary,
+                  const PeerRun& run);
+
+void printPeerSummary(const nlohmann::json& summary, int site);
+
+}  // namespace tandem::demos
