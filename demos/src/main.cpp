@@ -13,6 +13,7 @@
 #include "bench/accuracy_command.h"
 #include "bench/speed/speed_command.h"
 #include "bench/stress_command.h"
+#include "link/link_command.h"
 #include "peer/peer_command.h"
 #include "plot/plot.h"
 #include "run_output.h"
@@ -78,6 +79,26 @@ int makeKey(const std::string& path) {
   return kDone;
 }
 
+CLI::App* addLinkCommand(CLI::App& app, LinkCommand& options) {
+  CLI::App* link = app.add_subcommand("link", "a bad network between two programs, by UDP");
+  link->add_option("--listen", options.listen, "the client sends here; host:port or :port")
+      ->required();
+  link->add_option("--forward", options.forward, "the server, host:port")->required();
+  link->add_option("--delay", options.delay, "one way, such as 50ms");
+  link->add_option("--jitter", options.jitter, "the delay is even in delay +- jitter");
+  link->add_option("--loss", options.loss, "so many never arrive, such as 2%");
+  link->add_option("--duplicate", options.duplicate, "so many arrive twice");
+  link->add_option("--reorder", options.reorder, "so many jump the queue, without delay");
+  link->add_option("--corrupt", options.corrupt, "in so many one bit is turned");
+  link->add_flag("--keep-order", options.keep_order, "jitter lets none overtake another");
+  link->add_option("--seed", options.seed, "another seed, other fates");
+  link->add_option("--script", options.script, "changes over time (TOML)");
+  link->add_option("--for", options.duration, "end after so many seconds");
+  link->add_flag("--json", options.json, "print the report as JSON to stdout");
+  link->add_flag("--quiet", options.quiet, "print nothing but errors");
+  return link;
+}
+
 int runProgram(int argc, char** argv) {
   CLI::App app{"Tandem: networked haptic cooperation in Bullet Physics by remote dynamic proxies.",
                "tandem"};
@@ -134,6 +155,9 @@ int runProgram(int argc, char** argv) {
   stress->add_option("--out", stress_options.folder,
                      "folder for stress.json, stability.svg, stability.png");
 
+  LinkCommand link_options;
+  CLI::App* link = addLinkCommand(app, link_options);
+
   PeerCommand peer_options;
   CLI::App* peer = app.add_subcommand("peer", "one site of a scenario, live over UDP");
   peer->add_option("--scenario", peer_options.scenario, "scenario file (TOML)")->required();
@@ -167,16 +191,20 @@ int runProgram(int argc, char** argv) {
     if (app.get_subcommands().empty() && !app.remaining().empty())
       throw UsageError(
           app.remaining().front() +
-          ": no such command; allowed: run, plot, bench, peer, key; see tandem --help");
+          ": no such command; allowed: run, plot, bench, peer, link, key; see tandem --help");
     throw UsageError(fmt::format("{}; see tandem --help", error.what()));
   }
   if (app.get_subcommands().empty())
     throw UsageError(
-        "a command is missing; allowed: run, plot, bench, peer, key; see tandem --help");
+        "a command is missing; allowed: run, plot, bench, peer, link, key; see tandem --help");
   if (run->parsed()) return runScenario(run_options);
   if (new_key->parsed()) return makeKey(key_path);
   if (peer->parsed()) {
     runPeerCommand(peer_options);
+    return kDone;
+  }
+  if (link->parsed()) {
+    runLinkCommand(link_options);
     return kDone;
   }
   if (accuracy->parsed()) {

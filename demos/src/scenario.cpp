@@ -1,42 +1,19 @@
 #include "scenario.h"
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <map>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
 
 #include "tandem/coordination/scheme.h"
 
+#include "toml_input.h"
 #include "usage_error.h"
 
 namespace tandem::demos {
 namespace {
-
-/// Where a value stands, for messages.
-struct Place {
-  std::string file;
-  std::string key;
-};
-
-std::string show(const toml::node& node) {
-  std::ostringstream text;
-  node.visit([&](const auto& value) { text << value; });
-  std::string line = text.str();
-  for (char& c : line)
-    if (c == '\n') c = ' ';
-  return line.size() > 60 ? line.substr(0, 57) + "..." : line;
-}
-
-[[noreturn]] void refuse(const Place& place, const toml::node& node, const std::string& allowed) {
-  throw UsageError(
-      fmt::format("{}: {} = {}: must be {}", place.file, place.key, show(node), allowed));
-}
 
 // One reader per type of value; each says what is allowed.
 
@@ -398,14 +375,7 @@ void checkTogether(const Scenario& s, const std::string& file) {
 Scenario parseScenario(const std::string& text, const std::string& name,
                        const std::vector<std::string>& overrides) {
   Scenario scenario;
-  toml::table table;
-  try {
-    table = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw UsageError(
-        fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
-  }
-  applyTable(scenario, name, "", table);
+  applyTable(scenario, name, "", parseToml(text, name));
   for (const std::string& override_text : overrides) applyOverride(scenario, override_text);
   checkTogether(scenario, name);
   return scenario;
@@ -413,12 +383,7 @@ Scenario parseScenario(const std::string& text, const std::string& name,
 
 Scenario loadScenario(const std::filesystem::path& file,
                       const std::vector<std::string>& overrides) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw UsageError(file.string() + ": cannot read this scenario; is the path right?");
-  Scenario scenario = parseScenario(text.str(), file.string(), overrides);
+  Scenario scenario = parseScenario(readText(file, "scenario"), file.string(), overrides);
   scenario.file = file;
   return scenario;
 }

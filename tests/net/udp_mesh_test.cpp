@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "net/udp_socket.h"
+#include "tandem/plugin/udp_socket.h"
 #include "net/virtual_net.h"
 
 namespace tandem {

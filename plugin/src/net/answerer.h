@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "tandem/coordination/wire_handshake.h"
+#include "tandem/plugin/outlet.h"
 
-#include "net/outlet.h"
 #include "net/session_keys.h"
 
 namespace tandem::net {

@@ -2,8 +2,9 @@
 
 #include <array>
 
+#include "tandem/plugin/udp_socket.h"
+
 #include "net/mesh.h"
-#include "net/udp_socket.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "net/udp_socket.h"
+#include "tandem/plugin/udp_socket.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -5,20 +5,10 @@
 #include <memory>
 #include <utility>
 
+#include "tandem/coordination/impairments.h"
 #include "tandem/coordination/link.h"
 
 namespace tandem {
-
-/// What a simulated way does to packets. Probabilities are per packet and independent. Of a lost
-/// packet no copy arrives; of a reordered one the duplicate still goes the ordinary way.
-struct Impairments {
-  double delay = 0.0;      ///< one-way delay [s], >= 0
-  double jitter = 0.0;     ///< delay is even in delay +- jitter, not below 0 [s]; may reorder
-  double loss = 0.0;       ///< probability that a packet never arrives, 0..1
-  double duplicate = 0.0;  ///< probability that a packet arrives twice (own jitter each), 0..1
-  double reorder = 0.0;    ///< probability that a packet jumps the queue: no delay (as netem), 0..1
-  std::uint64_t seed = 0;  ///< equal seeds, equal fates
-};
 
 /// Counts of one direction. At any time `sent - lost + duplicated` is what was `delivered`, what
 /// `overflowed` and what is still in flight; each copy of a duplicated packet counts by itself.
@@ -40,10 +30,9 @@ class SimulatedLink : public Link {
 /// Makes both ends of a way with delay, jitter, loss, duplicates and reordering.
 ///
 /// Deterministic: the fate of a packet depends only on the seed, the direction and the packet's
-/// number, by an independent random stream for each impairment, so that switching one on never
-/// shifts another. Virtual time: nothing happens but what send() and receive() are told about time.
-/// Not thread safe. At most `capacity` packets are in flight in a direction; a further one is
-/// dropped and counted. A packet is never given to the tick it was sent in, however early it
+/// number (computeFate()). Virtual time: nothing happens but what send() and receive() are told
+/// about time. Not thread safe. At most `capacity` packets are in flight in a direction; a further
+/// one is dropped and counted. A packet is never given to the tick it was sent in, however early it
 /// arrives. send() and receive() never allocate. Either end may outlive the other. Throws
 /// std::invalid_argument, naming the value, for impairments out of range or no capacity.
 [[nodiscard]] std::pair<std::unique_ptr<SimulatedLink>, std::unique_ptr<SimulatedLink>>

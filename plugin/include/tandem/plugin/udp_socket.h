@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "net/outlet.h"
+#include "tandem/plugin/outlet.h"
 
 namespace tandem::net {
 
@@ -29,6 +29,9 @@ class UdpSocket final : public Outlet {
 
   /// Waits until something is there or `seconds` have passed.
   void wait(double seconds) const noexcept;
+
+  /// For poll(), where several sockets are waited for.
+  [[nodiscard]] int handle() const noexcept { return socket_; }
 
   [[nodiscard]] Address bound() const noexcept;
   [[nodiscard]] std::uint64_t unsent() const noexcept { return unsent_; }
