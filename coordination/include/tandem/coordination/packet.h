@@ -16,6 +16,9 @@ inline constexpr int kMaxObjectsPerPacket = 8;
 /// Shared objects of a site. Where there are more than fit one packet, they take turns.
 inline constexpr int kMaxSharedObjects = 256;
 
+/// Time between the packets of a sender that says it is idle [s].
+inline constexpr double kIdlePacketPeriod = 1.0 / 16.0;
+
 /// One shared object's copy at the sender.
 struct ObjectState {
   ObjectId id = 0;
@@ -31,6 +34,7 @@ struct StatePacket {
   std::uint64_t sequence = 0;  ///< counts the sender's packets from 0
   double time = 0.0;           ///< sender's time of the state below [s]
   PointState user;             ///< the sender's haptic interface point
+  bool is_idle = false;        ///< nothing moves there: packets come at kIdlePacketPeriod
   std::uint32_t object_count = 0;
   std::array<ObjectState, kMaxObjectsPerPacket> objects;
 };
