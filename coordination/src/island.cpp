@@ -10,6 +10,7 @@
 #include "rest.h"
 #include "slot_motion.h"
 #include "spatial_motion.h"
+#include "touch.h"
 
 namespace tandem {
 namespace {
@@ -66,6 +67,17 @@ struct Island::Impl {
     model.wake(body);
   }
 
+  /// A body's gains, damping or contacts have changed: it and whom it touches move on.
+  void refit(BodyIndex body, bool is_damping) noexcept {
+    disturb(body);
+    if (slot) slot->refit(model);
+    if (spatial) spatial->refit(model, body, is_damping);
+    for (const IslandContact& contact : model.contacts) {
+      if (contact.sphere == body) disturb(contact.other);
+      if (contact.other == body) disturb(contact.sphere);
+    }
+  }
+
   /// Falls asleep if the forces allow it.
   void tryToSleep() noexcept {
     computeContactWrenches();
@@ -91,7 +103,7 @@ struct Island::Impl {
   /// All that acts on a body, given what contacts do.
   [[nodiscard]] Wrench addUp(BodyIndex body, Wrench sum) const noexcept {
     const ModelBody& b = model.bodies[body];
-    sum.f_W += b.f_external_W - b.settings.damping * b.state.v_W;
+    sum.f_W += b.f_external_W - b.damping() * b.state.v_W;
     sum.t_W += b.t_external_W + computeAngularDamping(b.settings, b.state);
     for (const ModelCoupler& coupler : model.couplers) {
       if (coupler.follower != body) continue;
@@ -235,12 +247,48 @@ void Island::setExternalWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W)
 
 void Island::applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& angular_W) noexcept {
   if (impulse_W == Vec3::Zero() && angular_W == Vec3::Zero()) return;
+  if (impl_->model.bodies[body].is_ghost) return;
   impl_->disturb(body);
   ModelBody& b = impl_->model.bodies[body];
   b.state.v_W += b.inverse_mass * impulse_W;
   if (!b.rotates()) return;
   const Quat& q = b.state.q_WB;
   b.state.w_W += q * b.inverse_inertia_B.cwiseProduct(q.conjugate() * angular_W);
+}
+
+void Island::setCouplerShare(CouplerIndex coupler, double share) noexcept {
+  TANDEM_ASSERT(impl_->prepared && share >= 0.0 && share <= 1.0);
+  ModelCoupler& c = impl_->model.couplers[coupler];
+  if (c.share == share) return;
+  c.share = share;
+  c.now = {computeShare(c.settings.linear, share), computeShare(c.settings.angular, share)};
+  impl_->refit(c.follower, false);
+}
+
+void Island::setContactShare(BodyIndex body, double share) noexcept {
+  TANDEM_ASSERT(impl_->prepared && share >= 0.0 && share <= 1.0);
+  ModelBody& b = impl_->model.bodies[body];
+  if (b.contact_share == share) return;
+  b.contact_share = share;
+  impl_->refit(body, false);
+}
+
+void Island::setExtraDamping(BodyIndex body, double damping) noexcept {
+  TANDEM_ASSERT(impl_->prepared && damping >= 0.0);
+  ModelBody& b = impl_->model.bodies[body];
+  if (b.extra_damping == damping) return;
+  b.extra_damping = damping;
+  impl_->refit(body, true);
+}
+
+void Island::setGhost(BodyIndex body, bool is_ghost) noexcept {
+  ModelBody& b = impl_->model.bodies[body];
+  TANDEM_ASSERT(impl_->prepared && !b.is_slot && !b.settings.is_rigid &&
+                b.settings.motion != Motion::kPrescribed);
+  if (b.is_ghost == is_ghost) return;
+  b.is_ghost = is_ghost;
+  impl_->model.is_listed = false;
+  impl_->refit(body, false);
 }
 
 void Island::fill(BodyIndex slot, const IslandBody& body) noexcept {
@@ -341,6 +389,20 @@ const CouplerSettings& Island::couplerSettings(CouplerIndex coupler) const noexc
   return impl_->model.couplers[coupler].settings;
 }
 
+double Island::couplerShare(CouplerIndex coupler) const noexcept {
+  return impl_->model.couplers[coupler].share;
+}
+
+double Island::contactShare(BodyIndex body) const noexcept {
+  return impl_->model.bodies[body].contact_share;
+}
+
+double Island::extraDamping(BodyIndex body) const noexcept {
+  return impl_->model.bodies[body].extra_damping;
+}
+
+bool Island::isGhost(BodyIndex body) const noexcept { return impl_->model.bodies[body].is_ghost; }
+
 const std::vector<IslandContact>& Island::contacts() const noexcept {
   return impl_->model.contacts;
 }
@@ -356,6 +418,14 @@ bool Island::isActive(BodyIndex body) const noexcept { return impl_->model.bodie
 Vec3 Island::computeContactForce(BodyIndex body) const noexcept {
   TANDEM_ASSERT(impl_->prepared);
   return impl_->contactWrench(body).f_W;
+}
+
+double Island::computeOverlap(BodyIndex body) const noexcept {
+  TANDEM_ASSERT(impl_->prepared);
+  Impl& impl = *impl_;
+  if (impl.slot) return impl.slot->computeOverlap(impl.model, body);
+  for (std::size_t b = 0; b < impl.states.size(); ++b) impl.states[b] = impl.model.bodies[b].state;
+  return tandem::computeOverlap(impl.model, impl.states, body);
 }
 
 Vec3 Island::computeCouplerForce(CouplerIndex coupler) const noexcept {

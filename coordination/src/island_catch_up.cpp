@@ -72,7 +72,7 @@ void IslandCatchUp::sendAlong(IslandModel& model, BodyIndex b, const Aside& stea
                               const RigidState& from, const Aside& aside) noexcept {
   ModelBody& body = model.bodies[b];
   bodies_[b] = body;
-  body.settings.damping = body.settings.angular_damping = 0.0;
+  body.settings.damping = body.settings.angular_damping = body.extra_damping = 0.0;
   body.f_external_W.setZero();
   body.t_external_W.setZero();
   // Round, so that it turns steadily.

@@ -60,9 +60,9 @@ void IslandModel::listPresent() noexcept {
     if (bodies[b].isPresent()) present.push_back(b);
     asleep_count += bodies[b].is_asleep;
   }
+  const auto meets = [&](BodyIndex b) { return bodies[b].isPresent() && !bodies[b].is_ghost; };
   for (const IslandContact& contact : contacts)
-    if (bodies[contact.sphere].isPresent() && bodies[contact.other].isPresent())
-      present_contacts.push_back(contact);
+    if (meets(contact.sphere) && meets(contact.other)) present_contacts.push_back(contact);
   for (std::size_t c = 0; c < couplers.size(); ++c)
     if (bodies[couplers[c].follower].isPresent()) present_couplers.push_back(static_cast<int>(c));
   is_listed = true;
@@ -70,9 +70,8 @@ void IslandModel::listPresent() noexcept {
 
 Wrench computeCouplerWrench(const ModelCoupler& coupler, const RigidState& follower) noexcept {
   Wrench wrench;
-  wrench.f_W =
-      computeCouplerForce(coupler.settings.linear, coupler.target.point(), follower.point());
-  const CouplerGains& angular = coupler.settings.angular;
+  wrench.f_W = computeCouplerForce(coupler.now.linear, coupler.target.point(), follower.point());
+  const CouplerGains& angular = coupler.now.angular;
   if (angular.stiffness != 0.0 || angular.damping != 0.0)
     wrench.t_W = angular.stiffness *
                      computeTurn(follower.q_WB.coeffs().data(), coupler.target.q_WB.coeffs().data())

@@ -20,16 +20,22 @@ struct ModelBody {
   Vec3 f_external_W = Vec3::Zero();
   Vec3 t_external_W = Vec3::Zero();
   bool is_slot = false;
-  bool is_active = true;   ///< false: a slot that is not filled
-  bool is_asleep = false;  ///< at rest, and left out: see Sleepers
-  bool disturbed = true;   ///< something from outside has changed since the last advance
+  bool is_active = true;       ///< false: a slot that is not filled
+  bool is_asleep = false;      ///< at rest, and left out: see Sleepers
+  bool disturbed = true;       ///< something from outside has changed since the last advance
+  bool is_ghost = false;       ///< stands where it is set, and meets nothing
+  double contact_share = 1.0;  ///< of the gains of its contacts
+  double extra_damping = 0.0;  ///< besides its own [N s/m]
 
   /// From checked settings: the body at its start, nothing from outside on it. A guided body does
   /// not turn.
   [[nodiscard]] static ModelBody make(const IslandBody& settings, bool is_guided) noexcept;
 
-  [[nodiscard]] bool isDynamic() const { return is_active && settings.motion == Motion::kDynamic; }
+  [[nodiscard]] bool isDynamic() const {
+    return is_active && !is_ghost && settings.motion == Motion::kDynamic;
+  }
   [[nodiscard]] bool isPresent() const { return is_active && !is_asleep; }
+  [[nodiscard]] double damping() const { return settings.damping + extra_damping; }
   [[nodiscard]] bool rotates() const { return inverse_inertia_B != Vec3::Zero(); }
   /// Equal moments about all axes: no gyroscopic torque.
   [[nodiscard]] bool isRound() const {
@@ -40,9 +46,15 @@ struct ModelBody {
 
 struct ModelCoupler {
   BodyIndex follower = 0;
-  CouplerSettings settings;
+  CouplerSettings settings;  ///< as it was added
   RigidState target;
+  double share = 1.0;
+  CouplerSettings now = settings;  ///< the gains times the share
 };
+
+[[nodiscard]] inline CouplerGains computeShare(const CouplerGains& gains, double share) noexcept {
+  return {share * gains.stiffness, share * gains.damping};
+}
 
 /// The island as it was built, and who of it takes part now. What is done at each tick goes over
 /// those who are present, and over nobody else.
@@ -60,6 +72,11 @@ struct IslandModel {
   std::vector<int> present_couplers;            ///< on one of them
   int asleep_count = 0;
   bool is_listed = false;  ///< these lists are right
+
+  /// Of the gains of a contact between two bodies, and of one's with what stands.
+  [[nodiscard]] double contactShare(BodyIndex a, BodyIndex b) const noexcept {
+    return bodies[a].contact_share * bodies[b].contact_share;
+  }
 
   /// Room for all, so that listPresent() never allocates.
   void reserveLists();

@@ -59,7 +59,7 @@ class Hash {
 }  // namespace
 
 bool seemsAtRest(const ModelBody& before, const RigidState& after, double dt) noexcept {
-  if (!before.is_active || before.settings.motion == Motion::kHeld) return true;
+  if (!before.is_active || before.is_ghost || before.settings.motion == Motion::kHeld) return true;
   if (before.settings.motion == Motion::kPrescribed)
     return after.v_W == Vec3::Zero() && after.w_W == Vec3::Zero();
   const auto is_below = [](const Vec3& v, double limit) { return v.squaredNorm() < limit * limit; };
@@ -70,18 +70,17 @@ bool seemsAtRest(const ModelBody& before, const RigidState& after, double dt) no
 bool isSettled(const IslandModel& model, BodyIndex b, const Wrench& wrench) noexcept {
   const ModelBody& body = model.bodies[b];
   if (!body.isDynamic()) return true;
-  Freedom way{body.settings.mass, 0.0, body.settings.damping, wrench.f_W.norm(),
-              body.state.v_W.norm()};
+  Freedom way{body.settings.mass, 0.0, body.damping(), wrench.f_W.norm(), body.state.v_W.norm()};
   const double inertia = body.settings.inertia_B.maxCoeff();
   Freedom turn{inertia, 0.0, body.settings.angular_damping * inertia, wrench.t_W.norm(),
                body.state.w_W.norm()};
   for (const int c : model.present_couplers) {
     const ModelCoupler& coupler = model.couplers[c];
     if (coupler.follower != b) continue;
-    way.stiffness += coupler.settings.linear.stiffness;
-    way.damping += coupler.settings.linear.damping;
-    turn.stiffness += coupler.settings.angular.stiffness;
-    turn.damping += coupler.settings.angular.damping;
+    way.stiffness += coupler.now.linear.stiffness;
+    way.damping += coupler.now.linear.damping;
+    turn.stiffness += coupler.now.angular.stiffness;
+    turn.damping += coupler.now.angular.damping;
   }
   if (way.force >= kSteady * way.inertia || !(computeWayLeft(way) < kToGo)) return false;
   if (!body.rotates()) return true;

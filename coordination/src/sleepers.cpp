@@ -37,6 +37,7 @@ void Sleepers::letSleep(IslandModel& model, const States& states,
                         const std::vector<double>& allowance, BodyIndex body) noexcept {
   for (const Watcher& watcher : watchers_) {
     if (watcher.sphere == body) return;
+    if (model.bodies[watcher.sphere].is_ghost) continue;
     const auto& partners = watcher.partners;
     if (std::find(partners.begin(), partners.end(), body) == partners.end()) continue;
     const double near = allowance[watcher.sphere] + allowance[body] + 2.0 * kRoom;
@@ -50,6 +51,7 @@ void Sleepers::letSleep(IslandModel& model, const States& states,
 bool Sleepers::wakeNear(IslandModel& model, const States& states,
                         const std::vector<double>& allowance) noexcept {
   for (Watcher& watcher : watchers_) {
+    if (model.bodies[watcher.sphere].is_ghost) continue;
     const double reach = allowance[watcher.sphere] + kWatchDistance;
     const double gone = (states[watcher.sphere].p_W - watcher.p_W).norm();
     if (!(gone + reach <= watcher.free_way)) look(model, states, reach, watcher);

@@ -29,8 +29,10 @@ constexpr int kLevelsOfHiddenTouch = 6;
 SlotMotion::SlotMotion(const IslandModel& model)
     : axis_(*model.settings.guide), period_(model.settings.haptic_period) {
   for (const ModelBody& body : model.bodies) {
-    freedom_.push_back(body.isDynamic() ? static_cast<int>(movers_.size()) : -1);
-    if (body.isDynamic()) movers_.push_back(static_cast<BodyIndex>(origins_.size()));
+    // A ghost may come back.
+    const bool moves = body.settings.motion == Motion::kDynamic;
+    freedom_.push_back(moves ? static_cast<int>(movers_.size()) : -1);
+    if (moves) movers_.push_back(static_cast<BodyIndex>(origins_.size()));
     origins_.push_back(body.settings.start.p_W);
   }
 
@@ -49,7 +51,8 @@ SlotMotion::SlotMotion(const IslandModel& model)
       blocked |= is_between(b);
     if (blocked) continue;
 
-    Contact contact{pair.sphere, pair.other, pair.gains, other >= sphere ? 1.0 : -1.0, 0.0};
+    Contact contact{pair.sphere, pair.other, pair.gains, other >= sphere ? 1.0 : -1.0,
+                    0.0,         pair.gains};
     const auto& a = model.bodies[pair.sphere].settings;
     const auto& b = model.bodies[pair.other].settings;
     const Vec3 towards = contact.side * axis_;  // from the sphere to the other
@@ -101,6 +104,8 @@ SlotMotion::SlotMotion(const IslandModel& model)
   while (coarsest_level_ < 16 && std::ldexp(period_, -coarsest_level_) * max_frequency > 0.5)
     ++coarsest_level_;
 
+  series_ = LinearSeries(movers_.size());
+  refit(model);
   state_.resize(2 * movers_.size());
   next_.resize(2 * movers_.size());
   u_.resize(movers_.size());
@@ -108,6 +113,56 @@ SlotMotion::SlotMotion(const IslandModel& model)
   driven_x_.resize(origins_.size());
   driven_v_.resize(origins_.size());
   driven_rate_.resize(origins_.size());
+}
+
+void SlotMotion::refit(const IslandModel& model) noexcept {
+  is_altered_ = false;
+  for (const ModelCoupler& coupler : model.couplers) is_altered_ |= coupler.share != 1.0;
+  for (const ModelBody& body : model.bodies)
+    is_altered_ |= body.is_ghost || body.contact_share != 1.0 || body.extra_damping != 0.0;
+  for (Contact& contact : contacts_) {
+    const bool meets =
+        !model.bodies[contact.sphere].is_ghost && !model.bodies[contact.other].is_ghost;
+    const double share = model.contactShare(contact.sphere, contact.other);
+    contact.gains = meets ? computeShare(contact.full_gains, share) : CouplerGains{};
+  }
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const ModelBody& body = model.bodies[movers_[i]];
+    series_.setInverseMass(i, body.is_ghost ? 0.0 : body.inverse_mass);
+  }
+}
+
+void SlotMotion::tieSeries(const IslandModel& model, unsigned mode) noexcept {
+  series_.clearMatrices();
+  for (std::size_t i = 0; i < movers_.size(); ++i)
+    series_.tie(i, 0.0, model.bodies[movers_[i]].damping());
+  for (const ModelCoupler& coupler : model.couplers) {
+    const int i = freedom_[coupler.follower];
+    if (i < 0) continue;
+    const CouplerGains& gains = coupler.now.linear;
+    series_.tie(static_cast<std::size_t>(i), gains.stiffness, gains.damping);
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (!(mode >> c & 1u)) continue;
+    const CouplerGains& gains = contacts_[c].gains;
+    const int a = freedom_[contacts_[c].sphere], b = freedom_[contacts_[c].other];
+    if (a >= 0 && b >= 0)
+      series_.tie(static_cast<std::size_t>(a), static_cast<std::size_t>(b), gains.stiffness,
+                  gains.damping);
+    else if (a >= 0 || b >= 0)
+      series_.tie(static_cast<std::size_t>(std::max(a, b)), gains.stiffness, gains.damping);
+  }
+}
+
+double SlotMotion::computeOverlap(const IslandModel& model, BodyIndex body) const noexcept {
+  double deepest = 0.0;
+  for (const Contact& contact : contacts_) {
+    if (contact.sphere != body && contact.other != body) continue;
+    const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;
+    if (model.bodies[partner].is_ghost) continue;
+    deepest = std::max(deepest, overlap(model, contact).depth);
+  }
+  return deepest;
 }
 
 double SlotMotion::displacement(const ModelBody& body, BodyIndex index) const noexcept {
@@ -167,7 +222,7 @@ void SlotMotion::gather(const IslandModel& model) noexcept {
     const double v = axis_.dot(body.state.v_W);
     if (freedom_[b] >= 0) {
       state_[freedom_[b]] = x;
-      state_[n + freedom_[b]] = v;
+      state_[n + freedom_[b]] = body.is_ghost ? 0.0 : v;
     } else {
       driven_x_[b] = x;
       driven_v_[b] = v;
@@ -177,6 +232,7 @@ void SlotMotion::gather(const IslandModel& model) noexcept {
 }
 
 void SlotMotion::computeInputs(const IslandModel& model, unsigned mode) noexcept {
+  if (is_altered_) tieSeries(model, mode);
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     u_[i] = axis_.dot(model.bodies[movers_[i]].f_external_W);
     w_[i] = 0.0;
@@ -185,8 +241,8 @@ void SlotMotion::computeInputs(const IslandModel& model, unsigned mode) noexcept
     const auto follower = coupler.follower;
     if (freedom_[follower] < 0) continue;
     u_[freedom_[follower]] +=
-        coupler.settings.linear.stiffness * axis_.dot(coupler.target.p_W - origins_[follower]) +
-        coupler.settings.linear.damping * axis_.dot(coupler.target.v_W);
+        coupler.now.linear.stiffness * axis_.dot(coupler.target.p_W - origins_[follower]) +
+        coupler.now.linear.damping * axis_.dot(coupler.target.v_W);
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!(mode >> c & 1u)) continue;
@@ -227,7 +283,10 @@ bool SlotMotion::hidesTouch(unsigned mode, double h) const noexcept {
 
 SlotMotion::Step SlotMotion::tryStep(unsigned& mode, int level, bool may_change) noexcept {
   const double h = std::ldexp(period_, -level);
-  maps_[mode].step(level, state_.data(), u_.data(), w_.data(), next_.data());
+  if (is_altered_)
+    series_.step(h, state_.data(), u_.data(), w_.data(), next_.data());
+  else
+    maps_[mode].step(level, state_.data(), u_.data(), w_.data(), next_.data());
   const unsigned mode_after = findMode(next_.data(), h);
   if (!may_change) {
     if (mode_after != mode) return Step::kCrossesEvent;
@@ -294,6 +353,7 @@ void SlotMotion::advance(IslandModel& model, double dt) noexcept {
 void SlotMotion::scatter(IslandModel& model) const noexcept {
   const std::size_t n = movers_.size();
   for (std::size_t b = 0; b < origins_.size(); ++b) {
+    if (model.bodies[b].is_ghost) continue;
     RigidState& state = model.bodies[b].state;
     const bool moves = freedom_[b] >= 0;
     const double x = moves ? state_[freedom_[b]] : driven_x_[b];

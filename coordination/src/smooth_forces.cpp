@@ -52,7 +52,7 @@ void SmoothForces::addMover(const IslandModel& model, BodyIndex b, bool is_alone
   mover.turn_rate = limitDamping(body.settings.angular_damping, 1.0);
   if (!is_alone) {
     mover.inverse_mass = body.inverse_mass;
-    mover.damping = limitDamping(body.settings.damping, body.inverse_mass);
+    mover.damping = limitDamping(body.damping(), body.inverse_mass);
     mover.f_rest_W = PlainVec(body.f_external_W);
   }
   frame_of_[b] = static_cast<int>(frames_.size());
@@ -75,7 +75,7 @@ void SmoothForces::tieCouplers(const IslandModel& model) noexcept {
     const int index = frame_of_[coupler.follower];
     if (index < 0) continue;
     Mover& mover = movers_[index];
-    const CouplerGains &linear = coupler.settings.linear, &angular = coupler.settings.angular;
+    const CouplerGains &linear = coupler.now.linear, &angular = coupler.now.angular;
     if (mover.inverse_mass > 0.0) {
       // Several springs are one, at rest between their targets.
       const PlainVec p_target(coupler.target.p_W);

@@ -62,7 +62,7 @@ void SmoothMotion::chooseLimits(const IslandModel& model) noexcept {
   const CouplerGains& obstacle = model.settings.obstacle_contact;
   for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b) {
     const ModelBody& body = model.bodies[b];
-    limit(0.0, body.settings.damping, body.inverse_mass);
+    limit(0.0, body.damping(), body.inverse_mass);
     limit(0.0, body.settings.angular_damping, 1.0);
     if (!body.settings.feels_obstacles) continue;
     limit(obstacle.stiffness, obstacle.damping, body.inverse_mass);

@@ -69,6 +69,12 @@ void SpatialMotion::refill(const IslandModel& model, BodyIndex slot) noexcept {
   smooth_.chooseLimits(model);
 }
 
+void SpatialMotion::refit(const IslandModel& model, BodyIndex b, bool is_damping) noexcept {
+  prepareAlone(model, b);
+  // Of shares it need not know: full gains are the fastest there are.
+  if (is_damping) smooth_.chooseLimits(model);
+}
+
 void SpatialMotion::setAside() noexcept {
   std::swap(rigid_step_, rigid_step_aside_);
   rigid_step_.forget();
@@ -93,12 +99,12 @@ void SpatialMotion::prepareAlone(const IslandModel& model, BodyIndex b) noexcept
   const ModelBody& body = model.bodies[b];
   Alone& alone = alone_motion_[b];
   alone = {};
-  double stiffness = 0.0, damping = body.settings.damping;
+  double stiffness = 0.0, damping = body.damping();
   for (const ModelCoupler& coupler : model.couplers) {
     if (coupler.follower != b) continue;
-    stiffness += coupler.settings.linear.stiffness;
-    damping += coupler.settings.linear.damping;
-    const CouplerGains& angular = coupler.settings.angular;
+    stiffness += coupler.now.linear.stiffness;
+    damping += coupler.now.linear.damping;
+    const CouplerGains& angular = coupler.now.angular;
     alone.is_tied_to_turn |= angular.stiffness != 0.0 || angular.damping != 0.0;
   }
   alone.stiffness = stiffness * body.inverse_mass;
@@ -223,7 +229,7 @@ void SpatialMotion::advanceAlone(const IslandModel& model, double dt) noexcept {
     const ModelCoupler& coupler = model.couplers[c];
     const BodyIndex b = coupler.follower;
     if (!alone_[b]) continue;
-    const CouplerGains& gains = coupler.settings.linear;
+    const CouplerGains& gains = coupler.now.linear;
     f_W_[b] += gains.stiffness * (coupler.target.p_W - model.bodies[b].state.p_W) +
                gains.damping * coupler.target.v_W;
   }

@@ -29,6 +29,9 @@ class SpatialMotion {
   /// A slot was filled or cleared. Real-time safe.
   void refill(const IslandModel& model, BodyIndex slot) noexcept;
 
+  /// The gains of a body's couplers have changed, or its damping. Real-time safe.
+  void refit(const IslandModel& model, BodyIndex b, bool is_damping) noexcept;
+
   /// Returns whether all seems at rest now. Real-time safe.
   bool advance(IslandModel& model, double dt, IslandCounters& counters) noexcept;
 

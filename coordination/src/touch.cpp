@@ -1,5 +1,7 @@
 #include "touch.h"
 
+#include <algorithm>
+
 namespace tandem {
 namespace {
 
@@ -57,6 +59,34 @@ void addPush(const IslandModel& model, const Touch& touch, const TouchState& sta
   wrenches[touch.other].f_W -= f_sphere_W;
   if (model.bodies[touch.other].rotates())
     wrenches[touch.other].t_W -= (state.geometry.p_W - states[touch.other].p_W).cross(f_sphere_W);
+}
+
+double computeOverlap(const IslandModel& model, const States& states, BodyIndex body) noexcept {
+  double gap = 0.0;
+  const auto look = [&](BodyIndex sphere, BodyIndex other, const Obstacle* obstacle) {
+    const Touch touch{sphere, other, obstacle, {}, false};
+    if (!couldMeet(model, touch, states, 0.0)) return;
+    if (isWholeMesh(touch)) {
+      forEachPiece(model, touch, states, 0.0,
+                   [&](const Touch&, double found) { gap = std::min(gap, found); });
+    } else {
+      gap = std::min(gap, computeTouchState(model, touch, states).geometry.gap);
+    }
+  };
+  const auto is_there = [&](BodyIndex b) {
+    return model.bodies[b].is_active && !model.bodies[b].is_ghost;
+  };
+  for (const IslandContact& contact : model.contacts) {
+    if (contact.sphere != body && contact.other != body) continue;
+    const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;
+    if (is_there(partner)) look(contact.sphere, contact.other, nullptr);
+  }
+  if (!model.bodies[body].settings.feels_obstacles) return -gap;
+  for (const BodyIndex b : model.slots)
+    if (is_there(b) && model.bodies[b].settings.touches_spheres) look(body, b, nullptr);
+  if (!model.obstacles) return -gap;
+  for (const Obstacle& obstacle : *model.obstacles) look(body, body, &obstacle);
+  return -gap;
 }
 
 }  // namespace tandem

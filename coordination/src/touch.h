@@ -48,6 +48,10 @@ inline constexpr double kWatchDistance = 1e-4;
 void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
              const States& states, std::vector<Wrench>& wrenches) noexcept;
 
+/// How deep a body is in what it has smooth contacts with, ghosts apart [m]; 0: in nothing.
+[[nodiscard]] double computeOverlap(const IslandModel& model, const States& states,
+                                    BodyIndex body) noexcept;
+
 /// True for an obstacle that is taken apart before it is touched, by forEachPiece().
 [[nodiscard]] inline bool isWholeMesh(const Touch& touch) noexcept {
   return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
@@ -75,15 +79,17 @@ void forEachPiece(const IslandModel& model, const Touch& whole, const States& st
 template <typename Visit>
 void forEachTouch(const IslandModel& model, Visit visit) {
   for (const IslandContact& pair : model.present_contacts)
-    visit(Touch{pair.sphere, pair.other, nullptr, pair.gains, false});
+    visit(Touch{pair.sphere, pair.other, nullptr,
+                computeShare(pair.gains, model.contactShare(pair.sphere, pair.other)), false});
   for (const BodyIndex b : model.present) {
-    if (!model.bodies[b].settings.feels_obstacles) continue;
+    if (!model.bodies[b].settings.feels_obstacles || model.bodies[b].is_ghost) continue;
+    const CouplerGains gains =
+        computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
     for (BodyIndex slot : model.slots)
       if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres)
-        visit(Touch{b, slot, nullptr, model.settings.obstacle_contact, false});
+        visit(Touch{b, slot, nullptr, gains, false});
     if (!model.obstacles) continue;
-    for (const Obstacle& obstacle : *model.obstacles)
-      visit(Touch{b, b, &obstacle, model.settings.obstacle_contact, false});
+    for (const Obstacle& obstacle : *model.obstacles) visit(Touch{b, b, &obstacle, gains, false});
   }
 }
 

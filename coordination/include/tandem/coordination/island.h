@@ -123,6 +123,18 @@ class Island {
   void setExternalWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
   /// Adds momentum at once [N s, N m s].
   void applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& angular_W) noexcept;
+  /// Multiplies the gains of a coupler, linear and angular, by a share in 0 to 1 of what they were
+  /// added with, until set again. At 1 everything is as if there were no share, to the bit.
+  void setCouplerShare(CouplerIndex coupler, double share) noexcept;
+  /// The same for the gains of all smooth contacts of a body. Of a contact of two bodies with
+  /// shares both count.
+  void setContactShare(BodyIndex body, double share) noexcept;
+  /// Damping against the velocity besides the body's own [N s/m], >= 0, until set again.
+  void setExtraDamping(BodyIndex body, double damping) noexcept;
+  /// A ghost stays where it is set, whatever pulls at it, and meets nothing. One that ends being a
+  /// ghost goes on from there, at the velocity that was set. Not for slots, prescribed bodies and
+  /// bodies with rigid contacts.
+  void setGhost(BodyIndex body, bool is_ghost) noexcept;
   /// Replaces the obstacles that spheres touch; the vector must live until the next call.
   void setObstacles(const std::vector<Obstacle>& obstacles) noexcept;
   /// Makes the slot this body, at its start state and with nothing from outside on it; from the
@@ -166,17 +178,25 @@ class Island {
   [[nodiscard]] const IslandBody& body(BodyIndex body) const noexcept;
   [[nodiscard]] int couplerCount() const noexcept;
   [[nodiscard]] BodyIndex follower(CouplerIndex coupler) const noexcept;
+  /// As it was added, whatever its share.
   [[nodiscard]] const CouplerSettings& couplerSettings(CouplerIndex coupler) const noexcept;
+  [[nodiscard]] double couplerShare(CouplerIndex coupler) const noexcept;
+  [[nodiscard]] double contactShare(BodyIndex body) const noexcept;
+  [[nodiscard]] double extraDamping(BodyIndex body) const noexcept;
+  [[nodiscard]] bool isGhost(BodyIndex body) const noexcept;
   [[nodiscard]] const std::vector<IslandContact>& contacts() const noexcept;
   /// As set last; null before.
   [[nodiscard]] const std::vector<Obstacle>* obstacles() const noexcept;
-  /// True if forces move it: dynamic, and not an empty slot.
+  /// True if forces move it: dynamic, and neither an empty slot nor a ghost.
   [[nodiscard]] bool isDynamic(BodyIndex body) const noexcept;
   /// False for a slot that is not filled.
   [[nodiscard]] bool isActive(BodyIndex body) const noexcept;
 
   /// Sum of the contact forces on a body at this instant, in W [N].
   [[nodiscard]] Vec3 computeContactForce(BodyIndex body) const noexcept;
+  /// How deep a body is in what it has smooth contacts with [m], were it no ghost; 0: in nothing.
+  /// Other ghosts do not count. Real-time safe.
+  [[nodiscard]] double computeOverlap(BodyIndex body) const noexcept;
   /// Force of a coupler on its follower at this instant, in W [N].
   [[nodiscard]] Vec3 computeCouplerForce(CouplerIndex coupler) const noexcept;
   /// All forces and torques on a dynamic body at this instant, external and damping included [N, N
