@@ -25,6 +25,10 @@ void checkGains(const char* name, const CouplerGains& gains) {
   throw std::invalid_argument(message.str());
 }
 
+CouplerGains scale(const CouplerGains& gains, double share) noexcept {
+  return {share * gains.stiffness, share * gains.damping};
+}
+
 /// What a constraint pulls its body to: kinematic, so that the solver counts its velocity.
 class Anchor {
  public:
@@ -47,7 +51,11 @@ class Anchor {
 class ImpulseCoupler final : public NativeCoupler {
  public:
   ImpulseCoupler(btRigidBody& body, const CouplerSettings& settings)
-      : body_(body), settings_(settings) {}
+      : body_(body), full_(settings), settings_(settings) {}
+
+  void setShare(double share) noexcept override {
+    settings_ = {scale(full_.linear, share), scale(full_.angular, share)};
+  }
 
   void pull(const RigidState& target, double dt) noexcept override {
     const PointState point{fromBullet(body_.getCenterOfMassPosition()),
@@ -63,7 +71,7 @@ class ImpulseCoupler final : public NativeCoupler {
 
  private:
   btRigidBody& body_;
-  CouplerSettings settings_;
+  CouplerSettings full_, settings_;
 };
 
 class Spring6DofCoupler final : public NativeCoupler {
@@ -71,27 +79,36 @@ class Spring6DofCoupler final : public NativeCoupler {
   Spring6DofCoupler(btDiscreteDynamicsWorld& world, btRigidBody& body,
                     const CouplerSettings& settings)
       : world_(world),
+        full_(settings),
         spring_(anchor_.rigid(), body, btTransform::getIdentity(), btTransform::getIdentity()) {
     for (int axis = 0; axis < 6; ++axis) {
       const CouplerGains& gains = axis < 3 ? settings.linear : settings.angular;
       spring_.setLimit(axis, 1, -1);  // lower above upper: free
       if (gains.stiffness == 0.0 && gains.damping == 0.0) continue;
       spring_.enableSpring(axis, true);
-      // By default Bullet lowers, without a word, K where w dt > 0.25 and B where B dt > m.
-      spring_.setStiffness(axis, static_cast<btScalar>(gains.stiffness), false);
-      spring_.setDamping(axis, static_cast<btScalar>(gains.damping), false);
       spring_.setEquilibriumPoint(axis, 0);
     }
+    setShare(1.0);
     world_.addConstraint(&spring_);
   }
   ~Spring6DofCoupler() override { world_.removeConstraint(&spring_); }
   Spring6DofCoupler(const Spring6DofCoupler&) = delete;
   Spring6DofCoupler& operator=(const Spring6DofCoupler&) = delete;
 
+  void setShare(double share) noexcept override {
+    for (int axis = 0; axis < 6; ++axis) {
+      const CouplerGains gains = scale(axis < 3 ? full_.linear : full_.angular, share);
+      // By default Bullet lowers, without a word, K where w dt > 0.25 and B where B dt > m.
+      spring_.setStiffness(axis, static_cast<btScalar>(gains.stiffness), false);
+      spring_.setDamping(axis, static_cast<btScalar>(gains.damping), false);
+    }
+  }
+
   void pull(const RigidState& target, double) noexcept override { anchor_.set(target); }
 
  private:
   btDiscreteDynamicsWorld& world_;
+  CouplerSettings full_;
   Anchor anchor_;
   btGeneric6DofSpring2Constraint spring_;
 };
@@ -102,19 +119,26 @@ class PointToPointCoupler final : public NativeCoupler {
                       const CouplerSettings& settings)
       : world_(world),
         body_(body),
-        linear_(settings.linear),
+        full_linear_(settings.linear),
         turn_(body, {{}, settings.angular}),
         joint_(body, anchor_.rigid(), btVector3(0, 0, 0), btVector3(0, 0, 0)) {
-    // Without gains there is nothing to soften the joint: it would be rigid.
-    joint_.setEnabled(linear_.stiffness > 0.0 || linear_.damping > 0.0);
+    setShare(1.0);
     world_.addConstraint(&joint_);
   }
   ~PointToPointCoupler() override { world_.removeConstraint(&joint_); }
   PointToPointCoupler(const PointToPointCoupler&) = delete;
   PointToPointCoupler& operator=(const PointToPointCoupler&) = delete;
 
+  void setShare(double share) noexcept override {
+    linear_ = scale(full_linear_, share);
+    turn_.setShare(share);
+    // Without gains there is nothing to soften the joint: it would be rigid.
+    joint_.setEnabled(linear_.stiffness > 0.0 || linear_.damping > 0.0);
+  }
+
   void pull(const RigidState& target, double dt) noexcept override {
     anchor_.set(target);
+    if (!joint_.isEnabled()) return turn_.pull(target, dt);
     const double K = linear_.stiffness, B = linear_.damping;
     const double m = 1.0 / static_cast<double>(body_.getInvMass());
     joint_.setParam(BT_CONSTRAINT_ERP, static_cast<btScalar>(dt * K / (dt * K + B)));
@@ -125,7 +149,7 @@ class PointToPointCoupler final : public NativeCoupler {
  private:
   btDiscreteDynamicsWorld& world_;
   btRigidBody& body_;
-  CouplerGains linear_;
+  CouplerGains full_linear_, linear_;
   ImpulseCoupler turn_;
   Anchor anchor_;
   btPoint2PointConstraint joint_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
@@ -22,6 +23,9 @@ Vec3 computeContactImpulse(btDiscreteDynamicsWorld& world, const btCollisionObje
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     const bool is_first = manifold.getBody0() == &body;
     if (!is_first && manifold.getBody1() != &body) continue;
+    // With a ghost nothing was solved: its points keep the impulse of a step long gone.
+    if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse())
+      continue;
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold.getContactPoint(p);
       const btVector3 on_first = point.m_normalWorldOnB * point.m_appliedImpulse +
@@ -31,6 +35,27 @@ Vec3 computeContactImpulse(btDiscreteDynamicsWorld& world, const btCollisionObje
     }
   }
   return fromBullet(sum);
+}
+
+double computeNativeOverlap(btDiscreteDynamicsWorld& world,
+                            const btCollisionObject& body) noexcept {
+  double deepest = 0.0;
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const bool is_first = manifold.getBody0() == &body;
+    if (!is_first && manifold.getBody1() != &body) continue;
+    if (!(is_first ? manifold.getBody1() : manifold.getBody0())->hasContactResponse()) continue;
+    for (int p = 0; p < manifold.getNumContacts(); ++p)
+      deepest = std::max(deepest, -static_cast<double>(manifold.getContactPoint(p).getDistance()));
+  }
+  return deepest;
+}
+
+void setNativeGhost(btCollisionObject& body, bool is_ghost) noexcept {
+  constexpr int kGhost = btCollisionObject::CF_NO_CONTACT_RESPONSE;
+  const int flags = body.getCollisionFlags();
+  body.setCollisionFlags(is_ghost ? flags | kGhost : flags & ~kGhost);
 }
 
 void setNativeDamping(btRigidBody& body, double damping) {

@@ -7,6 +7,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/bullet_bridge/haptic_body.h"
+#include "tandem/bullet_bridge/native_coupling.h"
 
 namespace tandem {
 namespace {
@@ -56,5 +57,6 @@ SphereBody::~SphereBody() = default;
 
 btRigidBody& SphereBody::rigid() const noexcept { return impl_->rigid; }
 HapticBody& SphereBody::haptic() const noexcept { return *impl_->haptic; }
+void SphereBody::setGhost(bool is_ghost) noexcept { setNativeGhost(impl_->rigid, is_ghost); }
 
 }  // namespace tandem

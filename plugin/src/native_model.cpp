@@ -29,7 +29,8 @@ void NativeModel::addObject(const HapticBody& object, double damping) {
   soften(hand_.rigid());
 }
 
-void NativeModel::addProxy(const SphereBody& proxy) {
+void NativeModel::addProxy(BodyIndex body, const SphereBody& proxy) {
+  proxies_.push_back({body, &proxy.rigid()});
   setNativeDamping(proxy.rigid(), settings_.proxy.damping);
   guide(proxy.rigid());
   soften(proxy.rigid());
@@ -51,9 +52,20 @@ void NativeModel::guide(btRigidBody& body) {
   if (settings_.guide) guides_.push_back(std::make_unique<NativeGuide>(body, *settings_.guide));
 }
 
-void NativeModel::soften(btRigidBody& sphere) const {
+void NativeModel::soften(btRigidBody& sphere, double share) const {
+  const CouplerGains& full = settings_.contact;
   if (settings_.contact_model != ContactModel::kNativeRigid)
-    setSoftContact(sphere, settings_.contact);
+    setSoftContact(sphere, {share * full.stiffness, share * full.damping});
+}
+
+void NativeModel::followShares(const Island& island) noexcept {
+  for (const Coupled& coupled : couplers_)
+    coupled.coupler->setShare(island.couplerShare(coupled.index));
+  for (const Held& held : held_) soften(held.sphere->rigid(), island.contactShare(held.body));
+  for (const Proxy& proxy : proxies_) {
+    soften(*proxy.rigid, island.contactShare(proxy.body));
+    setNativeDamping(*proxy.rigid, settings_.proxy.damping + island.extraDamping(proxy.body));
+  }
 }
 
 bool NativeModel::isPresent() const noexcept {

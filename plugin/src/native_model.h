@@ -29,7 +29,7 @@ class NativeModel {
 
   /// Set-up, once for each thing; may throw std::invalid_argument.
   void addObject(const HapticBody& object, double damping);
-  void addProxy(const SphereBody& proxy);
+  void addProxy(BodyIndex body, const SphereBody& proxy);
   /// A proxy that is what it was told: a kinematic sphere that stands at the state of `body`.
   KinematicSphere& addHeldProxy(BodyIndex body, const Vec3& p_W);
   /// The counterpart of the island's coupler `index`, with its target.
@@ -37,6 +37,10 @@ class NativeModel {
 
   /// False once somebody has taken the hand or a held proxy out of the world.
   [[nodiscard]] bool isPresent() const noexcept;
+
+  /// Pre-tick: takes over the shares of couplers, contacts and damping that the island has. Rigid
+  /// contact has no gain to take a share of.
+  void followShares(const Island& island) noexcept;
 
   /// Pre-tick and post-tick of a host step of dt [s], over which the hand moves to `hand_end_W`.
   void beginStep(const Island& island, const Vec3& hand_end_W, double dt) noexcept;
@@ -50,18 +54,23 @@ class NativeModel {
     BodyIndex body;
     std::unique_ptr<KinematicSphere> sphere;
   };
+  struct Proxy {
+    BodyIndex body;
+    btRigidBody* rigid;
+  };
   struct Coupled {
     CouplerIndex index;
     std::unique_ptr<NativeCoupler> coupler;
   };
 
   void guide(btRigidBody& body);
-  void soften(btRigidBody& sphere) const;
+  void soften(btRigidBody& sphere, double share = 1.0) const;
 
   btDiscreteDynamicsWorld& world_;
   SiteSettings settings_;
   KinematicSphere hand_;
   std::vector<Held> held_;
+  std::vector<Proxy> proxies_;
   std::vector<Coupled> couplers_;
   std::vector<std::unique_ptr<NativeGuide>> guides_;
   Vec3 hand_force_W_ = Vec3::Zero();

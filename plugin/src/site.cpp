@@ -117,6 +117,10 @@ void Site::Impl::connect(PeerId peer, Link& link, const Vec3& start_W) {
   Remote remote;
   remote.id = peer;
   remote.link = &link;
+  remote.health = LinkHealth(settings.link_loss, 1.0 / settings.packet_rate);
+  remote.link_state = remote.health.state();
+  remote.track.jump({start_W, Vec3::Zero()});
+  remote.searched_W = start_W;
   remote.user =
       scheme.makeRemoteUser(island, settings.proxy, settings.coordination, {start_W, Vec3::Zero()});
   if (remote.user.body && native) {
@@ -238,6 +242,9 @@ btRigidBody* Site::proxyBody(int remote) const noexcept {
 
 btRigidBody& Site::objectBody(ObjectId id) const noexcept {
   return impl_->objects[id].bullet->body();
+}
+LinkState Site::linkState(int remote) const noexcept {
+  return impl_->remotes[remote].health.state();
 }
 const StatePacket& Site::latest(int remote) const noexcept { return impl_->remotes[remote].latest; }
 

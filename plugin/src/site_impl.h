@@ -21,6 +21,7 @@
 #include "rest_mark.h"
 #include "snapshots.h"
 #include "state_hash.h"
+#include "user_track.h"
 
 namespace tandem {
 
@@ -75,6 +76,13 @@ struct Remote {
   SiteBody body;                          ///< of the proxy
   StatePacket latest;
   bool heard = false;
+  LinkHealth health{LinkLossSettings{}, 1.0};
+  UserTrack track;                          ///< of the user, as the scheme is told
+  LinkState link_state = LinkState::kLive;  ///< as it was acted on last
+  bool is_restrained = false;               ///< something is not as with a live peer
+  double velocity_share = 1.0;              ///< by which targets have been slowed down
+  std::uint64_t rejoined_by = 0;            ///< packet with which it came back
+  Vec3 searched_W = Vec3::Zero();           ///< around here what is near the proxy is known
   /// Per object: which packet its target is from.
   std::vector<std::optional<std::uint64_t>> object_sequences;
   std::optional<Arrival> pending;  ///< fetched, not yet taken in
@@ -100,7 +108,7 @@ struct Site::Impl final : HostStepListener {
   void advanceIsland(double until) noexcept;
   void takeInUntil(double time, double now) noexcept;
   [[nodiscard]] double nextArrival(double now, double until) noexcept;
-  void takeIn(Remote& remote, const Arrival& arrival) noexcept;
+  void takeIn(Remote& remote, const Arrival& arrival, double time) noexcept;
   bool takeInObjects(Remote& remote, const StatePacket& packet) noexcept;
   void keepStates(double time) noexcept;
   void sendIfDue(double until) noexcept;
@@ -122,6 +130,20 @@ struct Site::Impl final : HostStepListener {
   void runTicksUntil(double time) noexcept;
   void handOff(double end, double dt) noexcept;
   [[nodiscard]] RigidState stateAt(BodyIndex body, double time) noexcept;
+
+  // What a silent peer still does: site_links.cpp
+  void hearRemote(Remote& remote, const StatePacket& packet, double time) noexcept;
+  void followLinks(double now) noexcept;
+  void followLink(Remote& remote, double now) noexcept;
+  void countLinks() noexcept;
+  [[nodiscard]] bool isPlaceFree(const Remote& remote) const noexcept;
+  [[nodiscard]] bool isRenewed(const Remote& remote, const SharedObject& object) const noexcept;
+  [[nodiscard]] bool doCopiesAgree(const Remote& remote) const noexcept;
+  void carryGhost(const Remote& remote, double now) noexcept;
+  void slowTargets(Remote& remote) noexcept;
+  void restrainObjects(const Remote& remote) noexcept;
+  void restrainProxy(Remote& remote) noexcept;
+  void noteSearched() noexcept;
 
   // What need not be done while nothing moves: site_rest.cpp
   [[nodiscard]] bool mayPark(const SiteBody& body) const noexcept;
@@ -156,6 +178,7 @@ struct Site::Impl final : HostStepListener {
   void addNativeProxy(Remote& remote, const Vec3& start_W);
   void beforeNativeStep(double dt) noexcept;
   void afterNativeStep(double dt) noexcept;
+  void holdNativeGhosts() noexcept;
 
   template <typename Visit>
   void forEachBody(Visit visit) {

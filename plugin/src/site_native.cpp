@@ -23,7 +23,7 @@ void Site::Impl::addNativeProxy(Remote& remote, const Vec3& start_W) {
                                    start_W, SphereMeets::kAllBodies);
   remote.body.bullet = &remote.proxy->haptic();
   remote.body.index = index;
-  native->addProxy(*remote.proxy);
+  native->addProxy(index, *remote.proxy);
   native->addCoupler(remote.proxy->rigid(), *remote.user.coupler, {settings.coordination, {}});
 }
 
@@ -34,12 +34,26 @@ void Site::Impl::beforeNativeStep(double dt) noexcept {
   // The hand goes on from its latest sample, as it does in the island.
   const RigidState& hand = island.state(hip);
   const double ahead = std::max(0.0, end - tick_start);
+  if (settings.link_loss.enabled) native->followShares(island);
+  holdNativeGhosts();
   native->beginStep(island, hand.p_W + ahead * hand.v_W, dt);
 }
 
 void Site::Impl::afterNativeStep(double dt) noexcept {
   native->endStep(dt);
+  holdNativeGhosts();
   forEachBody([&](SiteBody& body) { island.setState(body.index, body.bullet->state()); });
+  noteSearched();
+}
+
+/// Bullet would move them on.
+void Site::Impl::holdNativeGhosts() noexcept {
+  for (Remote& remote : remotes) {
+    if (!remote.proxy || !island.isGhost(remote.body.index)) continue;
+    RigidState state = island.state(remote.body.index);
+    state.v_W.setZero();
+    remote.body.bullet->setState(state);
+  }
 }
 
 }  // namespace tandem

@@ -49,6 +49,7 @@ void checkSiteSettings(const SiteSettings& s) {
           "0 to 256");
   requireNotNegative("host_stall", s.host_stall);
   requirePositive("fault_slew", s.fault_slew);
+  checkLinkLossSettings(s.link_loss);
   if (s.guide)
     require(std::abs(s.guide->norm() - 1.0) < 1e-9, "norm of guide", s.guide->norm(), "1");
   if (s.contact_model == ContactModel::kIsland) return;

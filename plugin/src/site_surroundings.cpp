@@ -68,6 +68,7 @@ void Site::Impl::updateSurroundings(double dt) {
   }
   if (changed) island.wake();
   catchUp();
+  noteSearched();
 }
 
 /// Around bodies that sleep with nothing awake near them it is enough to look now and then.
@@ -97,8 +98,8 @@ double Site::Impl::computeSpeedInSprings() noexcept {
       if (island.follower(c) != b) continue;
       const RigidState& target = island.target(c);
       const double way = (target.p_W - island.state(b).p_W).norm();
-      speed +=
-          target.v_W.norm() + way * std::sqrt(island.couplerSettings(c).linear.stiffness / mass);
+      const double stiffness = island.couplerShare(c) * island.couplerSettings(c).linear.stiffness;
+      speed += target.v_W.norm() + way * std::sqrt(stiffness / mass);
     }
     most = std::max(most, speed);
   });

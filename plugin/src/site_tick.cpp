@@ -29,6 +29,7 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
   tick_start = now;
   readDevice(now);
   takeInUntil(now, now);
+  followLinks(now);
   computeForce();
   capture(now);
   addToHash(now);
@@ -145,13 +146,13 @@ void Site::Impl::takeInUntil(double time, double now) noexcept {
   while (nextArrival(now, std::nextafter(time, kNever)) <= time) {
     for (Remote& remote : remotes) {
       if (!remote.pending || remote.pending->time > time) continue;
-      takeIn(remote, *remote.pending);
+      takeIn(remote, *remote.pending, std::max(remote.pending->time, now));
       remote.pending.reset();
     }
   }
 }
 
-void Site::Impl::takeIn(Remote& remote, const Arrival& arrival) noexcept {
+void Site::Impl::takeIn(Remote& remote, const Arrival& arrival, double time) noexcept {
   const StatePacket& packet = arrival.packet;
   if (recording) recording->addArrival({static_cast<int>(&remote - remotes.data()), arrival});
   if (!isSane(packet) || packet.sender != remote.id) {
@@ -163,7 +164,7 @@ void Site::Impl::takeIn(Remote& remote, const Arrival& arrival) noexcept {
   if (is_latest) {
     remote.heard = true;
     remote.latest = packet;
-    scheme.follow(island, remote.user, packet.user);
+    hearRemote(remote, packet, time);
   }
   const bool has_news = takeInObjects(remote, packet) || is_latest;
   ++(has_news ? counters.packets_taken : counters.packets_stale);

@@ -37,6 +37,7 @@ struct LoneProxy {
 
   explicit LoneProxy(SiteSettings settings = {}) {
     settings.coordination = {2000.0, 10.0};
+    settings.link_loss.enabled = false;  // one packet is to pull for ever
     site = std::make_unique<Site>(settings, rig.world, device);
     site->connect(kRemote, link, Vec3(0.01, 0.0, 0.0));
     link.arrivals.push_back({makePacket(kRemote, 0, Vec3::Zero()), 0.0});

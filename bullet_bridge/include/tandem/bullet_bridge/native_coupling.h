@@ -31,6 +31,14 @@ void setSoftContact(btCollisionObject& carrier, const CouplerGains& gains, int p
 [[nodiscard]] Vec3 computeContactImpulse(btDiscreteDynamicsWorld& world,
                                          const btCollisionObject& body) noexcept;
 
+/// How deep a body is in others, ghosts apart, by the contacts of the world's latest step [m]; 0:
+/// in none. A ghost's own contacts are seen.
+[[nodiscard]] double computeNativeOverlap(btDiscreteDynamicsWorld& world,
+                                          const btCollisionObject& body) noexcept;
+
+/// A ghost's contacts are found and not acted on.
+void setNativeGhost(btCollisionObject& body, bool is_ghost) noexcept;
+
 /// Gives a body the damping b [N s/m] of its velocity by Bullet's own factor per second,
 /// 1 - exp(-b/m), which is exact while nothing else acts. Not restored here: HapticBody does that.
 void setNativeDamping(btRigidBody& body, double damping);
@@ -99,6 +107,8 @@ class NativeCoupler {
  public:
   virtual ~NativeCoupler() = default;
 
+  /// Multiplies the gains it was made with by a share in 0 to 1, from the next pull() on.
+  virtual void setShare(double share) noexcept = 0;
   /// Pre-tick, before each step of dt [s]: pulls towards `target` over that step.
   virtual void pull(const RigidState& target, double dt) noexcept = 0;
 };

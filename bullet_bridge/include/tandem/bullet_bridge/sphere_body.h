@@ -32,6 +32,9 @@ class SphereBody {
   [[nodiscard]] btRigidBody& rigid() const noexcept;
   [[nodiscard]] HapticBody& haptic() const noexcept;
 
+  /// A ghost passes all bodies: Bullet sees its contacts and does not act on them. Real-time safe.
+  void setGhost(bool is_ghost) noexcept;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

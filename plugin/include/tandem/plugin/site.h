@@ -46,6 +46,9 @@ struct SiteCounters {
   std::uint64_t bodies_parked = 0;       ///< put to sleep in Bullet, one by one
   std::uint64_t bodies_woken = 0;        ///< of those
   std::uint64_t host_clock_set = 0;      ///< the host had dropped time: its clock was set on
+  std::uint64_t links_faded = 0;         ///< remotes whose gains began to fall, each time
+  std::uint64_t links_lost = 0;          ///< and came to zero
+  std::uint64_t links_rejoined = 0;      ///< heard again after that, or at last
   std::uint64_t promoted = 0;            ///< bodies of the host that the island took
   std::uint64_t demoted = 0;             ///< and those that it gave back
 };
@@ -115,6 +118,8 @@ class Site {
   [[nodiscard]] const RigidState* proxy(int remote) const noexcept;
   [[nodiscard]] btRigidBody* proxyBody(int remote) const noexcept;
   [[nodiscard]] btRigidBody& objectBody(ObjectId id) const noexcept;
+  /// How a remote is doing as of the latest tick; always live with SiteSettings::link_loss off.
+  [[nodiscard]] LinkState linkState(int remote) const noexcept;
   /// The newest state received from a remote; nothing is known before the first packet.
   [[nodiscard]] const StatePacket& latest(int remote) const noexcept;
 

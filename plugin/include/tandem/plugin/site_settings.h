@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "tandem/coordination/link_health.h"
 #include "tandem/coordination/scheme.h"
 
 namespace tandem {
@@ -55,6 +56,9 @@ struct SiteSettings {
   /// Bullet's.
   int max_neighbours = 16;
   double host_stall = 0.0;  ///< time for which the host may be silent [s]; wider search if larger
+  /// What is done when a remote peer falls silent. With a native contact model gains change once
+  /// per host step, and rigid contact, which has none, ends when the proxy is lost.
+  LinkLossSettings link_loss;
   double fault_slew = 2000.0;  ///< after a fault the force fades by this [N/s]
 };
 
