@@ -213,6 +213,7 @@ std::map<std::string, Key> makeKeys() {
       {"network.duplicate", probability([](S& s) -> double& { return s.network.duplicate; })},
       {"network.reorder", probability([](S& s) -> double& { return s.network.reorder; })},
       {"network.seed", seedKey()},
+      {"network.link_loss", flagKey([](S& s) -> bool& { return s.link_loss; })},
       {"rates.haptic", numberKey([](S& s) -> double& { return s.haptic_rate; }, 10.0, 1e5, false,
                                  "10 to 100000 Hz")},
       {"rates.host",

@@ -64,6 +64,7 @@ struct Scenario {
 
   std::array<HandScenario, 2> hands;
   Impairments network{0.05};
+  bool link_loss = true;
   double packet_rate = 128.0;
   double haptic_rate = 1000.0;
   double host_rate = 240.0;

@@ -88,6 +88,7 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
   settings.tick_source = TickSource::kCaller;
   if (scenario.guide) settings.guide = scenario.axis;
   settings.inner_step = 1.0 / scenario.inner_rate;
+  settings.link_loss.enabled = scenario.link_loss;
   return settings;
 }
 
