@@ -11,10 +11,6 @@ namespace {
 /// So many packets in a row may be missing before a peer is stale.
 constexpr double kPacketsToBeStale = 3.0;
 
-double computeScale(const LinkLossSettings& settings, double packet_period) noexcept {
-  return std::max(1.0, kPacketsToBeStale * packet_period / settings.stale_after);
-}
-
 }  // namespace
 
 std::string_view nameOf(LinkState state) noexcept {
@@ -55,13 +51,17 @@ double computeRestDamping(const CouplerGains& gains, double mass, double decay) 
 }
 
 LinkHealth::LinkHealth(const LinkLossSettings& settings, double packet_period) noexcept
-    : settings_(settings),
-      packet_period_(packet_period),
-      scale_(computeScale(settings, packet_period)) {
+    : settings_(settings), packet_period_(packet_period) {
+  scaleAges(packet_period);
   if (!settings.enabled || settings.start_live) return;
   state_ = LinkState::kWaiting;
   is_out_ = true;
   object_ramp_.from = proxy_ramp_.from = object_share_ = proxy_share_ = 0.0;
+}
+
+void LinkHealth::scaleAges(double packet_period) noexcept {
+  scale_ = std::max(1.0, kPacketsToBeStale * packet_period / settings_.stale_after);
+  stale_after_ = scale_ * settings_.stale_after;
 }
 
 double LinkHealth::computeAge(double time) const noexcept {
@@ -69,12 +69,12 @@ double LinkHealth::computeAge(double time) const noexcept {
 }
 
 bool LinkHealth::isOverdue(double time) const noexcept {
-  return settings_.enabled && computeAge(time) >= scale_ * settings_.stale_after;
+  return settings_.enabled && computeAge(time) >= stale_after_;
 }
 
 bool LinkHealth::hear(double time, bool is_idle) noexcept {
   if (!settings_.enabled) return false;
-  look(time);
+  if (!staysLive(time)) look(time);
   const bool comes_back = state_ == LinkState::kWaiting || state_ == LinkState::kLost;
   if (comes_back) {
     ++counters_.rejoined;
@@ -84,13 +84,13 @@ bool LinkHealth::hear(double time, bool is_idle) noexcept {
     proxy_ramp_ = {proxy_share_, time};
   }
   heard_ = time;
-  scale_ = computeScale(settings_, is_idle ? kIdlePacketPeriod : packet_period_);
+  scaleAges(is_idle ? kIdlePacketPeriod : packet_period_);
   look(time);
   return comes_back;
 }
 
 void LinkHealth::update(double time, bool place_is_free) noexcept {
-  if (!settings_.enabled) return;
+  if (!settings_.enabled || staysLive(time)) return;
   look(time);
   if (!is_out_ || state_ != LinkState::kRejoining || !place_is_free) return;
   is_out_ = false;
@@ -100,7 +100,6 @@ void LinkHealth::update(double time, bool place_is_free) noexcept {
 void LinkHealth::look(double time) noexcept {
   if (!heard_) return;
   const double age = computeAge(time);
-  const double stale_after = scale_ * settings_.stale_after;
   const double fade_after = scale_ * settings_.fade_after;
   const double lost_after = scale_ * settings_.lost_after;
   const LinkState before = state_;
@@ -112,11 +111,12 @@ void LinkHealth::look(double time) noexcept {
     return;
   }
   fade_ = age > fade_after ? (lost_after - age) / (lost_after - fade_after) : 1.0;
-  velocity_share_ = age > stale_after ? std::exp(-(age - stale_after) / settings_.hold_decay) : 1.0;
-  const double ramped_until = std::min(time, *heard_ + stale_after);
+  velocity_share_ =
+      age > stale_after_ ? std::exp(-(age - stale_after_) / settings_.hold_decay) : 1.0;
+  const double ramped_until = std::min(time, *heard_ + stale_after_);
   object_share_ = fade_ * valueOf(object_ramp_, ramped_until);
   proxy_share_ = is_out_ ? 0.0 : fade_ * valueOf(proxy_ramp_, ramped_until);
-  if (age < stale_after) {
+  if (age < stale_after_) {
     const bool is_whole = object_share_ == 1.0 && proxy_share_ == 1.0;
     state_ = is_whole ? LinkState::kLive : LinkState::kRejoining;
   } else {

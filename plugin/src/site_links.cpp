@@ -35,7 +35,8 @@ void Site::Impl::hearRemote(Remote& remote, const StatePacket& packet, double ti
 
 void Site::Impl::followLinks(double now) noexcept {
   if (!settings.link_loss.enabled) return;
-  for (Remote& remote : remotes) followLink(remote, now);
+  for (Remote& remote : remotes)
+    if (remote.is_restrained || !remote.health.staysLive(now)) followLink(remote, now);
 }
 
 void Site::Impl::followLink(Remote& remote, double now) noexcept {

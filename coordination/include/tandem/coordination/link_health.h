@@ -77,6 +77,11 @@ class LinkHealth {
   /// back with it: it was lost, or waited for.
   bool hear(double time, bool is_idle) noexcept;
 
+  /// True if the peer is live and nothing has changed by `time`: update() has nothing to do.
+  [[nodiscard]] bool staysLive(double time) const noexcept {
+    return state_ == LinkState::kLive && !(heard_ && time - *heard_ >= stale_after_);
+  }
+
   /// What holds from `time` on, not before the latest hear() or update(). `place_is_free`: the
   /// proxy overlaps nothing; looked at while isProxyOut().
   void update(double time, bool place_is_free) noexcept;
@@ -105,12 +110,14 @@ class LinkHealth {
     double from = 1.0, since = 0.0;
   };
 
+  void scaleAges(double packet_period) noexcept;
   void look(double time) noexcept;
   [[nodiscard]] double valueOf(const Ramp& ramp, double time) const noexcept;
 
   LinkLossSettings settings_;
   double packet_period_;
-  double scale_ = 1.0;  ///< of all ages
+  double scale_ = 1.0;        ///< of all ages
+  double stale_after_ = 0.0;  ///< times the scale [s]
   std::optional<double> heard_;
   Ramp object_ramp_, proxy_ramp_;
   LinkState state_ = LinkState::kLive;
