@@ -111,6 +111,7 @@ struct Site::Impl final : HostStepListener {
   void takeIn(Remote& remote, const Arrival& arrival, double time) noexcept;
   bool takeInObjects(Remote& remote, const StatePacket& packet) noexcept;
   void keepStates(double time) noexcept;
+  void lookForIdleness(double now) noexcept;
   void sendIfDue(double until) noexcept;
   void send(double time) noexcept;
   void capture(double now) noexcept;
@@ -214,6 +215,8 @@ struct Site::Impl final : HostStepListener {
   std::uint32_t status_now = kTickOk, status_ever = kTickOk;
   std::uint64_t ticks = 0;
   std::uint64_t packets_due = 0;
+  bool is_idle = false;     ///< states go out at the keep-alive rate
+  double busy_until = 0.0;  ///< since then nothing has moved or touched
   double start_time = 0.0;
   DeviceSample sample;
   Vec3 contact_W = Vec3::Zero();  ///< contact force on the device as the model has it [N]

@@ -11,6 +11,9 @@ namespace {
 /// seconds.
 constexpr double kSameTime = 1e-10;
 
+/// Without motion for so long, a site is idle [s].
+constexpr double kIdleAfter = 0.5;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool isSame(const RigidState& a, const RigidState& b) noexcept {
@@ -34,6 +37,7 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
   capture(now);
   addToHash(now);
   device.write(force_W);
+  lookForIdleness(now);
   advance(now);
   ++ticks;
   status_ever |= status_now;
@@ -186,11 +190,21 @@ bool Site::Impl::takeInObjects(Remote& remote, const StatePacket& packet) noexce
   return has_news;
 }
 
+void Site::Impl::lookForIdleness(double now) noexcept {
+  const bool rests = island.isAsleep() && contact_W == Vec3::Zero();
+  if (!rests || ticks == 0) busy_until = now;
+  const bool was_idle = is_idle;
+  is_idle = settings.thins_when_idle && now - busy_until >= kIdleAfter - kSameTime;
+  if (was_idle && !is_idle) send(now);
+}
+
 void Site::Impl::sendIfDue(double until) noexcept {
+  const auto stride = std::max<std::uint64_t>(
+      static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1);
   for (;;) {
     const double due = start_time + static_cast<double>(packets_due) / settings.packet_rate;
     if (due > until + kSameTime) return;
-    send(isHandoff() ? due : until);
+    if (!is_idle || packets_due % stride == 0) send(isHandoff() ? due : until);
     ++packets_due;
   }
 }
@@ -198,7 +212,8 @@ void Site::Impl::sendIfDue(double until) noexcept {
 void Site::Impl::send(double time) noexcept {
   StatePacket packet;
   packet.sender = settings.self;
-  packet.sequence = packets_due;
+  packet.sequence = counters.packets_sent;
+  packet.is_idle = is_idle;
   packet.time = time;
   packet.user = island.state(hip).point();
   if (time > tick_start && device.capabilities().is_continuous) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tandem/plugin/udp_socket.h"
+
 #include "net/virtual_net.h"
 
 namespace tandem {

@@ -111,9 +111,38 @@ TEST(SiteSleep, NeitherSearchesNorHandsOffWhileNothingMoves) {
   EXPECT_EQ(rig.counters().searches, before.searches);
   EXPECT_EQ(rig.counters().bodies_handed_off, before.bodies_handed_off);
   EXPECT_EQ(rig.counters().bodies_woken, before.bodies_woken);
-  EXPECT_EQ(rig.counters().packets_sent - before.packets_sent, 128u);  // the others still hear
+  EXPECT_EQ(rig.counters().packets_sent - before.packets_sent, 16u);  // the others still hear
   EXPECT_EQ(rig.object().p_W, object.p_W);
   EXPECT_TRUE(rig.cube.getWorldTransform() == pose);
+}
+
+TEST(SiteSleep, IdlePacketsSaySoAndTheFirstMotionIsSentInItsTick) {
+  Rig rig;
+  rig.fallAsleep();
+  EXPECT_TRUE(rig.link.sent.back().is_idle);
+  // Between two packets that are due.
+  const std::uint64_t sent = rig.counters().packets_sent;
+  while (rig.counters().packets_sent == sent) rig.tick();
+  for (int i = 0; i < 5; ++i) rig.tick();
+  ASSERT_EQ(rig.counters().packets_sent, sent + 1);
+  rig.device.sample.hip.p_W.y() += 1e-4;
+  rig.tick();
+  EXPECT_EQ(rig.counters().packets_sent, sent + 2);
+  const StatePacket& woken = rig.link.sent.back();
+  EXPECT_FALSE(woken.is_idle);
+  EXPECT_EQ(woken.user.p_W, rig.device.sample.hip.p_W);
+  EXPECT_EQ(woken.sequence, rig.link.sent[rig.link.sent.size() - 2].sequence + 1);
+}
+
+TEST(SiteSleep, SendsAllWhileIdleIfItIsAskedTo) {
+  Options options;
+  options.settings.thins_when_idle = false;
+  Rig rig(options);
+  rig.fallAsleep();
+  const std::uint64_t sent = rig.counters().packets_sent;
+  rig.run(1.0);
+  EXPECT_EQ(rig.counters().packets_sent - sent, 128u);
+  EXPECT_FALSE(rig.link.sent.back().is_idle);
 }
 
 TEST(SiteSleep, UntouchedBodiesSleepWhileTheDeviceMoves) {

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,11 +33,14 @@ void catchSignals() {
 void print(const PeerReport& report) {
   const PeerStatus& peer = report.peer;
   std::string time = report.has_start ? fmt::format("{:8.1f} s", report.time) : "   waiting";
+  // Once it runs, how the states come says more than that the connection stands.
+  const bool is_running = report.time > 0.0 && peer.phase == PeerPhase::kLive;
+  const std::string_view state = is_running ? nameOf(report.link) : name(peer.phase);
   fmt::print(
       "{} | {:9} | round trip {:6.1f} ms | wait {:5.1f} ms | jitter {:5.1f} ms | loss "
       "{:4.1f} % | force {:6.3f} N | coherency {:7.3f} mm\n",
-      time, name(peer.phase), 1e3 * peer.round_trip, 1e3 * peer.wait, 1e3 * peer.jitter,
-      1e2 * peer.loss, report.force, 1e3 * report.coherency);
+      time, state, 1e3 * peer.round_trip, 1e3 * peer.wait, 1e3 * peer.jitter, 1e2 * peer.loss,
+      report.force, 1e3 * report.coherency);
   std::fflush(stdout);
 }
 

@@ -192,6 +192,7 @@ PeerReport PeerRun::makeReport(double time) const {
   report.time = time;
   report.has_start = link_.start().has_value();
   report.peer = mesh_.status(other_, clock_.now());
+  report.link = world_->site().linkState(0);
   report.force = world_->site().force().norm();
   report.coherency = computeCoherency();
   return report;

@@ -19,7 +19,8 @@ struct PeerReport {
   double time = 0.0;  ///< of the site [s]; negative: until the start; nothing is felt yet
   bool has_start = false;
   PeerStatus peer;
-  double force = 0.0;      ///< on the device, norm [N]
+  LinkState link = LinkState::kLive;  ///< what share of the gains is in force
+  double force = 0.0;                 ///< on the device, norm [N]
   double coherency = 0.0;  ///< own copy of the object against the other's as received [m]
 };
 

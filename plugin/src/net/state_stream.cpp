@@ -27,6 +27,7 @@ std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan p
     message.echo_hold_us = static_cast<std::uint32_t>(std::min(hold / kMicro, 4294967295.0));
     message.ack_bits = computeAckBits();
   }
+  if (packet.is_idle) message.flags |= kStateIdle;
   message.profile = profile_;
   message.config_hash = config_hash_;
   return encodeState(message, payload);
@@ -57,6 +58,7 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
     is_first_of_keys_ = false;
   }
   packet.sequence += offset_;
+  packet.is_idle = (message->flags & kStateIdle) != 0;
   highest_ = has_state_ ? std::max(highest_, packet.sequence) : packet.sequence;
   has_state_ = true;
   (void)playout_.push(packet, toSeconds(message->send_time_us), now);

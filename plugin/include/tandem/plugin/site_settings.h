@@ -34,9 +34,12 @@ enum class TickSource {
 /// All numbers of a site. Checked by Site's constructor.
 struct SiteSettings {
   PeerId self{1};
-  int peers = 2;                      ///< N: every shared object is carried by N copies of mass m/N
-  double haptic_rate = 1000.0;        ///< device loop [Hz]; higher renders stiffer contact
-  double packet_rate = 128.0;         ///< states sent per second [Hz], at most the haptic rate
+  int peers = 2;                ///< N: every shared object is carried by N copies of mass m/N
+  double haptic_rate = 1000.0;  ///< device loop [Hz]; higher renders stiffer contact
+  double packet_rate = 128.0;   ///< states sent per second [Hz], at most the haptic rate
+  /// While nothing moves or touches for half a second, states go out at 1 / kIdlePacketPeriod, and
+  /// say so; the first motion is sent in its tick. False: always at `packet_rate`.
+  bool thins_when_idle = true;
   double host_step = 0.0;             ///< expected first step of the host [s]; 0: learnt from it
   CouplerGains contact{4000.0, 1.0};  ///< K_vc, B_vc of every contact of spheres
   CouplerGains coordination{200.0,
