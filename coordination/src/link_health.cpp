@@ -84,7 +84,7 @@ bool LinkHealth::hear(double time, bool is_idle) noexcept {
     proxy_ramp_ = {proxy_share_, time};
   }
   heard_ = time;
-  scaleAges(is_idle ? kIdlePacketPeriod : packet_period_);
+  scaleAges(is_idle ? std::max(kIdlePacketPeriod, packet_period_) : packet_period_);
   look(time);
   return comes_back;
 }

@@ -76,6 +76,9 @@ struct Scenario {
   double friction = 0.5;  ///< of all bodies of the world
   std::vector<NeighbourBox> boxes;
 
+  /// No key of the file: false for a site that comes late, so that the other fades in.
+  bool starts_live = true;
+
   [[nodiscard]] bool hasObject() const { return kind != "user_contact"; }
 };
 

@@ -89,6 +89,7 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
   if (scenario.guide) settings.guide = scenario.axis;
   settings.inner_step = 1.0 / scenario.inner_rate;
   settings.link_loss.enabled = scenario.link_loss;
+  settings.link_loss.start_live = scenario.starts_live;
   return settings;
 }
 

@@ -215,6 +215,7 @@ struct Site::Impl final : HostStepListener {
   std::uint32_t status_now = kTickOk, status_ever = kTickOk;
   std::uint64_t ticks = 0;
   std::uint64_t packets_due = 0;
+  int idle_notices = 0;     ///< to be sent before states become rare
   bool is_idle = false;     ///< states go out at the keep-alive rate
   double busy_until = 0.0;  ///< since then nothing has moved or touched
   double start_time = 0.0;

@@ -13,6 +13,8 @@ constexpr double kSameTime = 1e-10;
 
 /// Without motion for so long, a site is idle [s].
 constexpr double kIdleAfter = 0.5;
+/// States that say so at the full rate, before they become rare: some may be lost.
+constexpr int kIdleNotices = 5;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -195,6 +197,7 @@ void Site::Impl::lookForIdleness(double now) noexcept {
   if (!rests || ticks == 0) busy_until = now;
   const bool was_idle = is_idle;
   is_idle = settings.thins_when_idle && now - busy_until >= kIdleAfter - kSameTime;
+  if (!is_idle) idle_notices = kIdleNotices;
   if (was_idle && !is_idle) send(now);
 }
 
@@ -204,7 +207,9 @@ void Site::Impl::sendIfDue(double until) noexcept {
   for (;;) {
     const double due = start_time + static_cast<double>(packets_due) / settings.packet_rate;
     if (due > until + kSameTime) return;
-    if (!is_idle || packets_due % stride == 0) send(isHandoff() ? due : until);
+    const bool is_rare = is_idle && idle_notices == 0;
+    if (!is_rare || packets_due % stride == 0) send(isHandoff() ? due : until);
+    if (is_idle && idle_notices > 0) --idle_notices;
     ++packets_due;
   }
 }

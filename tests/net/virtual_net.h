@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "support/random.h"
 
 namespace tandem::test {
+
+/// How much a test does: the number in this environment variable, or else `usual`.
+inline std::uint64_t readCount(const char* variable, std::uint64_t usual) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : usual;
+}
 
 /// What a virtual network does to datagrams.
 struct NetConditions {
@@ -66,20 +73,17 @@ class VirtualNet {
         datagram.bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] ^=
             static_cast<std::uint8_t>(1 << random_.below(8));
       flying_.push_back(std::move(datagram));
+      std::push_heap(flying_.begin(), flying_.end(), &comesLater);
     }
   }
 
   /// Delivers all that is due until `time`, through `take`.
   template <typename Take>
   void deliverUntil(double time, Take take) {
-    for (;;) {
-      const auto next = std::min_element(
-          flying_.begin(), flying_.end(), [](const Datagram& a, const Datagram& b) {
-            return a.due != b.due ? a.due < b.due : a.number < b.number;
-          });
-      if (next == flying_.end() || next->due > time) break;
-      Datagram datagram = std::move(*next);
-      flying_.erase(next);
+    while (!flying_.empty() && flying_.front().due <= time) {
+      std::pop_heap(flying_.begin(), flying_.end(), &comesLater);
+      Datagram datagram = std::move(flying_.back());
+      flying_.pop_back();
       now = datagram.due;
       take(datagram);
     }
@@ -92,8 +96,12 @@ class VirtualNet {
   std::function<void(const std::vector<std::uint8_t>&, const Address&, const Address&)> tap;
 
  private:
+  static bool comesLater(const Datagram& a, const Datagram& b) {
+    return a.due != b.due ? a.due > b.due : a.number > b.number;
+  }
+
   Random random_;
-  std::vector<Datagram> flying_;
+  std::vector<Datagram> flying_;  ///< a heap
   std::uint64_t number_ = 0;
 };
 
@@ -174,6 +182,10 @@ class VirtualSites {
             (!site.mesh || status(site.id, other.id).phase != PeerPhase::kLive))
           return false;
     return true;
+  }
+  void forgetGiven() {
+    for (Site& site : sites_)
+      for (auto& given : site.given) given.clear();
   }
   /// Until all are live; false after `seconds`.
   [[nodiscard]] bool goLive(double seconds) {

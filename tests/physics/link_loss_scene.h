@@ -76,6 +76,7 @@ struct OutageRun {
       settings.self = PeerId{static_cast<std::uint32_t>(i) + 1};
       settings.tick_source = TickSource::kCaller;
       settings.host_step = kHostStep;
+      settings.thins_when_idle = false;  // limits of age are those of the full rate
       settings.scheme = &findScheme(c.scheme);
       if (c.is_guided) settings.guide = Vec3(1, 0, 0);
       sites[i] = std::make_unique<Site>(settings, rigs[i].world, devices[i]);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -363,9 +364,14 @@ TEST_P(NativeLinkLoss, FadesLosesAndComesBack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, NativeLinkLoss,
-                         ::testing::Values(ContactModel::kNativeRigid, ContactModel::kNativeSoft,
-                                           ContactModel::kSpring6Dof, ContactModel::kPointToPoint));
+/// On a float Bullet point-to-point joints blow up while their gains fall (docs/native.md).
+std::vector<ContactModel> modelsThatCanFade() {
+  std::vector<ContactModel> models = {ContactModel::kNativeRigid, ContactModel::kNativeSoft,
+                                      ContactModel::kSpring6Dof};
+  if (sizeof(btScalar) == 8) models.push_back(ContactModel::kPointToPoint);
+  return models;
+}
+INSTANTIATE_TEST_SUITE_P(Models, NativeLinkLoss, ::testing::ValuesIn(modelsThatCanFade()));
 
 }  // namespace
 }  // namespace tandem

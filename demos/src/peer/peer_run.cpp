@@ -48,15 +48,20 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
               peers.push_back(std::move(peer));
               return peers;
             }()),
-      link_(mesh_.link(other_)),
-      world_(std::make_unique<SiteWorld>(scenario, site, link_)) {
+      link_(mesh_.link(other_)) {
+  makeWorld();
+}
+
+void PeerRun::makeWorld() {
+  world_.reset();
+  world_ = std::make_unique<SiteWorld>(scenario_, index_, link_);
   Site& own = world_->site();
-  const auto ticks = static_cast<std::size_t>(std::llround(duration() * scenario.haptic_rate));
-  const auto arrivals = static_cast<std::size_t>(2.0 * duration() * scenario.packet_rate) + 64;
+  const auto ticks = static_cast<std::size_t>(std::llround(duration() * scenario_.haptic_rate));
+  const auto arrivals = static_cast<std::size_t>(2.0 * duration() * scenario_.packet_rate) + 64;
   recording_ =
       std::make_unique<Recording>(ticks, arrivals, own.objectCount(), own.proxyBody(0) ? 1 : 0);
   own.record(recording_.get());
-  if (scenario.hasObject()) object_start_W_ = own.object(0).p_W;
+  if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
 }
 
 double PeerRun::duration() const noexcept { return scenario_.duration; }
@@ -92,8 +97,18 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
     const double lead = std::max(kCountdown, kCountdownTrips * status.round_trip);
     const bool may_choose = self_ < other_ && live_since && now - *live_since > 0.3;
     if (may_choose && !link_.start()) link_.setStart(now + lead);
-    if (link_.start() && now >= *link_.start() - 2e-3) return true;
-    if (!link_.start()) checkAnswer(now - began, patience);
+    if (link_.start() && now >= *link_.start() - 2e-3) {
+      if (now - *link_.start() > kMostBehind) joinLate(now);
+      return true;
+    }
+    if (!link_.start()) {
+      try {
+        checkAnswer(now - began, patience);
+      } catch (const std::exception&) {
+        leave();
+        throw;
+      }
+    }
     if (now >= next_send) {
       link_.sendHeld(held, self_);
       next_send = std::max(next_send + 1.0 / scenario_.packet_rate, now);
@@ -104,6 +119,13 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
     }
     mesh_.wait(1e-3);
   }
+}
+
+/// The other site has been running for a while: it and its copies fade in.
+void PeerRun::joinLate(double now) {
+  link_.setStart(now + kMostBehind);
+  scenario_.starts_live = false;
+  makeWorld();
 }
 
 void PeerRun::checkAnswer(double waited, double patience) const {

@@ -59,6 +59,8 @@ class PeerRun {
   [[nodiscard]] PeerStatus peerStatus() const { return mesh_.status(other_, clock_.now()); }
 
  private:
+  void makeWorld();
+  void joinLate(double now);
   void poll() noexcept;
   void checkAnswer(double waited, double patience) const;
   void leave() noexcept;

@@ -12,7 +12,7 @@ void StartLink::sendHeld(const PointState& user, PeerId self) noexcept {
 }
 
 void StartLink::listenForStart(double delay) noexcept {
-  while (const auto arrival = link_.receive(clock_, clock_)) {
+  while (const auto arrival = link_.receive(0.0, clock_)) {
     if (start_ || arrival->packet.time == 0.0) continue;
     start_ = arrival->time - delay - (arrival->packet.time - kBefore);
   }

@@ -1,5 +1,6 @@
 #include "net/answerer.h"
 
+#include <algorithm>
 #include <array>
 
 #include "net/random.h"
@@ -9,9 +10,11 @@ namespace tandem::net {
 std::optional<SessionKeys> Answerer::onOpen(const OpenMessage& message, const Address& from,
                                             double now, Outlet& outlet, Outcome& outcome) noexcept {
   std::optional<SessionKeys> keys;
-  const bool is_again = answered_ && answered_->route.nonce == message.route.nonce &&
-                        answered_->noise == message.noise;
-  if (!is_again) {
+  if (isOld(message)) {
+    outcome = Refusal::kReplayed;
+    return std::nullopt;
+  }
+  if (!isNewest(message)) {
     try {
       keys = answer(message, now, outcome);
     } catch (const std::exception&) {
@@ -24,6 +27,19 @@ std::optional<SessionKeys> Answerer::onOpen(const OpenMessage& message, const Ad
   outlet.send({datagram.data(), size}, from);
   outcome = {};
   return keys;
+}
+
+bool Answerer::isNewest(const OpenMessage& message) const noexcept {
+  if (!has_newest_) return false;
+  const Answered& newest = answered_[(answers_ - 1) % kRemembered];
+  return newest.nonce == message.route.nonce && newest.noise == message.noise;
+}
+
+bool Answerer::isOld(const OpenMessage& message) const noexcept {
+  if (isNewest(message)) return false;
+  for (std::size_t i = 0; i < std::min(answers_, kRemembered); ++i)
+    if (answered_[i].noise == message.noise) return true;
+  return false;
 }
 
 std::optional<SessionKeys> Answerer::answer(const OpenMessage& message, double now,
@@ -43,7 +59,8 @@ std::optional<SessionKeys> Answerer::answer(const OpenMessage& message, double n
   if (!noise.writeMessage(answer_terms, accept_.noise)) return std::nullopt;
   auto keys = noise.split();
   if (!keys) return std::nullopt;
-  answered_ = message;
+  answered_[answers_++ % kRemembered] = {message.route.nonce, message.noise};
+  has_newest_ = true;
   return SessionKeys(pair_, std::move(*keys), mine, terms->session, terms->key_epoch, now);
 }
 

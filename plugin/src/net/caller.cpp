@@ -26,7 +26,8 @@ void Caller::stop() noexcept {
   noise_.reset();
 }
 
-void Caller::advance(double now, const Address& to, Outlet& outlet) noexcept {
+void Caller::advance(double now, const Address& to, const std::optional<Address>& also,
+                     Outlet& outlet) noexcept {
   if (stage_ == Stage::kOpen && retry_.tries() >= kOpensPerCookie) start(epoch_, now);
   if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
   std::array<std::uint8_t, kHelloSize> datagram;
@@ -35,6 +36,7 @@ void Caller::advance(double now, const Address& to, Outlet& outlet) noexcept {
                                ? encodeHello({{pair_.self, pair_.peer, nonce_}}, out)
                                : encodeOpen(open_, out);
   outlet.send({datagram.data(), size}, to);
+  if (also && *also != to) outlet.send({datagram.data(), size}, *also);
 }
 
 bool Caller::isAnswer(const HandshakeRoute& route) const noexcept {
@@ -46,6 +48,18 @@ Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
   const auto message = decodeCookie(datagram);
   if (!message) return message.refusal();
   if (!isAnswer(message->route) || stage_ != Stage::kHello) return Refusal::kOutOfTurn;
+  if (!noise_) {
+    const Outcome outcome = writeOpen();
+    if (outcome.refusal != Refusal::kNone) return outcome;
+  }
+  open_.cookie = message->cookie;
+  stage_ = Stage::kOpen;
+  retry_.start(now);
+  return {};
+}
+
+/// All of OPEN but the cookie.
+Outcome Caller::writeOpen() noexcept {
   try {
     const NoisePrologue prologue = writeNoisePrologue(pair_.self, pair_.peer);
     session_ = drawNumber<std::uint32_t>();
@@ -53,13 +67,11 @@ Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
     noise_.emplace(key_, prologue);
     open_.route = {pair_.self, pair_.peer, nonce_};
     open_.key_epoch = epoch_;
-    open_.cookie = message->cookie;
     if (!noise_->writeMessage(terms, open_.noise)) return Refusal::kOutOfTurn;
   } catch (const std::exception&) {
+    noise_.reset();
     return Refusal::kTooMany;  // no memory to lock: HELLO will be said again
   }
-  stage_ = Stage::kOpen;
-  retry_.start(now);
   return {};
 }
 
@@ -70,8 +82,8 @@ std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
     outcome = message.refusal();
     return std::nullopt;
   }
-  const bool is_expected = stage_ == Stage::kOpen && isAnswer(message->route) &&
-                           message->session == session_ && message->key_epoch == epoch_;
+  const bool is_expected = noise_ && isAnswer(message->route) && message->session == session_ &&
+                           message->key_epoch == epoch_;
   if (!is_expected) {
     outcome = Refusal::kOutOfTurn;
     return std::nullopt;
@@ -95,16 +107,14 @@ std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
   }
 }
 
-Outcome Caller::onRefuse(ByteView datagram, double now) noexcept {
+Outcome Caller::onRefuse(ByteView datagram) noexcept {
   const auto message = decodeRefuse(datagram);
   if (!message) return message.refusal();
   if (!isAnswer(message->route)) return Refusal::kOutOfTurn;
   refused_ = *message;
-  if (message->code == RefuseCode::kCookie && stage_ == Stage::kOpen) {
-    start(epoch_, now);
-    // Not at once, or a forger could make us say HELLO as often as it likes.
-    (void)retry_.isDue(now);
-  }
+  // It may be forged: the same OPEN may still be accepted, and only another cookie is asked for;
+  // not at once, or a forger could make us say HELLO as often as it likes.
+  if (message->code == RefuseCode::kCookie) stage_ = Stage::kHello;
   return {};
 }
 

@@ -20,16 +20,17 @@ class Caller {
   void stop() noexcept;
   [[nodiscard]] bool isActive() const noexcept { return stage_ != Stage::kIdle; }
 
-  /// Says again what was not answered.
-  void advance(double now, const Address& to, Outlet& outlet) noexcept;
+  /// Says again what was not answered, to both addresses.
+  void advance(double now, const Address& to, const std::optional<Address>& also,
+               Outlet& outlet) noexcept;
 
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
   /// The new keys; nothing, and `outcome` says why, if this is no answer to our OPEN. Takes locked
   /// memory.
   [[nodiscard]] std::optional<SessionKeys> onAccept(ByteView datagram, double now,
                                                     Outcome& outcome) noexcept;
-  /// Remembered for the user; a wrong cookie begins anew.
-  [[nodiscard]] Outcome onRefuse(ByteView datagram, double now) noexcept;
+  /// Remembered for the user; for a wrong cookie another is asked for.
+  [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
 
   /// What the other side refused with last, if it did since start(); not authentic.
   [[nodiscard]] const std::optional<RefuseMessage>& refused() const noexcept { return refused_; }
@@ -37,6 +38,7 @@ class Caller {
  private:
   enum class Stage { kIdle, kHello, kOpen };
 
+  [[nodiscard]] Outcome writeOpen() noexcept;
   [[nodiscard]] bool isAnswer(const HandshakeRoute& route) const noexcept;
 
   Pair pair_;

@@ -10,6 +10,9 @@ namespace {
 constexpr double kHellosPerSecond = 200.0;  ///< each costs a hash and a datagram of 48 bytes
 constexpr double kOpensPerSecond = 50.0;    ///< each costs two X25519
 constexpr double kRefusalsPerSecond = 5.0;
+// So that they do not all fall into one tick.
+constexpr double kAtOnce = 10.0;
+constexpr double kOpensAtOnce = 2.0;
 
 secure::CookieSubject makeSubject(const HandshakeRoute& route, const Address& from) noexcept {
   return {from.ip, from.port, static_cast<std::uint16_t>(route.sender),
@@ -25,6 +28,10 @@ void checkIds(PeerId self, const std::vector<Mesh::Peer>& peers) {
   check(self);
   for (std::size_t i = 0; i < peers.size(); ++i) {
     check(peers[i].id);
+    if (self < peers[i].id && !peers[i].address)
+      throw std::invalid_argument("peer " +
+                                  std::to_string(static_cast<std::uint32_t>(peers[i].id)) +
+                                  " has no address; of two sites the lower one calls");
     bool is_twice = peers[i].id == self;
     for (std::size_t j = 0; j < i; ++j) is_twice |= peers[i].id == peers[j].id;
     if (is_twice)
@@ -55,9 +62,9 @@ class Mesh::PeerLink final : public Link {
 Mesh::Mesh(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common, Outlet& outlet)
     : self_(self),
       outlet_(outlet),
-      hellos_(kHellosPerSecond),
-      opens_(kOpensPerSecond),
-      refusals_(kRefusalsPerSecond) {
+      known_{{kHellosPerSecond, kAtOnce}, {kOpensPerSecond, kOpensAtOnce}},
+      strange_(known_),
+      refusals_(kRefusalsPerSecond, kRefusalsPerSecond) {
   checkIds(self, peers);
   for (Peer& peer : peers) {
     sessions_.push_back(std::make_unique<PeerSession>(Pair{self, peer.id}, peer.address,
@@ -95,6 +102,10 @@ PeerStatus Mesh::status(PeerId peer, double now) const {
   return {};
 }
 
+Mesh::Limits& Mesh::limitsOf(const PeerSession& session, const Address& from) noexcept {
+  return session.knows(from) ? known_ : strange_;
+}
+
 PeerSession* Mesh::find(PeerId peer) noexcept {
   for (auto& session : sessions_)
     if (session->pair().peer == peer) return session.get();
@@ -105,11 +116,10 @@ Outcome Mesh::handle(ByteSpan datagram, const Address& from, double now) noexcep
   const ByteView bytes{datagram.data, datagram.size};
   const auto header = decodeHeader(bytes);
   if (!header) {
-    std::array<std::uint8_t, kRefuseSize> answer;
-    const bool is_other_version = header.refusal() == WireRefusal::kVersion;
-    if (is_other_version && refusals_.take(now)) {
+    if (header.refusal() == WireRefusal::kVersion) {
+      std::array<std::uint8_t, kRefuseSize> answer;
       const std::size_t size = encodeVersionRefusal(bytes, {answer.data(), answer.size()});
-      if (size > 0) outlet_.send({answer.data(), size}, from);
+      if (size > 0 && refusals_.take(now)) outlet_.send({answer.data(), size}, from);
     }
     return header.refusal();
   }
@@ -124,7 +134,7 @@ Outcome Mesh::handle(ByteSpan datagram, const Address& from, double now) noexcep
     case MessageType::kAccept:
       return session->onAccept(bytes, from, now);
     default:
-      return session->onRefuse(bytes, now);
+      return session->onRefuse(bytes);
   }
 }
 
@@ -135,7 +145,7 @@ Outcome Mesh::handleHello(ByteView datagram, const Address& from, double now) no
     refuse(hello->route, RefuseCode::kUnknownPeer, from, now);
     return Refusal::kNotForMe;
   }
-  if (!hellos_.take(now)) return Refusal::kTooMany;
+  if (!limitsOf(*find(hello->route.sender), from).hellos.take(now)) return Refusal::kTooMany;
   const CookieMessage answer{{self_, hello->route.sender, hello->route.nonce},
                              cookies_.make(makeSubject(hello->route, from), now)};
   std::array<std::uint8_t, kCookieSize> bytes;
@@ -153,7 +163,7 @@ Outcome Mesh::handleOpen(ByteView datagram, const Address& from, double now) noe
     refuse(open->route, RefuseCode::kCookie, from, now);
     return Refusal::kCookie;
   }
-  if (!opens_.take(now)) {
+  if (!limitsOf(*session, from).opens.take(now)) {
     refuse(open->route, RefuseCode::kBusy, from, now);
     return Refusal::kTooMany;
   }

@@ -41,12 +41,17 @@ class Mesh {
 
  private:
   class PeerLink;
+  /// From the addresses of peers, and from all others: strangers use up only their own.
+  struct Limits {
+    RateLimit hellos, opens;
+  };
 
   [[nodiscard]] Outcome handle(ByteSpan datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome handleHello(ByteView datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome handleOpen(ByteView datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome handleSealed(const ClearHeader& header, ByteSpan datagram,
                                      const Address& from, double now) noexcept;
+  [[nodiscard]] Limits& limitsOf(const PeerSession& session, const Address& from) noexcept;
   [[nodiscard]] PeerSession* find(PeerId peer) noexcept;
   void refuse(const HandshakeRoute& asked, RefuseCode code, const Address& to, double now) noexcept;
 
@@ -55,7 +60,8 @@ class Mesh {
   std::vector<std::unique_ptr<PeerSession>> sessions_;
   std::vector<std::unique_ptr<PeerLink>> links_;
   secure::CookieMaker cookies_;
-  RateLimit hellos_, opens_, refusals_;
+  Limits known_, strange_;
+  RateLimit refusals_;
   DatagramCounts counts_;
 };
 

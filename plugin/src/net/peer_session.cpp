@@ -30,6 +30,7 @@ PeerSession::PeerSession(const Pair& pair, std::optional<Address> address, Secre
                          const Common& common)
     : pair_(pair),
       address_(address),
+      configured_(address),
       key_(std::move(key)),
       caller_(pair, key_),
       answerer_(pair, key_),
@@ -49,15 +50,21 @@ void PeerSession::advance(double now, Outlet& outlet) noexcept {
 
 void PeerSession::dropOldKeys(double now) noexcept {
   if (previous_ && now >= previous_until_) previous_.reset();
-  if (coming_ && coming_->age(now) == secure::KeyAge::kExpired) coming_.reset();
+  if (coming_ && coming_->age(now) == secure::KeyAge::kExpired) {
+    coming_.reset();
+    answerer_.forget();
+  }
   // Silence alone takes no keys: what comes first after an outage shall count.
-  if (keys_ && keys_->age(now) == secure::KeyAge::kExpired) forgetKeys();
+  if (!keys_ || keys_->age(now) != secure::KeyAge::kExpired) return;
+  keys_.reset();
+  previous_.reset();
 }
 
 void PeerSession::forgetKeys() noexcept {
   keys_.reset();
   coming_.reset();
   previous_.reset();
+  answerer_.forget();
 }
 
 void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
@@ -68,7 +75,8 @@ void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
     epoch_ = static_cast<std::uint16_t>(epoch_ == 65535 ? 1 : epoch_ + 1);
     caller_.start(epoch_, now);
   }
-  caller_.advance(now, *address_, outlet);
+  // One that was followed to another address may have begun anew at the one that was given.
+  caller_.advance(now, *address_, configured_, outlet);
 }
 
 void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
@@ -115,9 +123,7 @@ Outcome PeerSession::onAccept(ByteView datagram, const Address& from, double now
   return {};
 }
 
-Outcome PeerSession::onRefuse(ByteView datagram, double now) noexcept {
-  return caller_.onRefuse(datagram, now);
-}
+Outcome PeerSession::onRefuse(ByteView datagram) noexcept { return caller_.onRefuse(datagram); }
 
 Outcome PeerSession::onOpen(const OpenMessage& message, const Address& from, double now,
                             Outlet& outlet) noexcept {
@@ -136,6 +142,7 @@ void PeerSession::install(SessionKeys keys, double now) noexcept {
   keys_ = std::move(keys);
   epoch_ = keys_->epoch();
   heard_at_ = now;
+  has_heard_present_ = false;
   newest_sequence_ = 0;
   left_.reset();
   stream_.startKeys();
@@ -161,9 +168,10 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
     install(std::move(*coming_), now);
     coming_.reset();
   }
-  heard_at_ = now;
   std::optional<std::uint64_t> sequence;  // under the present keys
   if (is_coming || is_current) {
+    heard_at_ = now;
+    has_heard_present_ = true;
     sequence = header.sequence;
     stream_.note(*sequence, now);
     if (*sequence >= newest_sequence_) {
@@ -183,6 +191,9 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
 Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> sequence,
                             ByteView payload, double now, Outlet& outlet) {
   if (bye_reason_) return Refusal::kAfterBye;
+  // Of a peer that has begun anew, what it said before is past.
+  const bool is_past = !sequence && (type != MessageType::kBye || has_heard_present_);
+  if (is_past && type != MessageType::kState) return Refusal::kExpired;
   Room room;
   switch (type) {
     case MessageType::kState:

@@ -42,7 +42,7 @@ class PeerSession {
   // What came in, by type. Bytes may be changed.
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
   [[nodiscard]] Outcome onAccept(ByteView datagram, const Address& from, double now) noexcept;
-  [[nodiscard]] Outcome onRefuse(ByteView datagram, double now) noexcept;
+  [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
   /// The cookie was right.
   [[nodiscard]] Outcome onOpen(const OpenMessage& message, const Address& from, double now,
                                Outlet& outlet) noexcept;
@@ -60,6 +60,10 @@ class PeerSession {
   void leave(ByeReason reason, double now) noexcept;
 
   [[nodiscard]] PeerStatus status(double now) const;
+  /// Whether this is where the peer is, as far as we know.
+  [[nodiscard]] bool knows(const Address& address) const noexcept {
+    return address_ == address || configured_ == address;
+  }
   [[nodiscard]] const Pair& pair() const noexcept { return pair_; }
 
  private:
@@ -75,7 +79,8 @@ class PeerSession {
   void forgetKeys() noexcept;
 
   Pair pair_;
-  std::optional<Address> address_;
+  std::optional<Address> address_;           ///< where it was heard from last
+  const std::optional<Address> configured_;  ///< that was given
   SecretKey key_;
   Caller caller_;
   Answerer answerer_;
@@ -88,7 +93,8 @@ class PeerSession {
   double previous_until_ = 0.0;
   std::uint16_t epoch_ = 0;
 
-  double heard_at_ = 0.0;
+  double heard_at_ = 0.0;  ///< under the present keys
+  bool has_heard_present_ = false;
   std::uint64_t newest_sequence_ = 0;
   double agree_at_ = 0.0;
   std::optional<ByeReason> bye_reason_;  ///< ours

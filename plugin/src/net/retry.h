@@ -29,12 +29,12 @@ class Retry {
   int tries_ = 0;
 };
 
-/// So many a second, and as many at once.
+/// So many a second, and no more than `depth` at once.
 class RateLimit {
  public:
-  explicit RateLimit(double rate) noexcept : rate_(rate), left_(rate) {}
+  RateLimit(double rate, double depth) noexcept : rate_(rate), depth_(depth), left_(depth) {}
   [[nodiscard]] bool take(double now) noexcept {
-    if (now > last_) left_ = std::min(rate_, left_ + rate_ * (now - last_));
+    if (now > last_) left_ = std::min(depth_, left_ + rate_ * (now - last_));
     last_ = std::max(last_, now);
     if (left_ < 1.0) return false;
     left_ -= 1.0;
@@ -42,7 +42,7 @@ class RateLimit {
   }
 
  private:
-  double rate_, left_;
+  double rate_, depth_, left_;
   double last_ = 0.0;
 };
 

@@ -50,13 +50,17 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
   if (!is_agreed || message->config_hash != config_hash_) return Refusal::kNotAgreed;
   StatePacket& packet = message->packet;
   if (sequence && is_first_of_keys_) {
-    const bool has_begun_anew = has_state_ && packet.sequence + offset_ <= highest_;
+    const bool has_begun_anew = has_state_ && (packet.sequence + offset_ <= highest_ ||
+                                               message->send_time_us < latest_sent_us_);
     if (has_begun_anew) {
+      latest_sent_us_ = 0;
+      trip_ = RoundTrip();
       offset_ = highest_ + 1;
       playout_.clear();
     }
     is_first_of_keys_ = false;
   }
+  latest_sent_us_ = std::max(latest_sent_us_, message->send_time_us);
   packet.sequence += offset_;
   packet.is_idle = (message->flags & kStateIdle) != 0;
   highest_ = has_state_ ? std::max(highest_, packet.sequence) : packet.sequence;

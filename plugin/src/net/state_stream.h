@@ -64,6 +64,7 @@ class StateStream {
 
   // A peer that begins anew counts its states from 0.
   bool is_first_of_keys_ = true;
+  std::int64_t latest_sent_us_ = 0;  ///< by its clock, in all that came
   std::uint64_t offset_ = 0;
   std::uint64_t highest_ = 0;
   bool has_state_ = false;

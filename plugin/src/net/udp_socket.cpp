@@ -106,8 +106,8 @@ UdpSocket::UdpSocket(const Address& bind_to) {
   if (!is_ipv4_) setOption(socket_, IPPROTO_IPV6, IPV6_V6ONLY, 0);
   setOption(socket_, SOL_SOCKET, SO_RCVBUF, kBufferSize);
   setOption(socket_, SOL_SOCKET, SO_SNDBUF, kBufferSize);
-  setOption(socket_, IPPROTO_IP, IP_MTU_DISCOVER, IP_PMTUDISC_DO);
-  if (!is_ipv4_) setOption(socket_, IPPROTO_IPV6, IPV6_MTU_DISCOVER, IPV6_PMTUDISC_DO);
+  setOption(socket_, IPPROTO_IP, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE);
+  if (!is_ipv4_) setOption(socket_, IPPROTO_IPV6, IPV6_MTU_DISCOVER, IPV6_PMTUDISC_PROBE);
   const SystemAddress address = toSystem(bind_to, is_ipv4_);
   if (::bind(socket_, address.get(), address.size) != 0) {
     const int error = errno;
