@@ -2,18 +2,22 @@
 # Installs what is missing, builds the program, runs both experiments under all schemes and the
 # playground, and draws one report. Its path is the last line. Runs from any folder.
 #
-#   scripts/demo.sh           Bullet in double precision
-#   scripts/demo.sh --float   Bullet in single precision
+#   scripts/demo.sh                   Bullet in double precision
+#   scripts/demo.sh --float           Bullet in single precision
+#   scripts/demo.sh --two-processes   both experiments live: two programs, real sockets, and the network
+#                                     of the paper between them, beside the same in virtual time
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
 program=tandem
 out="$checkout/out/demo"
+live=no
 case "${1:-}" in
   "")      ;;
+  --two-processes) live=yes; out="$checkout/out/live" ;;
   --float) program="tandem-float"; out="$checkout/out/demo-float" ;;
-  -h|--help) sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
-  *)       echo "demo.sh: $1: no such option; allowed: --float" >&2; exit 2 ;;
+  -h|--help) sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+  *)       echo "demo.sh: $1: no such option; allowed: --float, --two-processes" >&2; exit 2 ;;
 esac
 scenarios="$checkout/demos/scenarios"
 tandem="$checkout/build/release/demos/$program"
@@ -46,6 +50,45 @@ touch_user() {   # SCHEME STIFFNESS DELAY_MS B_DEV
     "contact.stiffness=$2" "network.delay=$delay" "device.damping=$4"
 }
 
+# cooperate_live NAME SCENARIO DELAY_MS [KEY=VALUE...]: two sites with `tandem link` between them. Site 2 only
+# answers, so it hears of site 1 through the link.
+cooperate_live() {
+  local name=$1 scenario=$2 delay=$3 overrides=() link first second
+  local folder="$out/$name" port=17400
+  shift 3
+  for setting in "$@"; do overrides+=(--set "$setting"); done
+  mkdir -p "$folder"
+  step "$name in virtual time"
+  "$tandem" run "$scenarios/$scenario" ${overrides[@]+"${overrides[@]}"} --set "network.delay=$(printf '0.%03d' "$delay")" \
+    --out "$folder/virtual"
+  step "$name live, ${delay} ms each way"
+  "$tandem" link --listen "127.0.0.1:$port" --forward "127.0.0.1:$((port + 2))" --delay "${delay}ms" --quiet &
+  link=$!
+  local peer=("$tandem" peer --scenario "$scenarios/$scenario" ${overrides[@]+"${overrides[@]}"} --key "$out/key"
+    --out "$folder/live" --playout off)
+  "${peer[@]}" --site 2 --bind "127.0.0.1:$((port + 2))" --peer "127.0.0.1:$port" >"$folder/site2.log" 2>&1 &
+  second=$!
+  "${peer[@]}" --site 1 --bind "127.0.0.1:$((port + 1))" --peer "127.0.0.1:$port" >"$folder/site1.log" 2>&1 &
+  first=$!
+  wait "$first" && wait "$second" || { cat "$folder"/site?.log; kill "$link"; return 1; }
+  kill "$link" && wait "$link" || true
+  for site in 1 2; do echo "site $site:"; cat "$folder/site$site.log"; done
+}
+
+demonstrate_live() {
+  mkdir -p "$out"
+  [[ -f "$out/key" ]] || "$tandem" key new "$out/key" >/dev/null
+  for scheme in "${all_schemes[@]}"; do
+    cooperate_live "experiment1-$scheme" experiment1.toml 50 "experiment.scheme=$scheme"
+  done
+  for scheme in "${contact_schemes[@]}"; do
+    cooperate_live "experiment2-$scheme-100ms" experiment2.toml 100 "experiment.scheme=$scheme"
+    cooperate_live "experiment2-$scheme-200ms" experiment2.toml 200 "experiment.scheme=$scheme"
+  done
+  step "Done. The columns of both sites, live and virtual, are under:"
+  echo "$out"
+}
+
 step "Looking for packages that are missing"
 "$checkout/scripts/packages.sh" install build demo
 
@@ -56,6 +99,11 @@ tests=ON
 configure_preset release "-DTANDEM_BUILD_TESTS=$tests"
 step "Building $program on $(nproc) cores; a few minutes the first time"
 build_preset release "$program"
+
+if [[ $live == yes ]]; then
+  demonstrate_live
+  exit
+fi
 
 mkdir -p "$out"
 step "Experiment I: two users and one cube, three schemes"
