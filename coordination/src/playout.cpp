@@ -112,6 +112,17 @@ void Playout::learn(double lateness, double now) noexcept {
   }
   lateness_[learnt_++ % kRemembered] = lateness;
   remembered_ = std::min(remembered_ + 1, kRemembered);
+  // Sorting costs more than opening the datagram: now and then is enough, once there are some.
+  if (remembered_ < kRarely || learnt_ % kRarely == 0) updateJitter();
+  const double wanted = std::min(jitter_, settings_.most);
+  // At first nothing is known, and nothing is felt yet that a change could disturb.
+  const bool is_new = now - start_ < kWindow;
+  const double step = is_new ? settings_.most : settings_.slew * (now - last_);
+  wait_ = std::clamp(wanted, wait_ - step, wait_ + step);
+  last_ = now;
+}
+
+void Playout::updateJitter() noexcept {
   const auto end = std::copy_n(lateness_.begin(), remembered_, sorted_.begin());
   const auto place =
       static_cast<std::size_t>(std::ceil(settings_.quantile * static_cast<double>(remembered_)));
@@ -119,12 +130,6 @@ void Playout::learn(double lateness, double now) noexcept {
       sorted_.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(place, 1) - 1);
   std::nth_element(sorted_.begin(), at, end);
   jitter_ = *at;
-  const double wanted = std::min(jitter_, settings_.most);
-  // At first nothing is known, and nothing is felt yet that a change could disturb.
-  const bool is_new = now - start_ < kWindow;
-  const double step = is_new ? settings_.most : settings_.slew * (now - last_);
-  wait_ = std::clamp(wanted, wait_ - step, wait_ + step);
-  last_ = now;
 }
 
 }  // namespace tandem

@@ -146,6 +146,8 @@ TEST(Playout, OffAppliesAsItComes) {
     ASSERT_TRUE(given);
     EXPECT_EQ(given->time, now);
   }
+  EXPECT_EQ(playout.wait(), 0.0);
+  EXPECT_GT(playout.jitter(), 1e-3);
 }
 
 TEST(Playout, OvertakenPacketsAreStale) {

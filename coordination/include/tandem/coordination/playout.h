@@ -58,8 +58,8 @@ class Playout {
   /// Forgets all: the sender has begun anew.
   void clear() noexcept;
 
-  /// Now kept on top of the fastest packets' delay [s].
-  [[nodiscard]] double wait() const noexcept { return wait_; }
+  /// Now kept on top of the fastest packets' delay [s]; 0 if it is off.
+  [[nodiscard]] double wait() const noexcept { return settings_.is_on ? wait_ : 0.0; }
   /// Lateness that `quantile` of the recent packets keep [s].
   [[nodiscard]] double jitter() const noexcept { return jitter_; }
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
@@ -73,11 +73,13 @@ class Playout {
     double since = 0.0, least = 0.0, most = 0.0;
   };
   void learn(double lateness, double now) noexcept;
+  void updateJitter() noexcept;
   [[nodiscard]] bool isNewRoute(double transit, double now) noexcept;
   [[nodiscard]] bool isStale(const StatePacket& packet) const noexcept;
 
   static constexpr double kWindow = 2.0;           // [s]
   static constexpr std::size_t kRemembered = 256;  // latenesses
+  static constexpr std::size_t kRarely = 16;       // packets between two looks at all of them
 
   PlayoutSettings settings_;
   WindowedMinimum fastest_{kWindow};
