@@ -106,7 +106,7 @@ TEST(Peer, OtherScenariosAreNamed) {
 
 TEST(Peer, AnotherKeyIsNamed) {
   const TempFolder folder;
-  const std::vector<std::string> wait = {"--wait", "2"};
+  const std::vector<std::string> wait = {"--wait", "8"};
   const Both both = runBoth(peer(1, 17330, makeKey(folder, "a"), wait),
                             peer(2, 17330, makeKey(folder, "b"), wait));
   expectOneLine(both.first, 1, "another key");
@@ -131,7 +131,7 @@ TEST(Peer, PortInUse) {
 TEST(Peer, EndsAtASignal) {
   const TempFolder folder;
   const Outcome outcome = test::runProgram("/usr/bin/timeout", [&] {
-    std::vector<std::string> arguments = {"--preserve-status", "-s", "INT", "1", TANDEM_PROGRAM};
+    std::vector<std::string> arguments = {"--preserve-status", "-s", "INT", "3", TANDEM_PROGRAM};
     for (const std::string& one : peer(1, 17360, makeKey(folder, "k"))) arguments.push_back(one);
     return arguments;
   }());
