@@ -18,6 +18,7 @@
 #include "plot/plot.h"
 #include "run_output.h"
 #include "scenario.h"
+#include "standard_output.h"
 #include "usage_error.h"
 #include "virtual_run.h"
 
@@ -64,18 +65,18 @@ int runScenario(const RunOptions& options) {
   const nlohmann::json summary = makeSummary(scenario, run);
   if (options.folder) writeRun(*options.folder, summary, run);
   if (options.json) {
-    fmt::print("{}\n", summary.dump(2));
+    writeOutput(summary.dump(2) + "\n");
   } else if (!options.quiet) {
     printSummary(summary);
   }
-  if (std::fflush(stdout) != 0)
-    throw Error("cannot write to the standard output: is its disk full?");
+  finishOutput();
   return kDone;
 }
 
 int makeKey(const std::string& path) {
   makeKeyFile(path);
   fmt::print("{}: a new key; copy it to the other site by a way that nobody reads along\n", path);
+  finishOutput();
   return kDone;
 }
 

@@ -1,8 +1,5 @@
 #include "bench/accuracy_command.h"
 
-#include <cstdio>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/accuracy.h"
@@ -11,6 +8,7 @@
 #include "bench/progress_line.h"
 #include "plot/gnuplot.h"
 #include "run_output.h"
+#include "standard_output.h"
 
 namespace tandem::demos::bench {
 void runAccuracyCommand(const AccuracyCommand& command) {
@@ -30,9 +28,7 @@ void runAccuracyCommand(const AccuracyCommand& command) {
     for (const plot::Figure& figure : makeAccuracyFigures(scenes))
       plot::drawFigure(figure, *command.folder);
   }
-  fmt::print("{}", command.json ? json : makeAccuracyTable(scenes));
-  if (std::fflush(stdout) != 0)
-    throw Error("cannot write to the standard output: is its disk full?");
+  writeOutput(command.json ? json : makeAccuracyTable(scenes));
 }
 
 }  // namespace tandem::demos::bench

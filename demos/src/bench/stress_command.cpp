@@ -1,7 +1,6 @@
 #include "bench/stress_command.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,17 +11,13 @@
 #include "bench/stress/stress_report.h"
 #include "plot/gnuplot.h"
 #include "run_output.h"
+#include "standard_output.h"
 #include "usage_error.h"
 
 namespace tandem::demos::bench {
 namespace {
 
 constexpr std::uint64_t kCases = 20000, kQuickCases = 1000, kMostCases = 10000000;
-
-void finishOutput() {
-  if (std::fflush(stdout) != 0)
-    throw Error("cannot write to the standard output: is its disk full?");
-}
 
 /// About this many rows of an account are printed.
 constexpr std::size_t kRows = 40;
@@ -48,7 +43,7 @@ bool runOne(const StressCommand& command, std::uint64_t index) {
   std::vector<std::vector<AccountRow>> accounts;
   const StressOutcome outcome = runStressCase(one, &accounts);
   if (command.json) {
-    fmt::print("{}\n", makeCaseJson(one, outcome).dump(2));
+    writeOutput(makeCaseJson(one, outcome).dump(2) + "\n");
   } else {
     fmt::print("{}", describeCase(one));
     for (std::size_t s = 0; s < accounts.size(); ++s) {
@@ -88,8 +83,7 @@ bool runStressCommand(const StressCommand& command) {
     plot::writeText(std::filesystem::path(*command.folder) / "stress.json", json);
     plot::drawFigure(makeStabilityFigure(result.maps), *command.folder);
   }
-  fmt::print("{}", command.json ? json : makeStressTable(result));
-  finishOutput();
+  writeOutput(command.json ? json : makeStressTable(result));
   return result.countFailed() == 0;
 }
 

@@ -14,6 +14,7 @@
 #include "link/link_script.h"
 #include "link/stop_signals.h"
 #include "link/units.h"
+#include "standard_output.h"
 #include "usage_error.h"
 
 namespace tandem::demos {
@@ -71,12 +72,6 @@ LinkProxySettings readSettings(const LinkCommand& command) {
   return settings;
 }
 
-/// Programs wait for the first line, so it must not stay in a buffer.
-void flush() {
-  if (std::fflush(stdout) != 0)
-    throw Error("cannot write to the standard output: is its disk full?");
-}
-
 }  // namespace
 
 void runLinkCommand(const LinkCommand& command) {
@@ -85,16 +80,15 @@ void runLinkCommand(const LinkCommand& command) {
   const StopSignals stop;
   if (!command.quiet) {
     fmt::print(command.json ? stderr : stdout, "listening on {}\n", toString(proxy.bound()));
-    flush();
+    finishOutput();  // programs wait for this line
   }
   proxy.run(stop, duration);
   const nlohmann::json report = makeLinkReport(proxy);
   if (command.json) {
-    fmt::print("{}\n", report.dump(2));
+    writeOutput(report.dump(2) + "\n");
   } else if (!command.quiet) {
-    fmt::print("{}", formatLinkReport(report));
+    writeOutput(formatLinkReport(report));
   }
-  flush();
 }
 
 }  // namespace tandem::demos

@@ -13,6 +13,7 @@
 #include "peer/peer_output.h"
 #include "peer/peer_run.h"
 #include "run_output.h"
+#include "standard_output.h"
 #include "usage_error.h"
 
 namespace tandem::demos {
@@ -85,6 +86,7 @@ void runPeerCommand(const PeerCommand& command) {
   const nlohmann::json summary = makePeerSummary(scenario, command.site, run);
   if (command.folder) writePeerRun(*command.folder, command.site, summary, run);
   if (!command.quiet) printPeerSummary(summary, command.site);
+  finishOutput();
 }
 
 }  // namespace tandem::demos

@@ -1,13 +1,10 @@
 #include "bench/speed/speed_command.h"
 
-#include <cstdio>
-
-#include <fmt/format.h>
-
 #include "bench/progress_line.h"
 #include "bench/speed/speed_report.h"
 #include "plot/gnuplot.h"
 #include "run_output.h"
+#include "standard_output.h"
 
 namespace tandem::demos::bench {
 
@@ -27,9 +24,7 @@ void runSpeedCommand(const SpeedCommand& command) {
     plot::writeText(std::filesystem::path(*command.folder) / "speed.json", json);
     plot::drawFigure(makeSpeedFigure(report), *command.folder);
   }
-  fmt::print("{}", command.json ? json : makeSpeedTable(report));
-  if (std::fflush(stdout) != 0)
-    throw Error("cannot write to the standard output: is its disk full?");
+  writeOutput(command.json ? json : makeSpeedTable(report));
 }
 
 }  // namespace tandem::demos::bench
