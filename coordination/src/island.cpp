@@ -420,6 +420,13 @@ Vec3 Island::computeContactForce(BodyIndex body) const noexcept {
   return impl_->contactWrench(body).f_W;
 }
 
+const Vec3& Island::externalForce(BodyIndex body) const noexcept {
+  return impl_->model.bodies[body].f_external_W;
+}
+const Vec3& Island::externalTorque(BodyIndex body) const noexcept {
+  return impl_->model.bodies[body].t_external_W;
+}
+
 double Island::computeOverlap(BodyIndex body) const noexcept {
   TANDEM_ASSERT(impl_->prepared);
   Impl& impl = *impl_;

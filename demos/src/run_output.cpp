@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "guard_summary.h"
 #include "usage_error.h"
 
 namespace tandem::demos {
@@ -88,7 +89,8 @@ nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run) {
         {"coherency", {{"received_mean", site.received_mean}}},
         {"contact_transitions", site.contact_transitions},
         {"force", {{"max", site.force_max}, {"mean", site.force_mean}}},
-        {"device_end", site.device_end}};
+        {"device_end", site.device_end},
+        {"guards", describeGuards(site.counters, site.passivity)}};
   }
   j["scene"]["bodies"] = nlohmann::json::array();
   for (const PlacedSceneBody& body : run.sceneBodies())

@@ -65,6 +65,9 @@ struct Scenario {
   std::array<HandScenario, 2> hands;
   Impairments network{0.05};
   bool link_loss = true;
+  bool passivity = true;
+  double tank = 0.02;     ///< [J]
+  double max_slew = 1e4;  ///< [N/s]
   double packet_rate = 128.0;
   double haptic_rate = 1000.0;
   double host_rate = 240.0;

@@ -90,6 +90,10 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
   settings.inner_step = 1.0 / scenario.inner_rate;
   settings.link_loss.enabled = scenario.link_loss;
   settings.link_loss.start_live = scenario.starts_live;
+  settings.passivity.enabled = scenario.passivity;
+  settings.passivity.tank = scenario.tank;
+  settings.passivity.band = 0.5 * scenario.tank;
+  settings.max_slew = scenario.max_slew;
   return settings;
 }
 

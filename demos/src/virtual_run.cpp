@@ -128,6 +128,8 @@ void VirtualRun::summarise() {
     }
     const Vec3 start_W = computeStart(scenario_, frame_, s);
     const DeviceSample end = worlds_[s]->device().read(scenario_.duration);
+    site.counters = worlds_[s]->site().counters();
+    site.passivity = worlds_[s]->site().passivity();
     site.device_end = frame_.toScene(end.hip.p_W - start_W).x();
   }
   summary_.state_hash =

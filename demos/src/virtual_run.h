@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tandem/plugin/recording.h"
+#include "tandem/plugin/site.h"
 
 #include "scenario.h"
 #include "scene.h"
@@ -30,6 +31,8 @@ struct RunSummary {
     int contact_transitions = 0;
     double force_max = 0.0, force_mean = 0.0;  ///< norm [N]
     double device_end = 0.0;                   ///< displacement along the axis [m]
+    SiteCounters counters;
+    PassivityObserver passivity;
   };
   double coherency_mean = 0.0, coherency_max = 0.0;  ///< |object at site 1 - object at site 2| [m]
   SiteSummary sites[2];

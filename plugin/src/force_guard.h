@@ -1,31 +1,53 @@
 #pragma once
 
+#include <cstdint>
+
 #include "tandem/coordination/types.h"
 
 namespace tandem {
 
 /// The last hand on the force before the device: never beyond the device's limit (direction kept),
-/// never not finite, and after a fault down to zero by a bounded slew instead of at once.
+/// never changing faster than allowed, never not finite, and after a fault down to zero by a
+/// bounded slew instead of at once.
 class ForceGuard {
  public:
-  /// `max_force` [N], may be infinite; `fade_per_tick` [N].
-  ForceGuard(double max_force, double fade_per_tick) noexcept
-      : max_force_(max_force), fade_per_tick_(fade_per_tick) {}
+  /// `max_force` [N] and `change_per_tick` [N] may be infinite; `fade_per_tick` [N].
+  ForceGuard(double max_force, double change_per_tick, double fade_per_tick) noexcept
+      : max_force_(max_force), change_per_tick_(change_per_tick), fade_per_tick_(fade_per_tick) {}
 
   [[nodiscard]] Vec3 limit(const Vec3& wanted_W, bool fault) noexcept {
-    const double last = last_W_.norm();
     if (fault || !wanted_W.allFinite()) {
-      last_W_ *= last > fade_per_tick_ ? (last - fade_per_tick_) / last : 0.0;
+      last_W_ = shorten(last_W_, last_W_.norm() - fade_per_tick_);
       return last_W_;
     }
-    const double norm = wanted_W.norm();
-    last_W_ = norm > max_force_ ? Vec3(wanted_W * (max_force_ / norm)) : wanted_W;
+    if (wanted_W == last_W_) return last_W_;
+    const Vec3 allowed_W = shorten(wanted_W, max_force_);
+    if (allowed_W != wanted_W) ++clamped_;
+    const Vec3 change_W = shorten(allowed_W - last_W_, change_per_tick_);
+    if (change_W != allowed_W - last_W_) {
+      ++slewed_;
+      last_W_ += change_W;
+    } else {
+      last_W_ = allowed_W;
+    }
     return last_W_;
   }
 
+  /// Ticks in which the force was beyond the device's limit.
+  [[nodiscard]] std::uint64_t clampedCount() const noexcept { return clamped_; }
+  /// Ticks in which it would have changed too fast.
+  [[nodiscard]] std::uint64_t slewedCount() const noexcept { return slewed_; }
+
  private:
-  double max_force_, fade_per_tick_;
+  static Vec3 shorten(const Vec3& v, double longest) noexcept {
+    const double norm = v.norm();
+    if (norm <= longest) return v;
+    return longest > 0.0 ? Vec3(v * (longest / norm)) : Vec3(Vec3::Zero());
+  }
+
+  double max_force_, change_per_tick_, fade_per_tick_;
   Vec3 last_W_ = Vec3::Zero();
+  std::uint64_t clamped_ = 0, slewed_ = 0;
 };
 
 }  // namespace tandem

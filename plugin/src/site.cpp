@@ -40,7 +40,9 @@ Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& host, Hapt
       obstacles(host),
       neighbour_search(host, static_cast<std::size_t>(settings.max_neighbours)),
       island(makeIslandSettings(settings)),
-      guard(hand.capabilities().max_force, settings.fault_slew / settings.haptic_rate),
+      guard(hand.capabilities().max_force, settings.max_slew / settings.haptic_rate,
+            settings.fault_slew / settings.haptic_rate),
+      passivity(settings.passivity),
       host_step(settings.host_step),
       standing_watch(host) {
   IslandBody body;
@@ -193,8 +195,7 @@ void Site::Impl::finishSetUp() {
   forEachBody([&](SiteBody& body) {
     body.bullet->remember();
     body.f_gravity_W = body.bullet->gravityForce();
-    island.setExternalWrench(body.index, isHandoff() ? body.f_gravity_W : Vec3::Zero(),
-                             Vec3::Zero());
+    setWorldWrench(body.index, isHandoff() ? body.f_gravity_W : Vec3::Zero(), Vec3::Zero());
   });
   if (!native) updateSurroundings(host_step > 0.0 ? host_step : kUsualHostStep);
 }
@@ -246,6 +247,7 @@ btRigidBody& Site::objectBody(ObjectId id) const noexcept {
 LinkState Site::linkState(int remote) const noexcept {
   return impl_->remotes[remote].health.state();
 }
+const PassivityObserver& Site::passivity() const noexcept { return impl_->passivity; }
 const StatePacket& Site::latest(int remote) const noexcept { return impl_->remotes[remote].latest; }
 
 std::vector<std::string> Site::warnings() const {

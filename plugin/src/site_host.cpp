@@ -169,7 +169,7 @@ void Site::Impl::passHostChanges(double dt) noexcept {
     body.f_host_W = change.f_W + (body.owed_W - rest * change.f_W) / pay_over;
     body.t_host_W = change.t_W + (body.owed_angular_W - rest * change.t_W) / pay_over;
     body.f_gravity_W = body.bullet->gravityForce();
-    island.setExternalWrench(body.index, body.f_gravity_W + body.f_host_W, body.t_host_W);
+    setWorldWrench(body.index, body.f_gravity_W + body.f_host_W, body.t_host_W);
   });
   for (Neighbour& neighbour : neighbours)
     if (neighbour.bullet) followDamping(neighbour);
@@ -179,7 +179,9 @@ void Site::Impl::passHostChanges(double dt) noexcept {
 void Site::Impl::give(SiteBody& body, const Vec3& impulse_W,
                       const Vec3& angular_impulse_W) noexcept {
   if (impulse_W == Vec3::Zero() && angular_impulse_W == Vec3::Zero()) return;
+  const RigidState before = island.state(body.index);
   island.applyImpulse(body.index, impulse_W, angular_impulse_W);
+  countImpulse(body, before, impulse_W, angular_impulse_W);
   if (island_time > host_time) body.given.push_back({island_time, impulse_W, angular_impulse_W});
 }
 
@@ -202,6 +204,7 @@ void Site::Impl::move(const SiteBody& body, const HostChange& change) noexcept {
     return state;
   };
   island.setState(body.index, moved(island.state(body.index)));
+  passivity.refill();
   snapshots.forEachAfter(host_time + kClockTolerance, [&](std::vector<RigidState>& states) {
     states[body.index] = moved(states[body.index]);
   });

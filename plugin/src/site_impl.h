@@ -111,6 +111,7 @@ struct Site::Impl final : HostStepListener {
   void takeIn(Remote& remote, const Arrival& arrival, double time) noexcept;
   bool takeInObjects(Remote& remote, const StatePacket& packet) noexcept;
   void keepStates(double time) noexcept;
+  [[nodiscard]] bool isStill() const noexcept;
   void lookForIdleness(double now) noexcept;
   void sendIfDue(double until) noexcept;
   void send(double time) noexcept;
@@ -145,6 +146,17 @@ struct Site::Impl final : HostStepListener {
   void restrainObjects(const Remote& remote) noexcept;
   void restrainProxy(Remote& remote) noexcept;
   void noteSearched() noexcept;
+
+  // Account of energy: site_energy.cpp
+  [[nodiscard]] bool keepsAccount() const noexcept;
+  void countHandWork() noexcept;
+  void setWorldWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
+  void countWorldWork() noexcept;
+  void countImpulse(const SiteBody& body, const RigidState& before, const Vec3& impulse_W,
+                    const Vec3& angular_impulse_W) noexcept;
+  void countNeighbour(const Neighbour& neighbour, double sign) noexcept;
+  void hearEnergy(const Remote& remote, const StatePacket& packet) noexcept;
+  [[nodiscard]] Vec3 limitEnergy(const Vec3& wanted_W) noexcept;
 
   // What need not be done while nothing moves: site_rest.cpp
   [[nodiscard]] bool mayPark(const SiteBody& body) const noexcept;
@@ -208,6 +220,7 @@ struct Site::Impl final : HostStepListener {
   std::vector<Remote> remotes;
   std::unique_ptr<NativeModel> native;  ///< null with the island
   ForceGuard guard;
+  PassivityObserver passivity;
   StateHash hash;
   SiteCounters counters;
   Recording* recording = nullptr;
@@ -220,8 +233,10 @@ struct Site::Impl final : HostStepListener {
   double busy_until = 0.0;  ///< since then nothing has moved or touched
   double start_time = 0.0;
   DeviceSample sample;
-  Vec3 contact_W = Vec3::Zero();  ///< contact force on the device as the model has it [N]
-  Vec3 force_W = Vec3::Zero();    ///< as rendered [N]
+  bool world_pushes = false;          ///< some force of the world was ever on some body
+  std::optional<Vec3> hand_before_W;  ///< where the hand was a tick ago, if that is known
+  Vec3 contact_W = Vec3::Zero();      ///< contact force on the device as the model has it [N]
+  Vec3 force_W = Vec3::Zero();        ///< as rendered [N]
 
   double island_time = 0.0;
   double tick_start = 0.0;

@@ -70,9 +70,10 @@ void Site::Impl::hold(btRigidBody& rigid, Neighbour& neighbour) {
   own.angular_damping = computeDecay(neighbour.bullet->angularDamping());
   own.start = neighbour.bullet->state();
   island.fill(body.index, own);
-  island.setExternalWrench(body.index, body.f_gravity_W, Vec3::Zero());
+  setWorldWrench(body.index, body.f_gravity_W, Vec3::Zero());
   tick_start_states[body.index] = own.start;
   newcomers.push_back(body.index);
+  countNeighbour(neighbour, 1.0);
 }
 
 void Site::Impl::drive(btRigidBody& rigid, Neighbour& neighbour) {
@@ -99,6 +100,7 @@ void Site::Impl::demote(Neighbour& neighbour) {
   }
   obstacles.removeBody(index);
   std::erase(newcomers, index);
+  if (neighbour.bullet) countNeighbour(neighbour, -1.0);
   if (neighbour.bullet && is_present) payOff(neighbour);
   island.clear(index);
   neighbour.bullet.reset();
@@ -148,6 +150,7 @@ void Site::Impl::steerDriven(double step_end) noexcept {
       island.fill(index, neighbour.settings);
     }
     island.setState(index, state);
+    if (state.v_W != Vec3::Zero() || state.w_W != Vec3::Zero()) passivity.refill();
   }
 }
 
@@ -162,7 +165,7 @@ void Site::Impl::followDamping(Neighbour& neighbour) noexcept {
   const SiteBody& body = neighbour.body;
   own.start = island.state(body.index);
   island.fill(body.index, own);
-  island.setExternalWrench(body.index, body.f_gravity_W + body.f_host_W, body.t_host_W);
+  setWorldWrench(body.index, body.f_gravity_W + body.f_host_W, body.t_host_W);
 }
 
 }  // namespace tandem

@@ -48,7 +48,9 @@ void checkSiteSettings(const SiteSettings& s) {
   require(s.max_neighbours >= 0 && s.max_neighbours <= 256, "max_neighbours", s.max_neighbours,
           "0 to 256");
   requireNotNegative("host_stall", s.host_stall);
+  require(s.max_slew > 0.0, "max_slew", s.max_slew, "above 0; inf: no limit");
   requirePositive("fault_slew", s.fault_slew);
+  checkPassivitySettings(s.passivity);
   checkLinkLossSettings(s.link_loss);
   if (s.guide)
     require(std::abs(s.guide->norm() - 1.0) < 1e-9, "norm of guide", s.guide->norm(), "1");

@@ -11,6 +11,9 @@ namespace {
 /// seconds.
 constexpr double kSameTime = 1e-10;
 
+/// Slower bodies do not move [m/s]; a free island has the same limit.
+constexpr double kStill = 1e-9;
+
 /// Without motion for so long, a site is idle [s].
 constexpr double kIdleAfter = 0.5;
 /// States that say so at the full rate, before they become rare: some may be lost.
@@ -33,6 +36,7 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
   status_now = status_ever & (kBodyMissing | kStateNotFinite);
   tick_start = now;
   readDevice(now);
+  countHandWork();
   takeInUntil(now, now);
   followLinks(now);
   computeForce();
@@ -69,7 +73,9 @@ void Site::Impl::computeForce() noexcept {
     force_rest.set(island);
   }
   const bool fault = status_now & (kDeviceInvalid | kBodyMissing | kStateNotFinite);
-  force_W = guard.limit(contact_W, fault);
+  force_W = guard.limit(limitEnergy(contact_W), fault);
+  counters.force_clamped = guard.clampedCount();
+  counters.force_slewed = guard.slewedCount();
 }
 
 void Site::Impl::advance(double now) noexcept {
@@ -105,6 +111,7 @@ void Site::Impl::advance(double now) noexcept {
     sendIfDue(event);
   }
   advanceIsland(end);
+  countWorldWork();
 }
 
 void Site::Impl::advanceIsland(double until) noexcept {
@@ -116,7 +123,7 @@ void Site::Impl::advanceIsland(double until) noexcept {
     settleHostForces();
     forEachBody([&](SiteBody& body) {
       body.f_host_W = body.t_host_W = Vec3::Zero();
-      island.setExternalWrench(body.index, body.f_gravity_W, Vec3::Zero());
+      setWorldWrench(body.index, body.f_gravity_W, Vec3::Zero());
     });
   }
   if (handoff_due <= island_time + kSameTime) {
@@ -169,6 +176,7 @@ void Site::Impl::takeIn(Remote& remote, const Arrival& arrival, double time) noe
   const bool is_latest = !remote.heard || packet.sequence > remote.latest.sequence;
   if (is_latest) {
     remote.heard = true;
+    hearEnergy(remote, packet);
     remote.latest = packet;
     hearRemote(remote, packet, time);
   }
@@ -192,8 +200,16 @@ bool Site::Impl::takeInObjects(Remote& remote, const StatePacket& packet) noexce
   return has_news;
 }
 
+/// A guided island never sleeps: its maps cost the same whatever moves.
+bool Site::Impl::isStill() const noexcept {
+  if (!settings.guide) return island.isAsleep();
+  for (BodyIndex b = 0; b < island.bodyCount(); ++b)
+    if (island.state(b).v_W.squaredNorm() > kStill * kStill) return false;
+  return true;
+}
+
 void Site::Impl::lookForIdleness(double now) noexcept {
-  const bool rests = island.isAsleep() && contact_W == Vec3::Zero();
+  const bool rests = contact_W == Vec3::Zero() && isStill();
   if (!rests || ticks == 0) busy_until = now;
   const bool was_idle = is_idle;
   is_idle = settings.thins_when_idle && now - busy_until >= kIdleAfter - kSameTime;
@@ -219,6 +235,7 @@ void Site::Impl::send(double time) noexcept {
   packet.sender = settings.self;
   packet.sequence = counters.packets_sent;
   packet.is_idle = is_idle;
+  if (keepsAccount()) packet.port_energy = passivity.own();
   packet.time = time;
   packet.user = island.state(hip).point();
   if (time > tick_start && device.capabilities().is_continuous) {

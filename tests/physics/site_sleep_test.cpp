@@ -134,6 +134,22 @@ TEST(SiteSleep, IdlePacketsSaySoAndTheFirstMotionIsSentInItsTick) {
   EXPECT_EQ(woken.sequence, rig.link.sent[rig.link.sent.size() - 2].sequence + 1);
 }
 
+TEST(SiteSleep, GuidedSitesAreIdleToo) {
+  Options options = inSpace();
+  options.settings.guide = Vec3(1, 0, 0);
+  Rig rig(options);
+  rig.run(1.0);
+  const std::uint64_t sent = rig.counters().packets_sent;
+  rig.run(1.0);
+  EXPECT_EQ(rig.counters().packets_sent - sent, 16u);
+  EXPECT_TRUE(rig.link.sent.back().is_idle);
+  rig.device.sample.hip.p_W.x() += 1e-4;
+  rig.device.sample.hip.v_W.x() = 0.1;
+  rig.tick();
+  EXPECT_FALSE(rig.link.sent.back().is_idle);
+  EXPECT_EQ(rig.link.sent.back().user.p_W, rig.device.sample.hip.p_W);
+}
+
 TEST(SiteSleep, SendsAllWhileIdleIfItIsAskedTo) {
   Options options;
   options.settings.thins_when_idle = false;

@@ -99,7 +99,7 @@ def read_state(payload):
     real, width = ("f", 4) if block["profile"] == 0 else ("d", 8)
     size = BLOCK.size + 6 * width + block["object_count"] * (4 + 13 * width)
     require(len(payload) == size, "wrong_size")
-    require(block["flags"] & ~7 == 0, "flags")
+    require(block["flags"] & ~15 == 0, "flags")
     require(all(0 <= block[name] <= MAX_TIME for name in BLOCK_FIELDS if "_time_us" in name), "time")
     require(abs(block["port_energy"]) <= 1e9, "energy")  # false for a NaN, too
     device, offset = read_reals(payload, BLOCK.size, real, DEVICE_FIELDS)

@@ -248,7 +248,7 @@ TEST(WireState, SenderKeepsToTheGate) {
       [](StateMessage& m) { m.packet.time = 1.2e9; },
       [](StateMessage& m) { m.port_energy = std::nan(""); },
       [](StateMessage& m) { m.port_energy = -1.1e9; },
-      [](StateMessage& m) { m.flags = 8; },
+      [](StateMessage& m) { m.flags = 16; },
       [](StateMessage& m) { m.profile = WireProfile{2}; },
       [](StateMessage& m) { m.packet.object_count = kMaxObjectsPerPacket + 1; },
       [](StateMessage& m) { m.packet.objects[0].id = kMaxSharedObjects; },

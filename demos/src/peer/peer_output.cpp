@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "guard_summary.h"
+
 namespace tandem::demos {
 namespace {
 
@@ -20,12 +22,14 @@ nlohmann::json summariseSite(const Scenario& scenario, int site, PeerRun& run) {
   }
   const double count =
       static_cast<double>(std::max<std::size_t>(run.recording().ticks().size(), 1));
+  const Site& own = run.world().site();
   const SceneFrame frame = makeSceneFrame(scenario);
-  const Vec3 moved_W = run.world().site().hip().p_W - computeStart(scenario, frame, site - 1);
+  const Vec3 moved_W = own.hip().p_W - computeStart(scenario, frame, site - 1);
   return {{"coherency", {{"received_mean", run.receivedMean()}}},
           {"contact_transitions", transitions},
           {"force", {{"max", most}, {"mean", sum / count}}},
-          {"device_end", frame.toScene(moved_W).x()}};
+          {"device_end", frame.toScene(moved_W).x()},
+          {"guards", describeGuards(own.counters(), own.passivity())}};
 }
 
 nlohmann::json summariseNetwork(const PeerRun& run) {

@@ -28,6 +28,10 @@ std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan p
     message.ack_bits = computeAckBits();
   }
   if (packet.is_idle) message.flags |= kStateIdle;
+  if (packet.port_energy) {
+    message.flags |= kStateAccount;
+    message.port_energy = *packet.port_energy;
+  }
   message.profile = profile_;
   message.config_hash = config_hash_;
   return encodeState(message, payload);
@@ -56,6 +60,7 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
       latest_sent_us_ = 0;
       trip_ = RoundTrip();
       offset_ = highest_ + 1;
+      energy_offset_ = energy_;
       playout_.clear();
     }
     is_first_of_keys_ = false;
@@ -63,7 +68,12 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
   latest_sent_us_ = std::max(latest_sent_us_, message->send_time_us);
   packet.sequence += offset_;
   packet.is_idle = (message->flags & kStateIdle) != 0;
-  highest_ = has_state_ ? std::max(highest_, packet.sequence) : packet.sequence;
+  if ((message->flags & kStateAccount) != 0)
+    packet.port_energy = message->port_energy + energy_offset_;
+  if (!has_state_ || packet.sequence >= highest_) {
+    highest_ = packet.sequence;
+    energy_ = packet.port_energy.value_or(energy_);
+  }
   has_state_ = true;
   (void)playout_.push(packet, toSeconds(message->send_time_us), now);
   return {};

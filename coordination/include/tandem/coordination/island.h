@@ -182,6 +182,9 @@ class Island {
   [[nodiscard]] const CouplerSettings& couplerSettings(CouplerIndex coupler) const noexcept;
   [[nodiscard]] double couplerShare(CouplerIndex coupler) const noexcept;
   [[nodiscard]] double contactShare(BodyIndex body) const noexcept;
+  /// As set last; no torque on a body that does not turn.
+  [[nodiscard]] const Vec3& externalForce(BodyIndex body) const noexcept;
+  [[nodiscard]] const Vec3& externalTorque(BodyIndex body) const noexcept;
   [[nodiscard]] double extraDamping(BodyIndex body) const noexcept;
   [[nodiscard]] bool isGhost(BodyIndex body) const noexcept;
   [[nodiscard]] const std::vector<IslandContact>& contacts() const noexcept;

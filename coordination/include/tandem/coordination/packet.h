@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "tandem/coordination/types.h"
 
@@ -31,10 +32,12 @@ struct ObjectState {
 /// that have moved since they were sent last, and the others in turn.
 struct StatePacket {
   PeerId sender{};
-  std::uint64_t sequence = 0;  ///< counts the sender's packets from 0
-  double time = 0.0;           ///< sender's time of the state below [s]
-  PointState user;             ///< the sender's haptic interface point
-  bool is_idle = false;        ///< nothing moves there: packets come at kIdlePacketPeriod
+  std::uint64_t sequence = 0;         ///< counts the sender's packets from 0
+  double time = 0.0;                  ///< sender's time of the state below [s]
+  PointState user;                    ///< the sender's haptic interface point
+  bool is_idle = false;               ///< nothing moves there: packets come at kIdlePacketPeriod
+  std::optional<double> port_energy;  ///< that the sender's side has put in so far [J], see
+                                      ///< PassivityObserver; nothing: it keeps no account
   std::uint32_t object_count = 0;
   std::array<ObjectState, kMaxObjectsPerPacket> objects;
 };

@@ -18,9 +18,11 @@ enum StateFlag : std::uint16_t {
   kStateIdle = 1,     ///< nothing moves at the sender, which now sends at its keep-alive rate
   kStateLeaving = 2,  ///< the sender's user is about to leave
   kStateFading = 4,   ///< the sender has faded, or is fading, its coupling to the receiver
+  kStateAccount = 8,  ///< the sender keeps an account of energy: `port_energy` means something
 };
 
-inline constexpr std::uint16_t kStateFlags = kStateIdle | kStateLeaving | kStateFading;
+inline constexpr std::uint16_t kStateFlags =
+    kStateIdle | kStateLeaving | kStateFading | kStateAccount;
 
 /// What one STATE says. `packet.time` travels in whole microseconds.
 struct StateMessage {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tandem/bullet_bridge/convert.h"
@@ -88,6 +89,7 @@ SiteSettings makeSettings(const BenchScene& scene, int host_rate, Variant varian
   settings.proxy = {scene.tools.front().mass, 0.0, scene.tools.front().radius};
   settings.scheme = &scheme;
   settings.injection = variant == Variant::kImpulse ? Injection::kImpulse : Injection::kHandoff;
+  settings.max_slew = std::numeric_limits<double>::infinity();  // the law, not the guard
   settings.tick_source = variant == Variant::kLate ? TickSource::kCaller : TickSource::kHostStep;
   return settings;
 }

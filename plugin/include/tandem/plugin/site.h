@@ -49,6 +49,9 @@ struct SiteCounters {
   std::uint64_t links_faded = 0;         ///< remotes whose gains began to fall, each time
   std::uint64_t links_lost = 0;          ///< and came to zero
   std::uint64_t links_rejoined = 0;      ///< heard again after that, or at last
+  std::uint64_t force_clamped = 0;       ///< ticks in which the force was beyond the device's limit
+  std::uint64_t force_slewed = 0;        ///< in which it would have changed too fast
+  std::uint64_t energy_limited = 0;      ///< in which the hand was about to get too much energy
   std::uint64_t promoted = 0;            ///< bodies of the host that the island took
   std::uint64_t demoted = 0;             ///< and those that it gave back
 };
@@ -120,6 +123,8 @@ class Site {
   [[nodiscard]] btRigidBody& objectBody(ObjectId id) const noexcept;
   /// How a remote is doing as of the latest tick; always live with SiteSettings::link_loss off.
   [[nodiscard]] LinkState linkState(int remote) const noexcept;
+  /// Account of energy: what this side has put in, what its hand may get now, the least of it ever.
+  [[nodiscard]] const PassivityObserver& passivity() const noexcept;
   /// The newest state received from a remote; nothing is known before the first packet.
   [[nodiscard]] const StatePacket& latest(int remote) const noexcept;
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "tandem/coordination/link_health.h"
+#include "tandem/coordination/passivity_observer.h"
 #include "tandem/coordination/scheme.h"
 
 namespace tandem {
@@ -62,6 +63,9 @@ struct SiteSettings {
   /// What is done when a remote peer falls silent. With a native contact model gains change once
   /// per host step, and rigid contact, which has none, ends when the proxy is lost.
   LinkLossSettings link_loss;
+  /// What the hand may get out of the connection, with hand-off and an account at all sites.
+  PassivitySettings passivity;
+  double max_slew = 1e4;       ///< change of the force at the device [N/s]; may be infinite
   double fault_slew = 2000.0;  ///< after a fault the force fades by this [N/s]
 };
 

@@ -1,0 +1,79 @@
+#include "net/state_stream.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace tandem::net {
+namespace {
+
+/// States from one stream to another, over keys that are renewed when the test says so.
+struct Way {
+  StateStream receiver{PlayoutSettings{}, WireProfile::kFloat64, 7};
+  StateStream sender{PlayoutSettings{}, WireProfile::kFloat64, 7};
+  double now = 1.0;
+  std::uint64_t datagram = 0;
+
+  void send(std::uint64_t sequence, std::optional<double> port_energy) {
+    StatePacket packet;
+    packet.sender = PeerId{2};
+    packet.sequence = sequence;
+    packet.time = now;
+    packet.port_energy = port_energy;
+    std::array<std::uint8_t, 2048> bytes;
+    const std::size_t size = sender.write(packet, now, {bytes.data(), bytes.size()});
+    receiver.note(datagram, now);
+    (void)receiver.read({bytes.data(), size}, PeerId{2}, datagram++, true, now);
+    now += 0.01;
+  }
+  /// All of what came.
+  [[nodiscard]] std::vector<StatePacket> take() {
+    std::vector<StatePacket> packets;
+    while (const auto arrival = receiver.pop(0.0, now + 1.0)) packets.push_back(arrival->packet);
+    return packets;
+  }
+};
+
+TEST(StateStream, EnergyArrivesOrThatThereIsNone) {
+  Way way;
+  way.send(0, 0.25);
+  way.send(1, -1.5);
+  way.send(2, std::nullopt);
+  const std::vector<StatePacket> got = way.take();
+  ASSERT_EQ(got.size(), 3u);
+  EXPECT_EQ(got[0].port_energy, 0.25);
+  EXPECT_EQ(got[1].port_energy, -1.5);
+  EXPECT_FALSE(got[2].port_energy);
+}
+
+// Its account starts from nothing, and what it put in before has been put in.
+TEST(StateStream, EnergyOfAPeerThatBeginsAnewGoesOn) {
+  Way way;
+  way.send(0, 0.25);
+  way.send(1, 3.0);
+  ASSERT_EQ(way.take().size(), 2u);
+  way.sender = StateStream(PlayoutSettings{}, WireProfile::kFloat64, 7);
+  way.receiver.startKeys();
+  way.datagram = 0;
+  way.send(0, 0.0);
+  way.send(1, 0.5);
+  const std::vector<StatePacket> got = way.take();
+  ASSERT_EQ(got.size(), 2u);
+  EXPECT_EQ(got[0].port_energy, 3.0);
+  EXPECT_EQ(got[1].port_energy, 3.5);
+}
+
+// New keys alone change nothing.
+TEST(StateStream, EnergyGoesOnOverNewKeys) {
+  Way way;
+  way.send(0, 1.0);
+  way.receiver.startKeys();
+  way.datagram = 0;
+  way.send(1, 2.0);
+  const std::vector<StatePacket> got = way.take();
+  ASSERT_EQ(got.size(), 2u);
+  EXPECT_EQ(got[1].port_energy, 2.0);
+}
+
+}  // namespace
+}  // namespace tandem::net

@@ -1,0 +1,73 @@
+// A private header of the plugin: the last hand on the force.
+#include "../../plugin/src/force_guard.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+TEST(ForceGuard, LetsAllowedForcesThroughToTheBit) {
+  ForceGuard guard(9.0, 10.0, 2.0);
+  for (const double f : {0.1, 3.0, -5.0, 0.7}) {
+    const Vec3 wanted_W(f, 0.3 * f, 0);
+    EXPECT_EQ(guard.limit(wanted_W, false), wanted_W);
+  }
+  EXPECT_EQ(guard.clampedCount() + guard.slewedCount(), 0u);
+}
+
+TEST(ForceGuard, ClampsWithTheDirectionKept) {
+  ForceGuard guard(5.0, kInf, 2.0);
+  const Vec3 wanted_W(30.0, -40.0, 0.0);
+  EXPECT_LT((guard.limit(wanted_W, false) - Vec3(3.0, -4.0, 0.0)).norm(), 1e-14);
+  EXPECT_EQ(guard.clampedCount(), 1u);
+}
+
+TEST(ForceGuard, ChangesNoFasterThanAllowed) {
+  ForceGuard guard(kInf, 0.5, 2.0);
+  EXPECT_NEAR(guard.limit(Vec3(1.2, 0, 0), false).x(), 0.5, 1e-15);
+  EXPECT_NEAR(guard.limit(Vec3(1.2, 0, 0), false).x(), 1.0, 1e-15);
+  EXPECT_EQ(guard.limit(Vec3(1.2, 0, 0), false).x(), 1.2);
+  EXPECT_EQ(guard.slewedCount(), 2u);
+}
+
+TEST(ForceGuard, FadesAfterAFaultAndWithoutANumber) {
+  for (const bool is_fault : {true, false}) {
+    ForceGuard guard(kInf, kInf, 2.0);
+    (void)guard.limit(Vec3(0, 5.0, 0), false);
+    const Vec3 wanted_W(0, is_fault ? 5.0 : std::nan(""), 0);
+    for (const double left : {3.0, 1.0, 0.0, 0.0})
+      EXPECT_NEAR(guard.limit(wanted_W, is_fault).y(), left, 1e-15);
+  }
+}
+
+TEST(ForceGuard, HoldsItsBoundsWhateverIsWanted) {
+  constexpr std::uint64_t kSeed = 42;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  ForceGuard guard(9.0, 1.5, 0.5);
+  Vec3 last_W = Vec3::Zero();
+  for (int i = 0; i < 100000; ++i) {
+    Vec3 wanted_W;
+    for (int k = 0; k < 3; ++k) {
+      const double odd[] = {random.uniform(-20, 20), random.uniform(-1, 1), 1e308, -kInf,
+                            std::nan("")};
+      const int which = random.below(20);
+      wanted_W[k] = odd[which < 5 ? which : which % 2];
+    }
+    const Vec3 force_W = guard.limit(wanted_W, random.below(10) == 0);
+    ASSERT_TRUE(force_W.allFinite());
+    ASSERT_LE(force_W.norm(), 9.0 + 1e-12);
+    ASSERT_LE((force_W - last_W).norm(), 1.5 + 1e-12);
+    last_W = force_W;
+  }
+}
+
+}  // namespace
+}  // namespace tandem
