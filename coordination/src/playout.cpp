@@ -35,10 +35,10 @@ Playout::Verdict Playout::push(const StatePacket& packet, double sent, double no
     ++counts_.too_late;
     return Verdict::kTooLate;
   }
-  late_run_.reset();
-  fastest_.add(transit, now);
+  noteInTime();
+  if (transit >= fast_ - std::max(settings_.most, kJump)) fastest_.add(transit, now);
   const double lateness = transit - fastest_.value();
-  learn(lateness, now);
+  learn(transit, lateness, now);
   if (isStale(packet)) {
     ++counts_.stale;
     return Verdict::kStale;
@@ -83,6 +83,7 @@ void Playout::clear() noexcept {
   late_run_.reset();
   remembered_ = 0;
   learnt_ = 0;
+  fast_ = kNothing;
   wait_ = jitter_ = 0.0;
   has_begun_ = false;
   given_.reset();
@@ -96,24 +97,39 @@ bool Playout::isNewRoute(double transit, double now) noexcept {
   late_run_->most = std::max(late_run_->most, transit);
   if (late_run_->most - late_run_->least > 0.5 * settings_.max_late)
     late_run_ = LateRun{now, transit, transit};
+  ++late_run_->late;
   if (now - late_run_->since < kWindow) return false;
   fastest_ = WindowedMinimum(kWindow);
+  remembered_ = 0;
+  learnt_ = 0;
+  fast_ = kNothing;
+  late_run_.reset();
   return true;
+}
+
+/// Single packets that jump the queue do not tell that the others are a burst.
+void Playout::noteInTime() noexcept {
+  if (!late_run_) return;
+  ++late_run_->in_time;
+  const auto all = static_cast<double>(late_run_->late + late_run_->in_time);
+  if (static_cast<double>(late_run_->in_time) > kQuarter * all) late_run_.reset();
 }
 
 bool Playout::isStale(const StatePacket& packet) const noexcept {
   return given_ && packet.sequence <= *given_;
 }
 
-void Playout::learn(double lateness, double now) noexcept {
+void Playout::learn(double transit, double lateness, double now) noexcept {
   if (!has_begun_) {
     has_begun_ = true;
     start_ = last_ = now;
   }
-  lateness_[learnt_++ % kRemembered] = lateness;
-  remembered_ = std::min(remembered_ + 1, kRemembered);
+  const std::size_t place = learnt_++ % transits_.size();
+  transits_[place] = transit;
+  latenesses_[place] = lateness;
+  remembered_ = std::min(remembered_ + 1, transits_.size());
   // Sorting costs more than opening the datagram: now and then is enough, once there are some.
-  if (remembered_ < kRarely || learnt_ % kRarely == 0) updateJitter();
+  if (remembered_ < kRarely || learnt_ % kRarely == 0) lookAtRemembered();
   const double wanted = std::min(jitter_, settings_.most);
   // At first nothing is known, and nothing is felt yet that a change could disturb.
   const bool is_new = now - start_ < kWindow;
@@ -122,14 +138,19 @@ void Playout::learn(double lateness, double now) noexcept {
   last_ = now;
 }
 
-void Playout::updateJitter() noexcept {
-  const auto end = std::copy_n(lateness_.begin(), remembered_, sorted_.begin());
-  const auto place =
-      static_cast<std::size_t>(std::ceil(settings_.quantile * static_cast<double>(remembered_)));
+void Playout::lookAtRemembered() noexcept {
+  fast_ = findQuantile(transits_, kQuarter);
+  jitter_ = std::max(findQuantile(latenesses_, settings_.quantile), 0.0);
+}
+
+/// The least value that so large a share of the remembered keep.
+double Playout::findQuantile(const Remembered& values, double share) noexcept {
+  const auto end = std::copy_n(values.begin(), remembered_, sorted_.begin());
+  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(remembered_)));
   const auto at =
       sorted_.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(place, 1) - 1);
   std::nth_element(sorted_.begin(), at, end);
-  jitter_ = *at;
+  return *at;
 }
 
 }  // namespace tandem

@@ -106,6 +106,17 @@ TEST(Playout, FollowsClocksThatDrift) {
   }
 }
 
+TEST(Playout, FollowsClocksThatDriftAlsoIfItWaitsForNone) {
+  PlayoutSettings settings;
+  settings.most = 0.0;
+  for (const double drift : {-500e-6, 500e-6}) {
+    Playout playout(settings);
+    const Spread spread = run(playout, 60.0, drift, [] { return 0.0; });
+    EXPECT_LT(spread.most, kDelay + 2.0 * kTick) << drift;
+    EXPECT_EQ(spread.given, spread.sent) << drift;
+  }
+}
+
 TEST(Playout, NeverWaitsLongerThanTheMost) {
   test::Random random(4);
   PlayoutSettings settings;
@@ -214,6 +225,64 @@ TEST(Playout, LongerWayIsAcceptedAfterAWhile) {
         playout.push(makeNumbered(n), sent, sent + kDelay + 0.7) == Playout::Verdict::kTooLate;
   }
   EXPECT_NEAR(refused, 2.0 / kPeriod, 2.0);
+}
+
+/// One of 20 packets comes without any delay, all others after `delay`, for 20 s; gives how often
+/// nothing came out for longer than three packets take, in the last 10 s.
+int countGapsOfJumpers(double delay, std::uint64_t first_jumper, Spread& spread) {
+  struct Arriving {
+    double at;
+    std::uint64_t n;
+  };
+  std::vector<Arriving> all;
+  for (std::uint64_t n = 0; n < 2560; ++n)
+    all.push_back({static_cast<double>(n) * kPeriod + (n % 20 == first_jumper ? 0.0 : delay), n});
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Arriving& a, const Arriving& b) { return a.at < b.at; });
+  Playout playout;
+  int gaps = 0;
+  double last = 10.0;
+  auto next = all.begin();
+  for (double now = 0.0; now < 20.0; now += kTick) {
+    for (; next != all.end() && next->at <= now; ++next)
+      (void)playout.push(makeNumbered(next->n), static_cast<double>(next->n) * kPeriod + kSkew,
+                         now);
+    while (const auto given = playout.pop(now, now + kTick)) {
+      if (now < 10.0) continue;
+      gaps += now - last > 3.0 * kPeriod;
+      last = now;
+      const double after = given->time - static_cast<double>(given->packet.sequence) * kPeriod;
+      spread.least = std::min(spread.least, after);
+      spread.most = std::max(spread.most, after);
+    }
+  }
+  return gaps;
+}
+
+// A state that came long before its time would make all that were sent before it worthless.
+TEST(Playout, PacketsThatJumpTheQueueWaitForTheirTurn) {
+  for (const double delay : {0.03, 0.1, 0.3, 1.0}) {
+    for (const std::uint64_t first : {0u, 7u}) {
+      Spread spread;
+      EXPECT_EQ(countGapsOfJumpers(delay, first, spread), 0) << delay << " " << first;
+      EXPECT_GT(spread.least, delay - 1e-9) << delay << " " << first;
+      EXPECT_LT(spread.most, delay + 2.0 * kTick) << delay << " " << first;
+    }
+  }
+}
+
+TEST(Playout, ShorterWayIsFollowedWithinASecond) {
+  Playout playout;
+  double now = 0.0, after = 0.0;
+  for (std::uint64_t n = 0; n < 640; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    const double arrival = sent + (n < 512 ? 0.3 : 0.05);
+    for (; now < arrival; now += kTick)
+      while (const auto given = playout.pop(now, now + kTick))
+        after = given->time - static_cast<double>(given->packet.sequence) * kPeriod;
+    (void)playout.push(makeNumbered(n), sent, std::max(arrival, now));
+  }
+  EXPECT_LT(after, 0.06);
 }
 
 TEST(Playout, FullKeepsTheNewest) {

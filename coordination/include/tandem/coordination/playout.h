@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -31,9 +32,11 @@ void checkPlayoutSettings(const PlayoutSettings& settings);
 ///   arrived       |     |  |      |          lateness: beyond the fastest of the last 2 s
 ///   given          |    |    |    |          fastest + wait after it was sent
 ///
-/// A packet slower than the wait is given at once, if nothing newer was given before. What comes
-/// half a second late, as a burst after an outage does, is never applied, unless all has come about
-/// equally late for 2 s: then the way has become longer. Pure; real-time safe after construction.
+/// A packet slower than the wait is given at once, if nothing newer was given before. One that
+/// jumped the queue, ahead of the fastest quarter by more than 50 ms and `most`, does not count as
+/// the fastest: it waits as long as if it had not. What comes half a second late, as a burst after
+/// an outage does, is never applied, unless all has come about equally late for 2 s: then the way
+/// has become longer. Pure; real-time safe after construction.
 class Playout {
  public:
   enum class Verdict : std::uint8_t {
@@ -71,21 +74,29 @@ class Playout {
   };
   struct LateRun {
     double since = 0.0, least = 0.0, most = 0.0;
+    std::uint64_t late = 0, in_time = 0;  ///< packets
   };
-  void learn(double lateness, double now) noexcept;
-  void updateJitter() noexcept;
+  using Remembered = std::array<double, 256>;  ///< of the latest packets
+
+  void learn(double transit, double lateness, double now) noexcept;
+  void lookAtRemembered() noexcept;
+  [[nodiscard]] double findQuantile(const Remembered& values, double share) noexcept;
   [[nodiscard]] bool isNewRoute(double transit, double now) noexcept;
+  void noteInTime() noexcept;
   [[nodiscard]] bool isStale(const StatePacket& packet) const noexcept;
 
-  static constexpr double kWindow = 2.0;           // [s]
-  static constexpr std::size_t kRemembered = 256;  // latenesses
-  static constexpr std::size_t kRarely = 16;       // packets between two looks at all of them
+  static constexpr double kWindow = 2.0;      // [s]
+  static constexpr std::size_t kRarely = 16;  // packets between two looks at all of them
+  static constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  static constexpr double kQuarter = 0.25;  // more than that do not jump the queue
+  static constexpr double kJump = 0.05;     // [s]; more than clocks part while a quarter comes
 
   PlayoutSettings settings_;
   WindowedMinimum fastest_{kWindow};
-  std::optional<LateRun> late_run_;  ///< of packets that came too late, one after the other
-  std::array<double, kRemembered> lateness_{}, sorted_{};
+  std::optional<LateRun> late_run_;  ///< of packets that came too late, few of the others between
+  Remembered transits_{}, latenesses_{}, sorted_{};
   std::size_t remembered_ = 0;
+  double fast_ = kNothing;  ///< transit that a quarter of the remembered keep
   std::uint64_t learnt_ = 0;
   double wait_ = 0.0, jitter_ = 0.0;
   double start_ = 0.0, last_ = 0.0;
