@@ -1,6 +1,6 @@
 #include "net/state_stream.h"
 
-#include <array>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,16 +15,23 @@ struct Way {
   std::uint64_t datagram = 0;
 
   void send(std::uint64_t sequence, std::optional<double> port_energy) {
+    EXPECT_EQ(receive(make(sequence, port_energy), datagram++), Refusal::kNone);
+  }
+  std::vector<std::uint8_t> make(std::uint64_t sequence, std::optional<double> port_energy) {
     StatePacket packet;
     packet.sender = PeerId{2};
     packet.sequence = sequence;
     packet.time = now;
     packet.port_energy = port_energy;
-    std::array<std::uint8_t, 2048> bytes;
-    const std::size_t size = sender.write(packet, now, {bytes.data(), bytes.size()});
-    receiver.note(datagram, now);
-    (void)receiver.read({bytes.data(), size}, PeerId{2}, datagram++, true, now);
+    std::vector<std::uint8_t> bytes(2048);
+    bytes.resize(sender.write(packet, now, {bytes.data(), bytes.size()}));
     now += 0.01;
+    return bytes;
+  }
+  /// `number`: of the datagram under the present keys; nothing: under those before.
+  Refusal receive(const std::vector<std::uint8_t>& bytes, std::optional<std::uint64_t> number) {
+    if (number) receiver.note(*number, now);
+    return receiver.read({bytes.data(), bytes.size()}, PeerId{2}, number, true, now).refusal;
   }
   /// All of what came.
   [[nodiscard]] std::vector<StatePacket> take() {
@@ -73,6 +80,29 @@ TEST(StateStream, EnergyGoesOnOverNewKeys) {
   const std::vector<StatePacket> got = way.take();
   ASSERT_EQ(got.size(), 2u);
   EXPECT_EQ(got[1].port_energy, 2.0);
+}
+
+// One that overtakes with the new keys must not cost what is on its way under the old ones.
+TEST(StateStream, StatesUnderTheOldKeysStillCount) {
+  Way way;
+  way.send(0, 1.0);
+  const auto old = way.make(1, 1.5);
+  way.receiver.startKeys();
+  way.datagram = 0;
+  way.send(2, 2.0);
+  EXPECT_EQ(way.receive(old, std::nullopt), Refusal::kNone);
+  EXPECT_EQ(way.take().size(), 3u);
+}
+
+TEST(StateStream, OfAPeerThatHasBegunAnewTheyArePast) {
+  Way way;
+  way.send(7, 1.0);
+  const auto old = way.make(8, 1.5);
+  way.sender = StateStream(PlayoutSettings{}, WireProfile::kFloat64, 7);
+  way.receiver.startKeys();
+  way.datagram = 0;
+  way.send(0, 0.0);
+  EXPECT_EQ(way.receive(old, std::nullopt), Refusal::kExpired);
 }
 
 }  // namespace

@@ -206,6 +206,7 @@ TEST(TickStatus, ForceLimitOfTheDeviceKeepsTheDirection) {
                          0.001);  // sees two faces: a slanting force
   SiteSettings settings;
   settings.contact = {kStiffness, 0.0};
+  settings.max_slew = std::numeric_limits<double>::infinity();
   Rig free(settings), limited(settings, 3.0), strong(settings, 1000.0);
   for (Rig* rig : {&free, &limited, &strong}) {
     rig->device.sample.hip.p_W = on_the_edge;

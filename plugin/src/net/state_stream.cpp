@@ -41,7 +41,7 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
                           bool is_agreed, double now) noexcept {
   auto message = decodeState(payload, sender);
   if (!message) return message.refusal();
-  if (!sequence && !is_first_of_keys_) return Refusal::kExpired;
+  if (!sequence && has_begun_anew_) return Refusal::kExpired;
   if (sequence && (!has_news_ || *sequence > newest_)) {
     has_news_ = true;
     newest_ = *sequence;
@@ -54,9 +54,9 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
   if (!is_agreed || message->config_hash != config_hash_) return Refusal::kNotAgreed;
   StatePacket& packet = message->packet;
   if (sequence && is_first_of_keys_) {
-    const bool has_begun_anew = has_state_ && (packet.sequence + offset_ <= highest_ ||
-                                               message->send_time_us < latest_sent_us_);
-    if (has_begun_anew) {
+    has_begun_anew_ = has_state_ && (packet.sequence + offset_ <= highest_ ||
+                                     message->send_time_us < latest_sent_us_);
+    if (has_begun_anew_) {
       latest_sent_us_ = 0;
       trip_ = RoundTrip();
       offset_ = highest_ + 1;
@@ -85,6 +85,7 @@ void StateStream::startKeys() noexcept {
   has_news_ = false;
   newest_ = 0;
   is_first_of_keys_ = true;
+  has_begun_anew_ = false;
   loss_received_ = 0;
 }
 

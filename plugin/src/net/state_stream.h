@@ -26,8 +26,8 @@ class StateStream {
   void note(std::uint64_t sequence, double now) noexcept;
 
   /// A STATE that was opened, after note(); `sequence` is its datagram's, nothing for one under
-  /// keys that were replaced: such a one counts only until one came under the present keys. It has
-  /// an effect on times only, unless `is_agreed`.
+  /// keys that were replaced: such a one counts unless the peer has begun anew since. It has an
+  /// effect on times only, unless `is_agreed`.
   [[nodiscard]] Outcome read(ByteView payload, PeerId sender, std::optional<std::uint64_t> sequence,
                              bool is_agreed, double now) noexcept;
 
@@ -64,6 +64,7 @@ class StateStream {
 
   // A peer that begins anew counts its states, and its energy, from 0.
   bool is_first_of_keys_ = true;
+  bool has_begun_anew_ = false;      ///< with the present keys: what is under the old ones is past
   std::int64_t latest_sent_us_ = 0;  ///< by its clock, in all that came
   std::uint64_t offset_ = 0;
   std::uint64_t highest_ = 0;
