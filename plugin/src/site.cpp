@@ -160,6 +160,8 @@ void Site::Impl::coordinate(SharedObject& object) {
                    settings.coordination.damping * radius_squared});
   while (object.couplers.size() < remotes.size()) {
     object.couplers.push_back(island.addCoupler(object.body.index, coupler));
+    object.theirs.push_back(island.state(object.body.index));
+    object.detours.emplace_back();
     if (native) native->addCoupler(object.bullet->body(), object.couplers.back(), coupler);
   }
 }

@@ -15,6 +15,7 @@
 #include "tandem/plugin/recording.h"
 #include "tandem/plugin/site.h"
 
+#include "detour.h"
 #include "force_guard.h"
 #include "native_model.h"
 #include "packet_turns.h"
@@ -53,6 +54,8 @@ struct SharedObject {
   double damping = 0.0;
   double bounding_radius = 0.0;
   std::vector<CouplerIndex> couplers;  ///< one per remote: eqs (9), (10)
+  std::vector<RigidState> theirs;      ///< per remote: its copy as heard last
+  std::vector<Detour> detours;         ///< per remote: what its coupler pulls to besides
   RigidState sent;                     ///< as in the latest packet that had it
 };
 
@@ -79,6 +82,7 @@ struct Remote {
   LinkHealth health{LinkLossSettings{}, 1.0};
   UserTrack track;                          ///< of the user, as the scheme is told
   LinkState link_state = LinkState::kLive;  ///< as it was acted on last
+  bool is_detouring = false;                ///< some object's target is not where its copy is
   bool is_restrained = false;               ///< something is not as with a live peer
   double velocity_share = 1.0;              ///< by which targets have been slowed down
   std::uint64_t rejoined_by = 0;            ///< packet with which it came back
@@ -143,6 +147,7 @@ struct Site::Impl final : HostStepListener {
   [[nodiscard]] bool doCopiesAgree(const Remote& remote) const noexcept;
   void carryGhost(const Remote& remote, double now) noexcept;
   void slowTargets(Remote& remote) noexcept;
+  void followDetours(Remote& remote) noexcept;
   void restrainObjects(const Remote& remote) noexcept;
   void restrainProxy(Remote& remote) noexcept;
   void noteSearched() noexcept;

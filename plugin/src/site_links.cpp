@@ -7,7 +7,9 @@
 //   object couplers   share of K and B; a target not renewed since the peer came back has none
 //   the proxy         share of its coupler and of all its contacts; damping while they fade
 //   lost, waiting     the proxy is a ghost, in the island and in Bullet
-//   heard again       the ghost is carried to where the user is, and let in where nothing is
+//   heard again       objects are led to where the peer has them, with a spring that is not
+//   stretched
+//                     the ghost is carried to where the user is, and let in where nothing is
 //
 // Nothing of it is looked at while a peer is live.
 
@@ -48,7 +50,10 @@ void Site::Impl::followLink(Remote& remote, double now) noexcept {
   if (state != before) countLinks();
 
   const bool is_silent = state == LinkState::kLost || state == LinkState::kWaiting;
-  const bool is_calm = state == LinkState::kLive && !remote.track.isMakingUp(now);
+  const bool is_heard = state == LinkState::kLive || state == LinkState::kRejoining;
+  if (is_heard && remote.is_detouring) followDetours(remote);
+  const bool is_calm = state == LinkState::kLive && !remote.track.isMakingUp(now) &&
+                       !remote.is_detouring && !health.isProxyOut();
   if (remote.is_restrained ? is_silent && state == before : is_calm) return;
   remote.is_restrained = !is_calm;
 
@@ -73,7 +78,8 @@ void Site::Impl::countLinks() noexcept {
 /// else it might come in on the wrong side of one, and hold it off from where it is pulled to.
 bool Site::Impl::isPlaceFree(const Remote& remote) const noexcept {
   if (!remote.user.body) return true;
-  if (remote.health.objectShare() < 1.0 && !doCopiesAgree(remote)) return false;
+  const bool may_yet_agree = remote.health.objectShare() < 1.0 || remote.is_detouring;
+  if (may_yet_agree && !doCopiesAgree(remote)) return false;
   const double allowed = settings.link_loss.rejoin_overlap;
   const double unknown = (island.state(*remote.user.body).p_W - remote.searched_W).norm();
   if (native) {
@@ -116,6 +122,18 @@ void Site::Impl::slowTargets(Remote& remote) noexcept {
   }
 }
 
+void Site::Impl::followDetours(Remote& remote) noexcept {
+  const auto place = static_cast<std::size_t>(&remote - remotes.data());
+  remote.is_detouring = false;
+  for (SharedObject& object : objects) {
+    Detour& detour = object.detours[place];
+    if (detour.isOver()) continue;
+    detour.advance(period());
+    remote.is_detouring |= !detour.isOver();
+    island.setTarget(object.couplers[place], detour.apply(object.theirs[place]));
+  }
+}
+
 /// What was heard of an object before the peer fell silent is of no use.
 bool Site::Impl::isRenewed(const Remote& remote, const SharedObject& object) const noexcept {
   if (remote.health.counters().rejoined == 0) return true;
@@ -126,7 +144,7 @@ bool Site::Impl::isRenewed(const Remote& remote, const SharedObject& object) con
 bool Site::Impl::doCopiesAgree(const Remote& remote) const noexcept {
   const auto place = static_cast<std::size_t>(&remote - remotes.data());
   return std::all_of(objects.begin(), objects.end(), [&](const SharedObject& object) {
-    const Vec3& theirs_W = island.target(object.couplers[place]).p_W;
+    const Vec3& theirs_W = object.theirs[place].p_W;
     const Vec3& ours_W = island.state(object.body.index).p_W;
     return isRenewed(remote, object) && (theirs_W - ours_W).norm() < settings.proxy.radius;
   });

@@ -191,11 +191,19 @@ bool Site::Impl::takeInObjects(Remote& remote, const StatePacket& packet) noexce
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     const ObjectState& copy = packet.objects[i];
     if (copy.id >= objects.size()) continue;
+    SharedObject& object = objects[copy.id];
     std::optional<std::uint64_t>& newest = remote.object_sequences[copy.id];
     if (newest && packet.sequence <= *newest) continue;
+    const bool was_renewed = isRenewed(remote, object);
     newest = packet.sequence;
     has_news = true;
-    island.setTarget(objects[copy.id].couplers[place], copy.state);
+    Detour& detour = object.detours[place];
+    if (!was_renewed && isRenewed(remote, object)) {
+      detour.start(island.state(object.body.index), copy.state);
+      remote.is_detouring |= !detour.isOver();
+    }
+    object.theirs[place] = copy.state;
+    island.setTarget(object.couplers[place], detour.apply(copy.state));
   }
   return has_news;
 }

@@ -13,6 +13,7 @@ constexpr double kGap = 5e-3;                   ///< of the hands to what they w
 constexpr double kRest = 1.0;                   ///< before the first stroke, idle at its end [s]
 constexpr double kStroke = 1.6;                 ///< there and back [s]
 constexpr double kReach = 0.05;                 ///< of a stroke, from the start [m]
+constexpr double kLedBack = 3.0;                ///< objects may need after a loss [s]
 constexpr double kAfter = 2.0;                  ///< watched after all has come back [s]
 
 /// A hand whose times count from a moment that comes to be known.
@@ -128,6 +129,7 @@ CellReport MatrixScene::run() {
     report.phase = statusOf(i).phase;
     report.status = user.site->status();
     report.counters = user.site->counters();
+    report.overdrawn = user.site->passivity().overdrawn();
     if (report.last_coupled >= 0.0) report.last_coupled = now_ - report.last_coupled;
     report.last_taken = now_ - report.last_taken;
     report_.sites[i] = report;
@@ -142,6 +144,7 @@ void MatrixScene::planFrom(double now) {
   outage_end_ = cut_from + c_.outage;
   network_.cutFrom(cut_from, outage_end_);
   end_ = outage_end_ + 2.0 * c_.slowest() + kGrace + kRampIn + kAfter;
+  if (c_.outage > 0.2) end_ += kLedBack;
 }
 
 void MatrixScene::step() {

@@ -27,6 +27,7 @@ struct SiteReport {
   double recovered = -1.0;          ///< and the link was live or rejoining [s]; -1: never
   double live_again = -1.0;         ///< the same, live
   double last_coupled = -1.0;       ///< before the end, it was live or rejoining [s]; -1: never
+  double overdrawn = 0.0;           ///< energy that the hand got when none was left [J]
   double last_taken = 0.0;          ///< before the end the last state came in [s]
   PeerPhase phase = PeerPhase::kCalling;
   std::uint32_t status = kTickOk;

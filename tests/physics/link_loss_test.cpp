@@ -213,25 +213,23 @@ TEST(LinkLoss, ProxyComesBackWithoutEnergy) {
   }
 }
 
-TEST(LinkLoss, ObjectComesBackWithLessThanItsSpringHas) {
+// A spring that gets its gain back as it is stretched would put 0.25 J into the copy.
+TEST(LinkLoss, ObjectComesBackAtAWalkingPace) {
   Rig rig({}, Vec3::Zero());
   rig.run(0.1);
   rig.lose();
-  constexpr double kGap = 0.05;
+  constexpr double kGap = 0.05, kPace = 0.25;
   rig.packet.objects[0].state.p_W.y() += kGap;
   rig.hearAgain();
-  double share = 0.0, allowed = 0.0, way = kGap;
-  for (int i = 0; i < 1000; ++i) {
+  double fastest = 0.0;
+  for (int i = 0; i < 1200; ++i) {
     rig.run(kPeriod);
-    // What a gain that rises puts into the spring as it is stretched now.
-    const double now = std::min(1.0, (i + 1) * kPeriod / 0.5 + 0.02);
-    allowed += 0.5 * 200.0 * (now - share) * way * way;
-    share = now;
-    way = (rig.packet.objects[0].state.p_W - rig.site->object(0).p_W).norm();
-    ASSERT_LE(0.5 * kMass * rig.site->object(0).v_W.squaredNorm(), allowed + 1e-12) << i;
+    fastest = std::max(fastest, rig.site->object(0).v_W.norm());
   }
-  EXPECT_LT(way, 1e-4);
-  EXPECT_LT(allowed, 0.5 * 200.0 * kGap * kGap);
+  EXPECT_GT(fastest, 0.3 * kPace);
+  EXPECT_LT(fastest, 1.3 * kPace);
+  EXPECT_LT((rig.packet.objects[0].state.p_W - rig.site->object(0).p_W).norm(), 1e-4);
+  EXPECT_EQ(rig.state(), LinkState::kLive);
 }
 
 TEST(LinkLoss, FadingWakesAndLosingLetsSleep) {

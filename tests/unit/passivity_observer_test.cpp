@@ -38,6 +38,18 @@ TEST(PassivityObserver, OneTickTakesNoMoreThanThereIs) {
   EXPECT_EQ(observer.computeShare(1e-9), 0.0);
 }
 
+TEST(PassivityObserver, CountsWhatWasGotWhenNothingWasLeft) {
+  PassivityObserver observer;
+  observer.addOwn(-kTank - 0.003);
+  EXPECT_NEAR(observer.overdrawn(), 0.003, 1e-15);
+  observer.addOwn(-0.001);
+  EXPECT_NEAR(observer.overdrawn(), 0.004, 1e-15);
+  // Others took theirs: nothing that this hand got.
+  observer.addOwn(1.0);
+  observer.addReported(-5.0);
+  EXPECT_NEAR(observer.overdrawn(), 0.004, 1e-15);
+}
+
 TEST(PassivityObserver, AnEmptyTankFillsAsTheHandPushes) {
   PassivityObserver observer;
   observer.addOwn(-kTank);

@@ -39,6 +39,7 @@ class PassivityObserver {
 
   /// This side has put in so much more [J]; negative: it got some out.
   void addOwn(double energy) noexcept {
+    overdrawn_ += std::max(0.0, -energy - std::max(0.0, available()));
     own_ += energy;
     settle();
   }
@@ -60,6 +61,9 @@ class PassivityObserver {
   /// The least that was ever available [J].
   [[nodiscard]] double lowest() const noexcept { return lowest_; }
 
+  /// Got by the hand when nothing was left, in all [J]: it moves on while its force is held.
+  [[nodiscard]] double overdrawn() const noexcept { return overdrawn_; }
+
   /// Share of the force to be rendered, 0 to 1, when all of it is about to give the hand `energy`
   /// over the coming tick [J]; negative if the hand is about to put in.
   [[nodiscard]] double computeShare(double energy) const noexcept;
@@ -72,7 +76,7 @@ class PassivityObserver {
 
   PassivitySettings settings_;
   double own_ = 0.0, reported_ = 0.0, forgotten_ = 0.0;
-  double lowest_;
+  double lowest_, overdrawn_ = 0.0;
 };
 
 }  // namespace tandem
