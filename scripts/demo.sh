@@ -56,15 +56,14 @@ cooperate_live() {
   local name=$1 scenario=$2 delay=$3 overrides=() link first second
   local folder="$out/$name" port=17400
   shift 3
-  for setting in "$@"; do overrides+=(--set "$setting"); done
+  for setting in "$@" "network.delay=$(printf '0.%03d' "$delay")"; do overrides+=(--set "$setting"); done
   mkdir -p "$folder"
   step "$name in virtual time"
-  "$tandem" run "$scenarios/$scenario" ${overrides[@]+"${overrides[@]}"} --set "network.delay=$(printf '0.%03d' "$delay")" \
-    --out "$folder/virtual"
+  "$tandem" run "$scenarios/$scenario" "${overrides[@]}" --out "$folder/virtual"
   step "$name live, ${delay} ms each way"
   "$tandem" link --listen "127.0.0.1:$port" --forward "127.0.0.1:$((port + 2))" --delay "${delay}ms" --quiet &
   link=$!
-  local peer=("$tandem" peer --scenario "$scenarios/$scenario" ${overrides[@]+"${overrides[@]}"} --key "$out/key"
+  local peer=("$tandem" peer --scenario "$scenarios/$scenario" "${overrides[@]}" --key "$out/key"
     --out "$folder/live" --playout off)
   "${peer[@]}" --site 2 --bind "127.0.0.1:$((port + 2))" --peer "127.0.0.1:$port" >"$folder/site2.log" 2>&1 &
   second=$!
@@ -73,6 +72,7 @@ cooperate_live() {
   wait "$first" && wait "$second" || { cat "$folder"/site?.log; kill "$link"; return 1; }
   kill "$link" && wait "$link" || true
   for site in 1 2; do echo "site $site:"; cat "$folder/site$site.log"; done
+  runs+=("$folder/virtual" "$folder/live")
 }
 
 demonstrate_live() {
@@ -85,8 +85,10 @@ demonstrate_live() {
     cooperate_live "experiment2-$scheme-100ms" experiment2.toml 100 "experiment.scheme=$scheme"
     cooperate_live "experiment2-$scheme-200ms" experiment2.toml 200 "experiment.scheme=$scheme"
   done
-  step "Done. The columns of both sites, live and virtual, are under:"
-  echo "$out"
+  step "Drawing the figures"
+  "$tandem" plot "${runs[@]}" >/dev/null
+  step "Done. Open this report in a browser; the columns of both sites, live and virtual, are beside it:"
+  echo "${runs[0]}/report.html"
 }
 
 step "Looking for packages that are missing"

@@ -47,6 +47,7 @@ std::vector<SchemeGroup> groupBySettings(const std::vector<Run>& runs) {
   std::vector<SchemeGroup> groups;
   std::map<Settings, std::size_t> index;
   for (const Run& run : runs) {
+    if (run.live) continue;
     const auto [at, is_new] = index.emplace(settingsWithout(run, {kScheme}), groups.size());
     if (is_new) groups.emplace_back();
     addRun(groups[at->second], run);
@@ -146,6 +147,8 @@ const Run* SchemeGroup::find(std::string_view scheme) const {
     if (run->scheme == scheme) return run;
   return nullptr;
 }
+
+bool haveEqualSettings(const Run& a, const Run& b) { return settingsOf(a) == settingsOf(b); }
 
 Grouping groupRuns(const std::vector<Run>& runs) {
   const std::vector<SchemeGroup> groups = groupBySettings(runs);

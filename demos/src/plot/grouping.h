@@ -34,7 +34,11 @@ struct Grouping {
   std::vector<Sweep> sweeps;
 };
 
-/// Sorts runs into groups and sweeps by their settings alone; titles and folder names do not count.
+/// True if two runs were asked for the same; titles and folder names do not count.
+[[nodiscard]] bool haveEqualSettings(const Run& a, const Run& b);
+
+/// Sorts runs in virtual time into groups and sweeps by their settings alone; titles and folder
+/// names do not count.
 ///
 /// Of runs with equal settings the first given stands for all. Of the groups in a sweep only one
 /// is listed with the groups as well, for a closer look: the one with the paper's settings, else

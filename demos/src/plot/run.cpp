@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "plot/labels.h"
+#include "plot/live_run.h"
 #include "usage_error.h"
 
 namespace tandem::demos::plot {
@@ -162,6 +163,7 @@ Run parseRun(const std::string& summary_text, const std::filesystem::path& dir,
 }
 
 Run loadRun(const std::filesystem::path& dir) {
+  if (isLiveFolder(dir)) return loadLiveRun(dir);
   const std::filesystem::path file = dir / "summary.json";
   return parseRun(readText(file), dir, file.string());
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,12 @@ struct SiteOutcome {
   double device_end = kMissing;           ///< displacement along the axis at the end [m]
 };
 
+/// How a run against the clock went, over both sites.
+struct LiveOutcome {
+  double round_trip = kMissing;  ///< as site 1 measured it [s]
+  double late_share = kMissing;  ///< of ticks that began more than half a period late, 0 to 1
+};
+
 /// One run folder: what was asked (`scenario`) and what came out, from summary.json.
 struct Run {
   std::filesystem::path dir;
@@ -54,6 +61,7 @@ struct Run {
   double real_time_factor = kMissing;
   std::string state_hash;
   std::vector<SceneBody> bodies;
+  std::optional<LiveOutcome> live;  ///< of two `tandem peer`; nothing: in virtual time
 
   /// False when the scene is known to be without a shared object.
   [[nodiscard]] bool hasObject() const;
@@ -64,7 +72,8 @@ struct Run {
   [[nodiscard]] std::string settingText(const std::string& pointer) const;
 };
 
-/// Reads summary.json of `dir`. Throws UsageError naming file and key.
+/// Reads summary.json of `dir`, or what two `tandem peer` have left there: site1.json, site2.json
+/// and their tables. Throws UsageError naming file and key.
 [[nodiscard]] Run loadRun(const std::filesystem::path& dir);
 
 /// As loadRun(), from text that is already there; `source` names it in messages.

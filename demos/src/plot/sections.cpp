@@ -10,6 +10,7 @@
 #include "plot/contact_figures.h"
 #include "plot/findings.h"
 #include "plot/labels.h"
+#include "plot/live_section.h"
 #include "plot/motion_figures.h"
 #include "plot/reference.h"
 #include "plot/run_tables.h"
@@ -122,11 +123,13 @@ void addSweeps(Report& report, const std::vector<Sweep>& sweeps) {
 }
 
 void addPlaygrounds(Report& report, const std::vector<Run>& runs) {
-  const auto count = static_cast<std::size_t>(std::count_if(
-      runs.begin(), runs.end(), [](const Run& run) { return run.kind == RunKind::kPlayground; }));
+  const auto count =
+      static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const Run& run) {
+        return run.kind == RunKind::kPlayground && !run.live;
+      }));
   std::size_t index = 0;
   for (const Run& run : runs) {
-    if (run.kind != RunKind::kPlayground) continue;
+    if (run.kind != RunKind::kPlayground || run.live) continue;
     const std::string prefix = prefixOf("playground", index++, count);
     report.addHeading(2, run.title);
     addScene(report, run, prefix);
@@ -151,6 +154,7 @@ void addGlance(Report& report, const Grouping& grouping) {
 }
 
 void addNumbers(Report& report, const std::vector<Run>& runs) {
+  if (std::all_of(runs.begin(), runs.end(), [](const Run& run) { return run.live; })) return;
   report.addHeading(2, "All runs: asked and reached");
   if (std::any_of(runs.begin(), runs.end(), [](const Run& run) { return referenceOf(run); }))
     report.addParagraph(
@@ -186,6 +190,7 @@ Report composeReport(const std::vector<Run>& runs, const Grouping& grouping) {
   addContact(report, grouping.contact);
   addSweeps(report, grouping.sweeps);
   addPlaygrounds(report, runs);
+  addLive(report, runs);
   addNumbers(report, runs);
   return report;
 }

@@ -1,0 +1,60 @@
+#include "plot/live_run.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "plot/signals.h"
+#include "usage_error.h"
+
+namespace tandem::demos::plot {
+namespace {
+
+using nlohmann::json;
+
+json readJson(const std::filesystem::path& file) {
+  json read = json::parse(readText(file), nullptr, false);
+  if (!read.is_object()) throw UsageError(fmt::format("{}: not a JSON object", file.string()));
+  return read;
+}
+
+double numberAt(const json& j, const char* pointer) {
+  const json::json_pointer at(pointer);
+  return j.contains(at) && j.at(at).is_number() ? j.at(at).get<double>() : kMissing;
+}
+
+json describeSeparation(const Signal& separation) {
+  if (separation.empty()) return json::object();
+  const double sum = std::accumulate(separation.begin(), separation.end(), 0.0);
+  return {{"mean_abs", sum / static_cast<double>(separation.size())},
+          {"max_abs", *std::max_element(separation.begin(), separation.end())}};
+}
+
+}  // namespace
+
+bool isLiveFolder(const std::filesystem::path& dir) {
+  return std::filesystem::exists(dir / "site1.json") &&
+         !std::filesystem::exists(dir / "summary.json");
+}
+
+Run loadLiveRun(const std::filesystem::path& dir) {
+  const std::filesystem::path file1 = dir / "site1.json", file2 = dir / "site2.json";
+  json both = readJson(file1);
+  const json other = readJson(file2);
+  if (both.value("scenario", json()) != other.value("scenario", json()))
+    throw UsageError(
+        fmt::format("{}: another scenario than in {}; give a folder that both sites "
+                    "of one run wrote to",
+                    file2.string(), file1.string()));
+  both["site2"] = other.value("site2", json::object());
+  both["coherency"] = describeSeparation(
+      separationOf({readTable(dir / "site1.csv"), readTable(dir / "site2.csv")}));
+  Run run = parseRun(both.dump(), dir, dir.string());
+  run.live = LiveOutcome{numberAt(both, "/network/round_trip"),
+                         (numberAt(both, "/loop/late") + numberAt(other, "/loop/late")) /
+                             (numberAt(both, "/loop/ticks") + numberAt(other, "/loop/ticks"))};
+  return run;
+}
+
+}  // namespace tandem::demos::plot
