@@ -41,8 +41,8 @@ TEST(Mesh, StatesComeWholeAndInOrder) {
     last = arrival.packet.time;
     EXPECT_EQ(arrival.packet.sender, PeerId{1});
     // float32 on the wire.
-    EXPECT_NEAR(arrival.packet.user.p_W.x(), arrival.packet.time, 1e-6 * arrival.packet.time);
-    EXPECT_EQ(arrival.packet.user.p_W.y(), 1.0);
+    const Vec3 sent = VirtualSites::positionAt(arrival.packet.time, 1);
+    EXPECT_LT((arrival.packet.user.p_W - sent).norm(), 1e-6 * arrival.packet.time);
     ++counted;
   }
   EXPECT_GT(counted, 1000);
@@ -261,6 +261,63 @@ TEST(Mesh, KeysAreRenewedWithoutAGap) {
     last = arrival.time;
   }
   EXPECT_GT(last, sites.clock() - 0.05);
+}
+
+// The old keys open until the responder has gone over to the new ones, however long that takes.
+TEST(Mesh, KeysAreRenewedWithoutAGapOnALongWay) {
+  for (const double delay : {0.5, 1.5, 3.0}) {
+    SCOPED_TRACE(delay);
+    VirtualSites sites(2, {delay, 0.0, 0.0, 0.0, 0.0});
+    ASSERT_TRUE(sites.goLive(10 * delay));
+    sites.run(2 * delay);
+    const std::uint16_t epoch = sites.status(1, 2).key_epoch;
+    sites.forgetGiven();
+    sites.run(150.0);
+    EXPECT_NE(sites.status(2, 1).key_epoch, epoch);
+    for (const int id : {1, 2}) {
+      SCOPED_TRACE(id);
+      double last = 0.0, longest = 0.0;
+      for (const Arrival& arrival : sites.at(id).given[static_cast<std::size_t>(3 - id)]) {
+        if (last > 0.0) longest = std::max(longest, arrival.time - last);
+        last = arrival.time;
+      }
+      EXPECT_LT(longest, 0.02);
+      EXPECT_GT(last, sites.clock() - 0.02);
+    }
+  }
+}
+
+// Under new keys nothing can have come before a round trip is over: that is no silence.
+TEST(Mesh, KeysAreNotRenewedBeforeTheyAreDue) {
+  for (const double delay : {0.02, 0.6, 1.0, 2.5}) {
+    SCOPED_TRACE(delay);
+    VirtualSites sites(2, {delay, 0.1, 0.0, 0.0, 0.0});
+    std::set<std::uint16_t> epochs;
+    sites.net.tap = [&](const auto& bytes, const auto&, const auto&) {
+      if (bytes[3] == static_cast<std::uint8_t>(MessageType::kOpen))
+        epochs.insert(static_cast<std::uint16_t>(bytes[10] | bytes[11] << 8));
+    };
+    ASSERT_TRUE(sites.goLive(30.0));
+    sites.run(100.0);
+    EXPECT_EQ(epochs.size(), 1u);
+    sites.run(120.0);
+    EXPECT_EQ(epochs.size(), 2u);
+  }
+}
+
+TEST(Mesh, KeysAreRenewedThroughLoss) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    VirtualSites sites(2, {1.0, 0.1, 0.5, 0.25, 0.0}, seed);
+    ASSERT_TRUE(sites.goLive(60.0));
+    std::uint16_t epoch = sites.status(2, 1).key_epoch;
+    for (int renewal = 0; renewal < 3; ++renewal) {
+      sites.run(170.0);  // before 180 s
+      EXPECT_NE(sites.status(2, 1).key_epoch, epoch);
+      epoch = sites.status(2, 1).key_epoch;
+      EXPECT_TRUE(sites.areLive());
+    }
+  }
 }
 
 TEST(Mesh, FollowsAPeerToAnotherAddress) {

@@ -8,8 +8,9 @@
 namespace tandem::net {
 namespace {
 
-/// OPENs without an answer after which the cookie may be too old.
-constexpr int kOpensPerCookie = 8;
+/// OPENs for one cookie: the last is said after 7.75 s, and a cookie is good for 10 s at least. The
+/// answer to any of them counts until the next would be due, so a round trip may take 8 s.
+constexpr int kOpensPerCookie = 10;
 
 }  // namespace
 
@@ -28,8 +29,11 @@ void Caller::stop() noexcept {
 
 void Caller::advance(double now, const Address& to, const std::optional<Address>& also,
                      Outlet& outlet) noexcept {
-  if (stage_ == Stage::kOpen && retry_.tries() >= kOpensPerCookie) start(epoch_, now);
   if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
+  if (stage_ == Stage::kOpen && retry_.tries() > kOpensPerCookie) {
+    start(epoch_, now);
+    (void)retry_.isDue(now);
+  }
   std::array<std::uint8_t, kHelloSize> datagram;
   const ByteSpan out{datagram.data(), datagram.size()};
   const std::size_t size = stage_ == Stage::kHello
@@ -53,6 +57,7 @@ Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
     if (outcome.refusal != Refusal::kNone) return outcome;
   }
   open_.cookie = message->cookie;
+  opened_at_ = now;
   stage_ = Stage::kOpen;
   retry_.start(now);
   return {};
@@ -98,6 +103,7 @@ std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
     auto keys = noise_->split();
     if (!keys) return std::nullopt;
     outcome = {};
+    took_ = now - opened_at_;
     stop();
     refused_.reset();
     return SessionKeys(pair_, std::move(*keys), session_, terms->session, epoch_, now);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSilence = 1.0;       ///< after which a peer is called again [s]
 constexpr double kGone = 5.0;          ///< after which it counts as not there [s]
-constexpr double kPreviousKeys = 2.0;  ///< for which replaced keys still open [s]
+constexpr double kPreviousKeys = 2.0;  ///< for which both sides' replaced keys still open [s]
 constexpr double kAgreePeriod = 0.25;  // [s]
 constexpr double kByePeriod = 0.01;    // [s]
 constexpr int kByes = 10;
@@ -49,7 +49,10 @@ void PeerSession::advance(double now, Outlet& outlet) noexcept {
 }
 
 void PeerSession::dropOldKeys(double now) noexcept {
-  if (previous_ && now >= previous_until_) previous_.reset();
+  // Until something came under the present keys, the peer may still seal with the previous ones.
+  const bool is_replaced = has_heard_present_ && now >= previous_until_;
+  if (previous_ && (is_replaced || previous_->age(now) == secure::KeyAge::kExpired))
+    previous_.reset();
   if (coming_ && coming_->age(now) == secure::KeyAge::kExpired) {
     coming_.reset();
     answerer_.forget();
@@ -69,8 +72,10 @@ void PeerSession::forgetKeys() noexcept {
 
 void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
   if (!pair_.isInitiator() || !address_) return;
+  // Under new keys nothing comes before a round trip is over.
+  const double silence = has_heard_present_ ? kSilence : kSilence + caller_.took();
   const bool is_needed =
-      !keys_ || keys_->age(now) == secure::KeyAge::kDue || now - heard_at_ > kSilence;
+      !keys_ || keys_->age(now) == secure::KeyAge::kDue || now - heard_at_ > silence;
   if (is_needed && !caller_.isActive()) {
     epoch_ = static_cast<std::uint16_t>(epoch_ == 65535 ? 1 : epoch_ + 1);
     caller_.start(epoch_, now);
@@ -135,10 +140,7 @@ Outcome PeerSession::onOpen(const OpenMessage& message, const Address& from, dou
 }
 
 void PeerSession::install(SessionKeys keys, double now) noexcept {
-  if (keys_) {
-    previous_ = std::move(keys_);
-    previous_until_ = now + kPreviousKeys;
-  }
+  if (keys_) previous_ = std::move(keys_);
   keys_ = std::move(keys);
   epoch_ = keys_->epoch();
   heard_at_ = now;
@@ -171,6 +173,7 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
   std::optional<std::uint64_t> sequence;  // under the present keys
   if (is_coming || is_current) {
     heard_at_ = now;
+    if (!has_heard_present_) previous_until_ = now + kPreviousKeys;
     has_heard_present_ = true;
     sequence = header.sequence;
     stream_.note(*sequence, now);
@@ -178,6 +181,8 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
       newest_sequence_ = *sequence;
       address_ = from;
     }
+  } else if (!has_heard_present_) {
+    heard_at_ = now;
   }
   const ByteView payload{datagram.data + kHeaderSize,
                          datagram.size - kHeaderSize - secure::kTagSize};

@@ -93,7 +93,7 @@ class PeerSession {
   double previous_until_ = 0.0;
   std::uint16_t epoch_ = 0;
 
-  double heard_at_ = 0.0;  ///< under the present keys
+  double heard_at_ = 0.0;  ///< under the present keys, or until then under those before
   bool has_heard_present_ = false;
   std::uint64_t newest_sequence_ = 0;
   double agree_at_ = 0.0;
