@@ -3,7 +3,7 @@
 #
 #   scripts/soak.sh [forged|peers|churn]...     all three when none is named
 #
-# forged: 1e8 forged, changed, cut and replayed datagrams at a live pair. peers: four sites for 24 hours with 1 s delay,
+# forged: 1e8 forged, changed, cut, replayed and random datagrams at a live pair. peers: four sites for 24 hours with 1 s delay,
 # 100 ms jitter, a quarter lost and a quarter twice. churn: 10,000 times a site leaves, is killed or gets another port.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
