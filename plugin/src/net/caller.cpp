@@ -8,9 +8,10 @@
 namespace tandem::net {
 namespace {
 
-/// OPENs for one cookie: the last is said after 7.75 s, and a cookie is good for 10 s at least. The
-/// answer to any of them counts until the next would be due, so a round trip may take 8 s.
-constexpr int kOpensPerCookie = 10;
+/// After which a handshake begins anew: a cookie is good for 10 s at least. A round trip may take
+/// as long [s].
+constexpr double kOpenFor = 8.5;
+constexpr double kMostTook = 5.0;  // [s]
 
 }  // namespace
 
@@ -29,11 +30,8 @@ void Caller::stop() noexcept {
 
 void Caller::advance(double now, const Address& to, const std::optional<Address>& also,
                      Outlet& outlet) noexcept {
+  if (stage_ == Stage::kOpen && now - opened_at_ > kOpenFor) start(epoch_, now);
   if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
-  if (stage_ == Stage::kOpen && retry_.tries() > kOpensPerCookie) {
-    start(epoch_, now);
-    (void)retry_.isDue(now);
-  }
   std::array<std::uint8_t, kHelloSize> datagram;
   const ByteSpan out{datagram.data(), datagram.size()};
   const std::size_t size = stage_ == Stage::kHello
@@ -103,7 +101,7 @@ std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
     auto keys = noise_->split();
     if (!keys) return std::nullopt;
     outcome = {};
-    took_ = now - opened_at_;
+    took_ = std::min(now - opened_at_, kMostTook);
     stop();
     refused_.reset();
     return SessionKeys(pair_, std::move(*keys), session_, terms->session, epoch_, now);

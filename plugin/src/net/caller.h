@@ -32,7 +32,7 @@ class Caller {
   /// Remembered for the user; for a wrong cookie another is asked for.
   [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
 
-  /// How long the first OPEN waited for the last ACCEPT: at least a round trip [s].
+  /// How long the first OPEN waited for the last ACCEPT, at least a round trip; or 5 s [s].
   [[nodiscard]] double took() const noexcept { return took_; }
 
   /// What the other side refused with last, if it did since start(); not authentic.

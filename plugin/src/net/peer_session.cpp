@@ -80,6 +80,8 @@ void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
     epoch_ = static_cast<std::uint16_t>(epoch_ == 65535 ? 1 : epoch_ + 1);
     caller_.start(epoch_, now);
   }
+  // It was silent for a while, and is the same.
+  if (!is_needed) caller_.stop();
   // One that was followed to another address may have begun anew at the one that was given.
   caller_.advance(now, *address_, configured_, outlet);
 }
