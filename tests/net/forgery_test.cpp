@@ -24,6 +24,7 @@ void expectSame(const PeerStatus& before, const PeerStatus& after) {
   EXPECT_EQ(before.loss, after.loss);
   EXPECT_EQ(before.key_epoch, after.key_epoch);
   EXPECT_EQ(before.states_sent, after.states_sent);
+  EXPECT_EQ(before.states_unsent, after.states_unsent);
   EXPECT_EQ(before.states_given, after.states_given);
   EXPECT_EQ(before.states_stale, after.states_stale);
   EXPECT_EQ(before.states_too_late, after.states_too_late);

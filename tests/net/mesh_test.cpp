@@ -49,6 +49,22 @@ TEST(Mesh, StatesComeWholeAndInOrder) {
   EXPECT_NEAR(sites.status(2, 1).loss, 0.05, 0.06);
 }
 
+TEST(Mesh, StatesThatMayNotBeSentAreCounted) {
+  VirtualSites sites(2);
+  ASSERT_TRUE(sites.goLive(1.0));
+  const PeerStatus before = sites.status(1, 2);
+  StatePacket packet;
+  packet.sender = PeerId{1};
+  packet.sequence = 1'000'000;
+  packet.user.p_W.x() = 1001.0;
+  sites.at(1).mesh->link(PeerId{2}).send(packet, sites.clock());
+  EXPECT_EQ(sites.status(1, 2).states_sent, before.states_sent);
+  EXPECT_EQ(sites.status(1, 2).states_unsent, before.states_unsent + 1);
+  packet.user.p_W.x() = 1000.0;
+  sites.at(1).mesh->link(PeerId{2}).send(packet, sites.clock());
+  EXPECT_EQ(sites.status(1, 2).states_sent, before.states_sent + 1);
+}
+
 TEST(Mesh, JitterBecomesConstantDelay) {
   VirtualSites sites(2, {0.05, 0.02, 0.0, 0.0, 0.0}, 8);
   ASSERT_TRUE(sites.goLive(2.0));

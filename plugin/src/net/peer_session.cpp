@@ -94,7 +94,7 @@ void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
       Room room;
       const std::size_t size = agreement_.nextPart(room.payload());
       if (size == 0) return;
-      sendSealed(MessageType::kAgree, size, room.datagram(), outlet);
+      (void)sendSealed(MessageType::kAgree, size, room.datagram(), outlet);
     }
   } catch (const std::bad_alloc&) {
     // Next time.
@@ -112,7 +112,8 @@ void PeerSession::sayBye(double now, Outlet& outlet) noexcept {
   if (byes_left_ == 0 || now < bye_at_) return;
   Room room;
   if (keys_)
-    sendSealed(MessageType::kBye, encodeBye(*bye_reason_, room.payload()), room.datagram(), outlet);
+    (void)sendSealed(MessageType::kBye, encodeBye(*bye_reason_, room.payload()), room.datagram(),
+                     outlet);
   bye_at_ = now + kByePeriod;
   if (--byes_left_ == 0) forgetKeys();
 }
@@ -209,7 +210,7 @@ Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> seque
       const auto part = decodeAgree(payload);
       if (!part) return part.refusal();
       const std::size_t size = agreement_.onAgree(*part, room.payload());
-      if (size > 0) sendSealed(MessageType::kAgreeAck, size, room.datagram(), outlet);
+      if (size > 0) (void)sendSealed(MessageType::kAgreeAck, size, room.datagram(), outlet);
       return {};
     }
     case MessageType::kAgreeAck: {
@@ -234,19 +235,16 @@ void PeerSession::send(const StatePacket& packet, double now, Outlet& outlet) no
   if (!keys_ || bye_reason_) return;
   Room room;
   const std::size_t size = stream_.write(packet, now, room.payload());
-  if (size == 0) {
-    ++states_unsent_;
-    return;
-  }
-  sendSealed(MessageType::kState, size, room.datagram(), outlet);
-  ++states_sent_;
+  const bool is_sent = size > 0 && sendSealed(MessageType::kState, size, room.datagram(), outlet);
+  ++(is_sent ? states_sent_ : states_unsent_);
 }
 
-void PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+bool PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                              Outlet& outlet) noexcept {
-  if (!keys_ || !address_) return;
+  if (!keys_ || !address_) return false;
   const std::size_t size = keys_->seal(type, payload_size, datagram);
   if (size > 0) outlet.send({datagram.data, size}, *address_);
+  return size > 0;
 }
 
 PeerStatus PeerSession::status(double now) const {
@@ -270,6 +268,7 @@ PeerStatus PeerSession::status(double now) const {
   status.loss = stream_.loss();
   status.key_epoch = keys_ ? keys_->epoch() : std::uint16_t{0};
   status.states_sent = states_sent_;
+  status.states_unsent = states_unsent_;
   status.states_given = playout.counts().given;
   status.states_stale = playout.counts().stale;
   status.states_too_late = playout.counts().too_late;

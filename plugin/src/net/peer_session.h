@@ -70,7 +70,8 @@ class PeerSession {
   [[nodiscard]] Outcome handle(MessageType type, std::optional<std::uint64_t> sequence,
                                ByteView payload, double now, Outlet& outlet);
   void install(SessionKeys keys, double now) noexcept;
-  void sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+  /// False if the key is used up or it is not known where the peer is.
+  bool sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                   Outlet& outlet) noexcept;
   void callIfNeeded(double now, Outlet& outlet) noexcept;
   void tellConfiguration(double now, Outlet& outlet) noexcept;

@@ -35,6 +35,7 @@ struct PeerStatus {
   double loss = 0.0;               ///< of the peer's packets, 0 to 1
   std::uint16_t key_epoch = 0;     ///< handshakes so far
   std::uint64_t states_sent = 0;
+  std::uint64_t states_unsent = 0;    ///< outside what may be sent, such as beyond 1000 m
   std::uint64_t states_given = 0;     ///< to the site
   std::uint64_t states_stale = 0;     ///< overtaken: not given
   std::uint64_t states_too_late = 0;  ///< older than the rest by more than half a second
