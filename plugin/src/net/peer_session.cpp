@@ -155,11 +155,6 @@ void PeerSession::install(SessionKeys keys, double now) noexcept {
   agree_at_ = now;
 }
 
-bool PeerSession::has(const ClearHeader& header) const noexcept {
-  return (keys_ && keys_->isFor(header)) || (coming_ && coming_->isFor(header)) ||
-         (previous_ && previous_->isFor(header));
-}
-
 Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
                               double now, Outlet& outlet) noexcept {
   const bool is_coming = coming_ && coming_->isFor(header);

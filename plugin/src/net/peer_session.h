@@ -48,7 +48,6 @@ class PeerSession {
                                Outlet& outlet) noexcept;
   [[nodiscard]] Outcome onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
                                  double now, Outlet& outlet) noexcept;
-  [[nodiscard]] bool has(const ClearHeader& header) const noexcept;
 
   /// Sends a state if there is somebody to send it to.
   void send(const StatePacket& packet, double now, Outlet& outlet) noexcept;
