@@ -30,6 +30,7 @@ void expectSame(const PeerStatus& before, const PeerStatus& after) {
   EXPECT_EQ(before.states_too_late, after.states_too_late);
   EXPECT_EQ(before.refused, after.refused);
   EXPECT_EQ(before.refused_version, after.refused_version);
+  EXPECT_EQ(before.left, after.left);
   EXPECT_EQ(before.difference.has_value(), after.difference.has_value());
 }
 

@@ -134,7 +134,15 @@ TEST(Mesh, OtherConfigurationsAreComparedByName) {
     EXPECT_TRUE(sites.at(id).given[static_cast<std::size_t>(3 - id)].empty());
     EXPECT_GT(sites.at(id).mesh->counts().of(Refusal::kNotAgreed), 0u);
   }
+  // Whoever leaves says why, and the other still knows what it was.
+  sites.at(1).mesh->leave(ByeReason::kConfigurationsDiffer, sites.clock());
+  sites.run(0.3);
+  EXPECT_EQ(sites.status(2, 1).phase, PeerPhase::kLeft);
+  EXPECT_EQ(sites.status(2, 1).left, ByeReason::kConfigurationsDiffer);
+  ASSERT_TRUE(sites.status(2, 1).difference);
+  EXPECT_EQ(sites.status(2, 1).difference->key, "coordination.stiffness");
   // Mended, and begun anew.
+  sites.start(1);
   sites.start(2);
   EXPECT_TRUE(sites.goLive(3.0));
 }
@@ -321,8 +329,11 @@ TEST(Mesh, FarewellIsHeardThroughLoss) {
   sites.at(1).mesh->leave(ByeReason::kUserLeaves, sites.clock());
   sites.run(0.3);
   EXPECT_EQ(sites.status(2, 1).phase, PeerPhase::kLeft);
+  EXPECT_EQ(sites.status(2, 1).left, ByeReason::kUserLeaves);
+  EXPECT_FALSE(sites.status(2, 1).difference);
   sites.start(1);
   EXPECT_TRUE(sites.goLive(60.0));
+  EXPECT_FALSE(sites.status(2, 1).left);
 }
 
 TEST(Mesh, LeaverWithTheHigherIdMayComeBack) {

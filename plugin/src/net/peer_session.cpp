@@ -271,7 +271,9 @@ PeerStatus PeerSession::status(double now) const {
     status.refused = refused->code;
     status.refused_version = refused->version;
   }
-  if (keys_) status.difference = agreement_.difference();
+  status.left = left_;
+  if (keys_ || left_ == ByeReason::kConfigurationsDiffer)
+    status.difference = agreement_.difference();
   return status;
 }
 

@@ -41,6 +41,7 @@ struct PeerStatus {
   std::uint64_t states_too_late = 0;  ///< older than the rest by more than half a second
   std::optional<RefuseCode> refused;  ///< by the peer, or somebody who says so
   std::uint8_t refused_version = 0;   ///< that the refusing side speaks
+  std::optional<ByeReason> left;      ///< why the peer has said farewell
   std::optional<ConfigurationDifference> difference;
 };
 
