@@ -78,6 +78,7 @@ class Playout {
   [[nodiscard]] bool isStale(const StatePacket& packet) const noexcept;
 
   static constexpr double kWindow = 2.0;           // [s]
+  static constexpr double kSettling = 1.0;         ///< the wait is free to jump [s]
   static constexpr std::size_t kRemembered = 256;  // latenesses
   static constexpr std::size_t kRarely = 16;       // packets between two looks at all of them
 
