@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# The long tests of the network, in virtual time; minutes of a machine each. scripts/test.sh runs a slice of them.
+# The long tests of the network: in virtual time, minutes of a machine each, and one over real sockets.
+# scripts/test.sh runs a slice of them.
 #
-#   scripts/soak.sh [forged|peers|churn|matrix]...     all four when none is named
+#   scripts/soak.sh [forged|peers|churn|matrix|flood]...     all five when none is named
 #
-# forged: 1e8 forged, changed, cut and replayed datagrams at a live pair. peers: four sites for 24 hours with 1 s delay,
-# 100 ms jitter, a quarter lost and a quarter twice. churn: 10,000 times a site leaves, is killed or gets another port.
-# matrix: two sites with worlds and devices under 150 conditions of the network, three times each, with an outage.
+# forged: 1e8 forged, changed, cut, replayed and random datagrams at a live pair. peers: four sites for 24 hours with
+# 1 s delay, 100 ms jitter, a quarter lost and a quarter twice. churn: 10,000 times a site leaves, is killed or gets
+# another port. matrix: two sites with worlds and devices under 150 conditions of the network, three times each, with an
+# outage. flood: two `tandem peer` for 20 s, and again with 100,000 forged datagrams a second at one of them, three times
+# each: its memory must grow no more than without (64 kB aside), and no more of its ticks be late (a hundredth of all
+# aside).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -18,17 +22,85 @@ soak() {
   step "$name: passed in $((SECONDS - start)) s"
 }
 
-(( $# > 0 )) || set -- forged peers churn matrix
+flood_rate=100000  # datagrams a second
+flood_port=17012   # of the site that is flooded
+out="$checkout/out/soak"
+
+# rss PID: resident memory [kB].
+rss() { awk '/^VmRSS:/ { print $2 }' "/proc/$1/status"; }
+
+# peer SITE PORT OTHER_PORT: for the background, whose process it becomes.
+peer() {
+  exec "$checkout/build/release/demos/tandem" peer --scenario "$checkout/demos/scenarios/experiment1.toml" \
+    --set experiment.duration=20 --site "$1" --bind "127.0.0.1:$2" --peer "127.0.0.1:$3" --key "$out/k.psk" \
+    --out "$out/$run" --quiet
+}
+
+# live_pair NAME RATE: 20 s with so many forged datagrams a second at site 2. Sets $late, of a million of its ticks, and
+# $grown, its memory in kB from the 5th to the 19th second; and prints a line.
+live_pair() {
+  local run=$1 rate=$2 first second early end
+  mkdir -p "$out/$run"
+  peer 2 $flood_port $((flood_port - 1)) & second=$!
+  peer 1 $((flood_port - 1)) $flood_port & first=$!
+  sleep 2  # the countdown is over
+  "$checkout/build/release/tests/tandem_flood" $flood_port "$rate" 18 >"$out/$run/flood.txt" & local flood=$!
+  sleep 3
+  early=$(rss $second)
+  sleep 14
+  end=$(rss $second)
+  wait $first $second $flood
+  grown=$((end - early))
+  late=$(python3 - "$out/$run/site2.json" "$early" "$end" <<'PYTHON'
+import json, sys
+run = json.load(open(sys.argv[1]))
+loop, network = run["loop"], run["network"]
+refused = sum(network["datagrams"]["refused"].values())
+print(f"  ticks {loop['ticks']}, late {loop['late']}, worst {1e3 * loop['worst_lateness']:.2f} ms; "
+      f"memory {sys.argv[2]} kB after 5 s, {sys.argv[3]} kB after 19 s; "
+      f"states given {network['states']['given']}, datagrams refused {refused}", file=sys.stderr)
+print(1000000 * loop["late"] // loop["ticks"])
+PYTHON
+)
+}
+
+# median NUMBER...: of an odd count.
+median() { printf '%s\n' "$@" | sort -n | sed -n "$((($# + 1) / 2))p"; }
+
+flood() {
+  local late grown all_late=() all_grown=() quiet_late=() quiet_grown=()
+  rm -rf "$out" && mkdir -p "$out"
+  "$checkout/build/release/demos/tandem" key new "$out/k.psk" >/dev/null
+  for round in 1 2 3; do  # other programs make more difference than the flood, so in turns
+    step "flood: without"
+    live_pair "quiet$round" 0
+    quiet_late+=("$late") quiet_grown+=("$grown")
+    step "flood: with $flood_rate a second"
+    live_pair "flooded$round" $flood_rate
+    all_late+=("$late") all_grown+=("$grown")
+  done
+  late=$(median "${all_late[@]}") grown=$(median "${all_grown[@]}")
+  local most_late=$(($(median "${quiet_late[@]}") + 10000)) most_grown=$(($(median "${quiet_grown[@]}") + 64))
+  if (( grown > most_grown )); then
+    step "flood: FAILED: memory grew by $grown kB; at most $most_grown kB"; return 1
+  fi
+  if (( late > most_late )); then
+    step "flood: FAILED: $late of a million ticks were late; at most $most_late"; return 1
+  fi
+  step "flood: passed"
+}
+
+(( $# > 0 )) || set -- forged peers churn matrix flood
 for name in "$@"; do
   case "$name" in
-    forged|peers|churn|matrix) ;;
-    -h|--help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
-    *) echo "soak.sh: $name: there is no such test; allowed: forged, peers, churn, matrix" >&2; exit 2 ;;
+    forged|peers|churn|matrix|flood) ;;
+    -h|--help) sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    *) echo "soak.sh: $name: there is no such test; allowed: forged, peers, churn, matrix, flood" >&2; exit 2 ;;
   esac
 done
 "$checkout/scripts/packages.sh" install build test
 configure_preset release -DTANDEM_BUILD_TESTS=ON
-build_preset release tandem_net_tests tandem_matrix_tests
+build_preset release tandem_net_tests tandem_matrix_tests tandem_flood tandem
 for name in "$@"; do
   case "$name" in
     forged) soak forged tandem_net_tests Mesh.ForgedAndReplayedDatagramsChangeNothing \
@@ -36,5 +108,6 @@ for name in "$@"; do
     peers)  soak peers tandem_net_tests Soak.FourPeersOnABadNetwork TANDEM_SOAK_MINUTES=1440 ;;
     churn)  soak churn tandem_net_tests Soak.SitesComeAndGo TANDEM_CHURN_CYCLES=10000 ;;
     matrix) soak matrix tandem_matrix_tests '*ConditionMatrixTest*' TANDEM_MATRIX_CELLS=150 TANDEM_MATRIX_SEEDS=3 ;;
+    flood)  flood ;;
   esac
 done

@@ -132,7 +132,7 @@ void Playout::learn(double transit, double lateness, double now) noexcept {
   if (remembered_ < kRarely || learnt_ % kRarely == 0) lookAtRemembered();
   const double wanted = std::min(jitter_, settings_.most);
   // At first nothing is known, and nothing is felt yet that a change could disturb.
-  const bool is_new = now - start_ < kWindow;
+  const bool is_new = now - start_ < kSettling;
   const double step = is_new ? settings_.most : settings_.slew * (now - last_);
   wait_ = std::clamp(wanted, wait_ - step, wait_ + step);
   last_ = now;

@@ -17,13 +17,16 @@ using test::VirtualSites;
 TEST(Soak, FourPeersOnABadNetwork) {
   constexpr std::uint64_t kSeed = 20090404;
   SCOPED_TRACE(kSeed);
-  const std::uint64_t minutes = readCount("TANDEM_SOAK_MINUTES", 2);
+  const std::uint64_t minutes = readCount("TANDEM_SOAK_MINUTES", 10);
   VirtualSites sites(4, {1.0, 0.1, 0.25, 0.25, 0.0}, kSeed);
   ASSERT_TRUE(sites.goLive(120.0));
   for (std::uint64_t minute = 0; minute < minutes; ++minute) {
     SCOPED_TRACE(minute);
     sites.forgetGiven();
+    const std::uint16_t epoch = sites.status(1, 2).key_epoch;
     sites.run(60.0);
+    // New keys every 120 s and no oftener, also where the count wraps round.
+    ASSERT_LE(static_cast<std::uint16_t>(sites.status(1, 2).key_epoch - epoch), 2);
     for (int id = 1; id <= 4; ++id) {
       for (int other = 1; other <= 4; ++other) {
         if (id == other) continue;

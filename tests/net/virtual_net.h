@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
@@ -150,6 +151,9 @@ class VirtualSites {
   }
   void stop(int id) { at(id).mesh.reset(); }
 
+  /// Where a site's user is. It stays where a state may be sent from, however long a test takes.
+  static Vec3 positionAt(double time, int id) { return Vec3(std::fmod(time, 500.0), id, 0.0); }
+
   static Configuration usual() { return makeConfiguration({{"object.mass", "0.2"}}); }
 
   void run(double seconds) {
@@ -207,7 +211,7 @@ class VirtualSites {
         packet.sender = PeerId{static_cast<std::uint32_t>(site.id)};
         packet.sequence = site.sequence;
         packet.time = clock();
-        packet.user.p_W = Vec3(clock(), site.id, 0.0);
+        packet.user.p_W = positionAt(clock(), site.id);
         link.send(packet, clock());
       }
       while (const auto arrival = link.receive(clock(), clock() + 1e-3))

@@ -10,7 +10,6 @@
 
 #include "tandem/coordination/wire_sealing.h"
 
-#include "secure/nonce.h"
 #include "secure/secure_support.h"
 
 namespace tandem::test {
@@ -32,8 +31,8 @@ ByteVector seal(Sealer& sealer, const ByteVector& text, const ByteVector& header
 }
 
 TEST(Nonce, IsSaltThenSequenceLowestByteFirst) {
-  EXPECT_EQ(toHex(secure::makeNonce(0x01020304, 0x1122334455667788)), "040302018877665544332211");
-  EXPECT_EQ(toHex(secure::makeNonce(0, 1)), "000000000100000000000000");
+  EXPECT_EQ(toHex(writeNonce(0x01020304, 0x1122334455667788)), "040302018877665544332211");
+  EXPECT_EQ(toHex(writeNonce(0, 1)), "000000000100000000000000");
 }
 
 TEST(Seal, OpensToWhatWasSealed) {

@@ -145,6 +145,25 @@ TEST(Playout, SlewsTheWait) {
   EXPECT_NEAR(playout.wait(), 0.03, 1e-3);
 }
 
+// A site begins 1.3 s after its first packets: from then on no wait may jump.
+TEST(Playout, WaitSlewsFromTheStartOfASite) {
+  PlayoutSettings settings;
+  Playout playout(settings);
+  double last = 0.0, most = 0.0;
+  for (std::uint64_t n = 0; n < 512; ++n) {
+    const double sent = static_cast<double>(n) * kPeriod;
+    const double jitter = sent < 1.4 ? 0.002 : 0.03;
+    const double now = sent + kDelay + (n % 2 == 0 ? jitter : 0.0);
+    (void)playout.push(makeNumbered(n), sent, now);
+    while (playout.pop(now, now + kPeriod)) {
+    }
+    if (sent > 1.3) most = std::max(most, playout.wait() - last);
+    last = playout.wait();
+  }
+  EXPECT_LT(most, settings.slew * 0.05);  // packets are at most 0.04 s apart
+  EXPECT_GT(playout.wait(), 0.02);
+}
+
 TEST(Playout, OffAppliesAsItComes) {
   PlayoutSettings settings;
   settings.is_on = false;

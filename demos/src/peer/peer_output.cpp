@@ -43,6 +43,7 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
           {"loss", peer.loss},
           {"states",
            {{"sent", peer.states_sent},
+            {"unsent", peer.states_unsent},
             {"given", peer.states_given},
             {"stale", peer.states_stale},
             {"too_late", peer.states_too_late}}},

@@ -86,7 +86,7 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
     poll();
     const double now = clock_.now();
     if (stop()) {
-      leave();
+      leave(ByeReason::kUserLeaves);
       return false;
     }
     const PeerStatus status = mesh_.status(other_, now);
@@ -104,8 +104,11 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
     if (!link_.start()) {
       try {
         checkAnswer(now - began, patience);
+      } catch (const UsageError&) {
+        leave(ByeReason::kConfigurationsDiffer);
+        throw;
       } catch (const std::exception&) {
-        leave();
+        leave(ByeReason::kProgramEnds);
         throw;
       }
     }
@@ -138,6 +141,10 @@ void PeerRun::checkAnswer(double waited, double patience) const {
                     "the same file and --set on both sides",
                     static_cast<std::uint32_t>(other_), d.key, show(d.here), show(d.there)));
   }
+  if (status.left == ByeReason::kConfigurationsDiffer)
+    throw UsageError(fmt::format(
+        "site {} says that it has another scenario; use the same file and --set on both sides",
+        static_cast<std::uint32_t>(other_)));
   if (waited < patience) return;
   const std::string where = status.address ? toString(*status.address) : "its address";
   const std::string why =
@@ -173,7 +180,7 @@ void PeerRun::run(const std::function<bool()>& stop,
     }
   }
   fadeForce();
-  leave();
+  leave(stop() ? ByeReason::kUserLeaves : ByeReason::kProgramEnds);
 }
 
 /// Nothing is rendered any more, but a hand may still be there.
@@ -192,9 +199,9 @@ void PeerRun::fadeForce() noexcept {
   }
 }
 
-void PeerRun::leave() noexcept {
+void PeerRun::leave(ByeReason reason) noexcept {
   const double until = clock_.now() + kFarewell;
-  mesh_.leave(clock_.now());
+  mesh_.leave(clock_.now(), reason);
   while (clock_.now() < until) {
     poll();
     mesh_.wait(5e-3);

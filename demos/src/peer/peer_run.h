@@ -63,7 +63,7 @@ class PeerRun {
   void joinLate(double now);
   void poll() noexcept;
   void checkAnswer(double waited, double patience) const;
-  void leave() noexcept;
+  void leave(ByeReason reason) noexcept;
   void fadeForce() noexcept;
   [[nodiscard]] PeerReport makeReport(double time) const;
   [[nodiscard]] double computeCoherency() const noexcept;

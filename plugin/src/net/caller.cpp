@@ -8,8 +8,10 @@
 namespace tandem::net {
 namespace {
 
-/// OPENs without an answer after which the cookie may be too old.
-constexpr int kOpensPerCookie = 8;
+/// After which a handshake begins anew: a cookie is good for 10 s at least. A round trip may take
+/// as long [s].
+constexpr double kOpenFor = 8.5;
+constexpr double kMostTook = 5.0;  // [s]
 
 }  // namespace
 
@@ -28,7 +30,7 @@ void Caller::stop() noexcept {
 
 void Caller::advance(double now, const Address& to, const std::optional<Address>& also,
                      Outlet& outlet) noexcept {
-  if (stage_ == Stage::kOpen && retry_.tries() >= kOpensPerCookie) start(epoch_, now);
+  if (stage_ == Stage::kOpen && now - opened_at_ > kOpenFor) start(epoch_, now);
   if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
   std::array<std::uint8_t, kHelloSize> datagram;
   const ByteSpan out{datagram.data(), datagram.size()};
@@ -53,6 +55,7 @@ Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
     if (outcome.refusal != Refusal::kNone) return outcome;
   }
   open_.cookie = message->cookie;
+  opened_at_ = now;
   stage_ = Stage::kOpen;
   retry_.start(now);
   return {};
@@ -98,6 +101,7 @@ std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
     auto keys = noise_->split();
     if (!keys) return std::nullopt;
     outcome = {};
+    took_ = std::min(now - opened_at_, kMostTook);
     stop();
     refused_.reset();
     return SessionKeys(pair_, std::move(*keys), session_, terms->session, epoch_, now);

@@ -32,6 +32,9 @@ class Caller {
   /// Remembered for the user; for a wrong cookie another is asked for.
   [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
 
+  /// How long the first OPEN waited for the last ACCEPT, at least a round trip; or 5 s [s].
+  [[nodiscard]] double took() const noexcept { return took_; }
+
   /// What the other side refused with last, if it did since start(); not authentic.
   [[nodiscard]] const std::optional<RefuseMessage>& refused() const noexcept { return refused_; }
 
@@ -45,6 +48,7 @@ class Caller {
   const SecretKey& key_;
   Stage stage_ = Stage::kIdle;
   Retry retry_;
+  double opened_at_ = 0.0, took_ = 0.0;
   std::uint64_t nonce_ = 0;
   std::uint16_t epoch_ = 0;
   std::uint32_t session_ = 0;  ///< ours

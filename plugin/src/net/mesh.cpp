@@ -174,9 +174,10 @@ Outcome Mesh::handleOpen(ByteView datagram, const Address& from, double now) noe
 
 Outcome Mesh::handleSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
                            double now) noexcept {
-  for (auto& session : sessions_)
-    if (session->has(header)) return session->onSealed(header, datagram, from, now, outlet_);
-  return Refusal::kUnknownSession;
+  // Each pair draws its session numbers by itself, so two may be the same: the sender tells which.
+  PeerSession* session = find(header.sender);
+  if (!session) return Refusal::kUnknownSession;
+  return session->onSealed(header, datagram, from, now, outlet_);
 }
 
 void Mesh::refuse(const HandshakeRoute& asked, RefuseCode code, const Address& to,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSilence = 1.0;       ///< after which a peer is called again [s]
 constexpr double kGone = 5.0;          ///< after which it counts as not there [s]
-constexpr double kPreviousKeys = 2.0;  ///< for which replaced keys still open [s]
+constexpr double kPreviousKeys = 2.0;  ///< for which both sides' replaced keys still open [s]
 constexpr double kAgreePeriod = 0.25;  // [s]
 constexpr double kByePeriod = 0.01;    // [s]
 constexpr int kByes = 10;
@@ -49,7 +49,10 @@ void PeerSession::advance(double now, Outlet& outlet) noexcept {
 }
 
 void PeerSession::dropOldKeys(double now) noexcept {
-  if (previous_ && now >= previous_until_) previous_.reset();
+  // Until something came under the present keys, the peer may still seal with the previous ones.
+  const bool is_replaced = has_heard_present_ && now >= previous_until_;
+  if (previous_ && (is_replaced || previous_->age(now) == secure::KeyAge::kExpired))
+    previous_.reset();
   if (coming_ && coming_->age(now) == secure::KeyAge::kExpired) {
     coming_.reset();
     answerer_.forget();
@@ -69,12 +72,16 @@ void PeerSession::forgetKeys() noexcept {
 
 void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
   if (!pair_.isInitiator() || !address_) return;
+  // Under new keys nothing comes before a round trip is over.
+  const double silence = has_heard_present_ ? kSilence : kSilence + caller_.took();
   const bool is_needed =
-      !keys_ || keys_->age(now) == secure::KeyAge::kDue || now - heard_at_ > kSilence;
+      !keys_ || keys_->age(now) == secure::KeyAge::kDue || now - heard_at_ > silence;
   if (is_needed && !caller_.isActive()) {
     epoch_ = static_cast<std::uint16_t>(epoch_ == 65535 ? 1 : epoch_ + 1);
     caller_.start(epoch_, now);
   }
+  // It was silent for a while, and is the same.
+  if (!is_needed) caller_.stop();
   // One that was followed to another address may have begun anew at the one that was given.
   caller_.advance(now, *address_, configured_, outlet);
 }
@@ -87,7 +94,7 @@ void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
       Room room;
       const std::size_t size = agreement_.nextPart(room.payload());
       if (size == 0) return;
-      sendSealed(MessageType::kAgree, size, room.datagram(), outlet);
+      (void)sendSealed(MessageType::kAgree, size, room.datagram(), outlet);
     }
   } catch (const std::bad_alloc&) {
     // Next time.
@@ -105,7 +112,8 @@ void PeerSession::sayBye(double now, Outlet& outlet) noexcept {
   if (byes_left_ == 0 || now < bye_at_) return;
   Room room;
   if (keys_)
-    sendSealed(MessageType::kBye, encodeBye(*bye_reason_, room.payload()), room.datagram(), outlet);
+    (void)sendSealed(MessageType::kBye, encodeBye(*bye_reason_, room.payload()), room.datagram(),
+                     outlet);
   bye_at_ = now + kByePeriod;
   if (--byes_left_ == 0) forgetKeys();
 }
@@ -135,10 +143,7 @@ Outcome PeerSession::onOpen(const OpenMessage& message, const Address& from, dou
 }
 
 void PeerSession::install(SessionKeys keys, double now) noexcept {
-  if (keys_) {
-    previous_ = std::move(keys_);
-    previous_until_ = now + kPreviousKeys;
-  }
+  if (keys_) previous_ = std::move(keys_);
   keys_ = std::move(keys);
   epoch_ = keys_->epoch();
   heard_at_ = now;
@@ -148,11 +153,6 @@ void PeerSession::install(SessionKeys keys, double now) noexcept {
   stream_.startKeys();
   agreement_.restart();
   agree_at_ = now;
-}
-
-bool PeerSession::has(const ClearHeader& header) const noexcept {
-  return (keys_ && keys_->isFor(header)) || (coming_ && coming_->isFor(header)) ||
-         (previous_ && previous_->isFor(header));
 }
 
 Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
@@ -171,6 +171,7 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
   std::optional<std::uint64_t> sequence;  // under the present keys
   if (is_coming || is_current) {
     heard_at_ = now;
+    if (!has_heard_present_) previous_until_ = now + kPreviousKeys;
     has_heard_present_ = true;
     sequence = header.sequence;
     stream_.note(*sequence, now);
@@ -178,6 +179,8 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
       newest_sequence_ = *sequence;
       address_ = from;
     }
+  } else if (!has_heard_present_) {
+    heard_at_ = now;
   }
   const ByteView payload{datagram.data + kHeaderSize,
                          datagram.size - kHeaderSize - secure::kTagSize};
@@ -202,7 +205,7 @@ Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> seque
       const auto part = decodeAgree(payload);
       if (!part) return part.refusal();
       const std::size_t size = agreement_.onAgree(*part, room.payload());
-      if (size > 0) sendSealed(MessageType::kAgreeAck, size, room.datagram(), outlet);
+      if (size > 0) (void)sendSealed(MessageType::kAgreeAck, size, room.datagram(), outlet);
       return {};
     }
     case MessageType::kAgreeAck: {
@@ -227,19 +230,16 @@ void PeerSession::send(const StatePacket& packet, double now, Outlet& outlet) no
   if (!keys_ || bye_reason_) return;
   Room room;
   const std::size_t size = stream_.write(packet, now, room.payload());
-  if (size == 0) {
-    ++states_unsent_;
-    return;
-  }
-  sendSealed(MessageType::kState, size, room.datagram(), outlet);
-  ++states_sent_;
+  const bool is_sent = size > 0 && sendSealed(MessageType::kState, size, room.datagram(), outlet);
+  ++(is_sent ? states_sent_ : states_unsent_);
 }
 
-void PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+bool PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                              Outlet& outlet) noexcept {
-  if (!keys_ || !address_) return;
+  if (!keys_ || !address_) return false;
   const std::size_t size = keys_->seal(type, payload_size, datagram);
   if (size > 0) outlet.send({datagram.data, size}, *address_);
+  return size > 0;
 }
 
 PeerStatus PeerSession::status(double now) const {
@@ -263,6 +263,7 @@ PeerStatus PeerSession::status(double now) const {
   status.loss = stream_.loss();
   status.key_epoch = keys_ ? keys_->epoch() : std::uint16_t{0};
   status.states_sent = states_sent_;
+  status.states_unsent = states_unsent_;
   status.states_given = playout.counts().given;
   status.states_stale = playout.counts().stale;
   status.states_too_late = playout.counts().too_late;
@@ -270,7 +271,9 @@ PeerStatus PeerSession::status(double now) const {
     status.refused = refused->code;
     status.refused_version = refused->version;
   }
-  if (keys_) status.difference = agreement_.difference();
+  status.left = left_;
+  if (keys_ || left_ == ByeReason::kConfigurationsDiffer)
+    status.difference = agreement_.difference();
   return status;
 }
 

@@ -48,7 +48,6 @@ class PeerSession {
                                Outlet& outlet) noexcept;
   [[nodiscard]] Outcome onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
                                  double now, Outlet& outlet) noexcept;
-  [[nodiscard]] bool has(const ClearHeader& header) const noexcept;
 
   /// Sends a state if there is somebody to send it to.
   void send(const StatePacket& packet, double now, Outlet& outlet) noexcept;
@@ -70,7 +69,8 @@ class PeerSession {
   [[nodiscard]] Outcome handle(MessageType type, std::optional<std::uint64_t> sequence,
                                ByteView payload, double now, Outlet& outlet);
   void install(SessionKeys keys, double now) noexcept;
-  void sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+  /// False if the key is used up or it is not known where the peer is.
+  bool sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                   Outlet& outlet) noexcept;
   void callIfNeeded(double now, Outlet& outlet) noexcept;
   void tellConfiguration(double now, Outlet& outlet) noexcept;
@@ -93,7 +93,7 @@ class PeerSession {
   double previous_until_ = 0.0;
   std::uint16_t epoch_ = 0;
 
-  double heard_at_ = 0.0;  ///< under the present keys
+  double heard_at_ = 0.0;  ///< under the present keys, or until then under those before
   bool has_heard_present_ = false;
   std::uint64_t newest_sequence_ = 0;
   double agree_at_ = 0.0;

@@ -11,22 +11,18 @@ class Retry {
   void start(double now) noexcept {
     next_ = now;
     wait_ = kFirst;
-    tries_ = 0;
   }
-  /// True if it is time, and then counts the try.
+  /// True if it is time, and then the next wait begins.
   [[nodiscard]] bool isDue(double now) noexcept {
     if (now < next_) return false;
     next_ = now + wait_;
     wait_ = std::min(2.0 * wait_, kMost);
-    ++tries_;
     return true;
   }
-  [[nodiscard]] int tries() const noexcept { return tries_; }
 
  private:
   static constexpr double kFirst = 0.25, kMost = 1.0;  // [s]
   double next_ = 0.0, wait_ = kFirst;
-  int tries_ = 0;
 };
 
 /// So many a second, and no more than `depth` at once.

@@ -82,7 +82,7 @@ void UdpMesh::poll(double now) noexcept {
 
 void UdpMesh::wait(double seconds) const noexcept { impl_->socket.wait(seconds); }
 
-void UdpMesh::leave(double now) noexcept { impl_->mesh.leave(ByeReason::kUserLeaves, now); }
+void UdpMesh::leave(double now, ByeReason reason) noexcept { impl_->mesh.leave(reason, now); }
 
 PeerStatus UdpMesh::status(PeerId peer, double now) const { return impl_->mesh.status(peer, now); }
 

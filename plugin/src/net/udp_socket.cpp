@@ -119,6 +119,10 @@ UdpSocket::UdpSocket(const Address& bind_to) {
 UdpSocket::~UdpSocket() { ::close(socket_); }
 
 void UdpSocket::send(ByteView datagram, const Address& to) noexcept {
+  if (is_ipv4_ && !isMappedIpv4(to)) {  // no way there from this machine
+    ++unsent_;
+    return;
+  }
   const SystemAddress address = toSystem(to, is_ipv4_);
   const ssize_t sent =
       ::sendto(socket_, datagram.data, datagram.size, 0, address.get(), address.size);

@@ -21,12 +21,4 @@ struct WipedBytes : std::array<std::uint8_t, kSize> {
   WipedBytes& operator=(const WipedBytes&) = delete;
 };
 
-/// Appends a number's bytes, lowest first; returns where the next goes.
-template <typename Unsigned>
-constexpr std::uint8_t* putLittleEndian(std::uint8_t* to, Unsigned value) noexcept {
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
-    *to++ = static_cast<std::uint8_t>(value >> (8 * i));
-  return to;
-}
-
 }  // namespace tandem::secure

@@ -12,6 +12,14 @@ namespace {
 constexpr std::size_t kLongestAddress = 16;
 constexpr std::size_t kFixedPart = 8 + 8 + 3 * 2 + 1;
 
+/// Appends a number's bytes, lowest first; returns where the next goes.
+template <typename Unsigned>
+constexpr std::uint8_t* putLittleEndian(std::uint8_t* to, Unsigned value) noexcept {
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
+    *to++ = static_cast<std::uint8_t>(value >> (8 * i));
+  return to;
+}
+
 }  // namespace
 
 CookieMaker::CookieMaker(SecretKey secret, double slot_length)

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "secure/nonce.h"
+#include "tandem/coordination/wire_sealing.h"
 
 namespace tandem::secure {
 
@@ -14,7 +14,7 @@ bool Sealer::seal(ByteView associated, Bytes datagram) noexcept {
   const std::size_t size = datagram.size() - kTagSize;
   crypto_aead_chacha20poly1305_ietf_encrypt_detached(
       datagram.data(), datagram.data() + size, nullptr, datagram.data(), size, associated.data(),
-      associated.size(), nullptr, makeNonce(salt_, next_).data(), key_.data());
+      associated.size(), nullptr, writeNonce(salt_, next_).data(), key_.data());
   ++next_;
   return true;
 }
@@ -26,7 +26,7 @@ bool Opener::open(std::uint64_t sequence, ByteView associated, Bytes datagram) c
   const std::size_t size = datagram.size() - kTagSize;
   return crypto_aead_chacha20poly1305_ietf_decrypt_detached(
              datagram.data(), nullptr, datagram.data(), size, datagram.data() + size,
-             associated.data(), associated.size(), makeNonce(salt_, sequence).data(),
+             associated.data(), associated.size(), writeNonce(salt_, sequence).data(),
              key_.data()) == 0;
 }
 

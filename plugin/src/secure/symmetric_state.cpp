@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "secure/nonce.h"
+#include "tandem/coordination/wire_sealing.h"
 
 namespace tandem::secure {
 
@@ -41,7 +41,7 @@ void SymmetricState::mixKeyAndHash(ByteView input) noexcept {
 void SymmetricState::encryptAndHash(ByteView text, Bytes sealed) noexcept {
   crypto_aead_chacha20poly1305_ietf_encrypt(sealed.data(), nullptr, text.data(), text.size(),
                                             hash.data(), hash.size(), nullptr,
-                                            makeNonce(0, nonce).data(), key.data());
+                                            writeNonce(0, nonce).data(), key.data());
   ++nonce;
   mixHash(sealed);
 }
@@ -49,7 +49,7 @@ void SymmetricState::encryptAndHash(ByteView text, Bytes sealed) noexcept {
 bool SymmetricState::decryptAndHash(ByteView sealed, Bytes text) noexcept {
   if (crypto_aead_chacha20poly1305_ietf_decrypt(text.data(), nullptr, nullptr, sealed.data(),
                                                 sealed.size(), hash.data(), hash.size(),
-                                                makeNonce(0, nonce).data(), key.data()) != 0)
+                                                writeNonce(0, nonce).data(), key.data()) != 0)
     return false;
   ++nonce;
   mixHash(sealed);

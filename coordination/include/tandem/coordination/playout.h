@@ -86,6 +86,7 @@ class Playout {
   [[nodiscard]] bool isStale(const StatePacket& packet) const noexcept;
 
   static constexpr double kWindow = 2.0;      // [s]
+  static constexpr double kSettling = 1.0;    ///< the wait is free to jump [s]
   static constexpr std::size_t kRarely = 16;  // packets between two looks at all of them
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
   static constexpr double kQuarter = 0.25;  // more than that do not jump the queue

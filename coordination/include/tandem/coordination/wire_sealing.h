@@ -39,6 +39,8 @@ struct SessionTerms {
   return (static_cast<std::uint32_t>(sender) & 0xffffU) | std::uint32_t{key_epoch} << 16;
 }
 
+/// Salt, then sequence. With salt 0 it is the nonce of Noise's ChaChaPoly (revision 34,
+/// section 12.3).
 [[nodiscard]] SealNonce writeNonce(std::uint32_t salt, std::uint64_t sequence) noexcept;
 
 }  // namespace tandem

@@ -35,11 +35,13 @@ struct PeerStatus {
   double loss = 0.0;               ///< of the peer's packets, 0 to 1
   std::uint16_t key_epoch = 0;     ///< handshakes so far
   std::uint64_t states_sent = 0;
+  std::uint64_t states_unsent = 0;    ///< outside what may be sent, such as beyond 1000 m
   std::uint64_t states_given = 0;     ///< to the site
   std::uint64_t states_stale = 0;     ///< overtaken: not given
   std::uint64_t states_too_late = 0;  ///< older than the rest by more than half a second
   std::optional<RefuseCode> refused;  ///< by the peer, or somebody who says so
   std::uint8_t refused_version = 0;   ///< that the refusing side speaks
+  std::optional<ByeReason> left;      ///< why the peer has said farewell
   std::optional<ConfigurationDifference> difference;
 };
 

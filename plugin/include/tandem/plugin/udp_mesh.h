@@ -61,8 +61,8 @@ class UdpMesh {
   /// Waits until something comes in or so many seconds have passed.
   void wait(double seconds) const noexcept;
 
-  /// Says farewell to all: poll for another 100 ms until all have been told.
-  void leave(double now) noexcept;
+  /// Says farewell to all, and why: poll for another 100 ms until all have been told.
+  void leave(double now, ByeReason reason = ByeReason::kUserLeaves) noexcept;
 
   [[nodiscard]] PeerStatus status(PeerId peer, double now) const;
   [[nodiscard]] std::uint64_t received() const noexcept;

@@ -1,0 +1,42 @@
+// Whatever happens to sites and datagrams: tests/fuzz/membership_fuzzer.cpp looks for scripts that
+// break something; these are drawn.
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "net/membership_script.h"
+#include "net/virtual_net.h"
+
+namespace tandem {
+namespace {
+
+std::string write(const std::vector<std::uint8_t>& script) {
+  std::string text;
+  for (const std::uint8_t byte : script) text += std::to_string(byte) + " ";
+  return text;
+}
+
+std::string play(const std::vector<std::uint8_t>& script) {
+  return test::playMembershipScript({script.data(), script.size()});
+}
+
+TEST(Membership, DrawnScriptsEndTogether) {
+  constexpr std::uint64_t kSeed = 20090407;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  const std::uint64_t count = test::readCount("TANDEM_MEMBERSHIP_SCRIPTS", 200);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::vector<std::uint8_t> script(static_cast<std::size_t>(random.below(600)));
+    for (std::uint8_t& byte : script) byte = static_cast<std::uint8_t>(random.below(256));
+    ASSERT_EQ(play(script), "") << write(script);
+  }
+}
+
+// OPEN is answered, the responder begins anew, and a minute later that answer comes.
+TEST(Membership, AnswerOfAPeerThatHasBegunAnewIsGotOver) {
+  EXPECT_EQ(play({0, 11, 0, 3, 1, 1, 11, 0, 3, 1, 7, 1, 0, 10, 12, 1}), "");
+}
+
+}  // namespace
+}  // namespace tandem
