@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPeriod = 1.0 / 128;  // [s]
 constexpr double kPatience = 10.0;     ///< of the machine [s]
-constexpr std::uint64_t kMostPerPoll = 64;
+constexpr std::uint64_t kMostPerPoll = 128;
 
 SecretKey makeKey() {
   std::array<std::uint8_t, SecretKey::kSize> bytes;

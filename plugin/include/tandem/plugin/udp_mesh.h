@@ -39,7 +39,7 @@ struct RefusedDatagrams {
 
 /// The ways to all remote sites over one UDP socket: sealed, replay-proof, with constant delay.
 ///
-/// Used from the thread that ticks the site. poll() drains at most 64 datagrams and never blocks;
+/// Used from the thread that ticks the site. poll() drains at most 128 datagrams and never blocks;
 /// states cost no allocation, handshakes (at the start, every two minutes and after silence) some.
 class UdpMesh {
  public:

@@ -1,0 +1,133 @@
+// More than two sites: every one has links to all others, and every copy couplers to all others'.
+
+#include <array>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "tandem/coordination/simulated_link.h"
+#include "tandem/plugin/site.h"
+
+#include "bridge/bullet_rig.h"
+#include "support/fakes.h"
+
+namespace tandem {
+namespace {
+
+using test::BulletRig;
+using testing::FakeDevice;
+
+constexpr double kMass = 0.8, kHalf = 0.02;  // of the whole cube [kg], [m]
+constexpr double kPeriod = 1e-3, kHostStep = 4e-3, kPacketRate = 500.0;
+
+/// N sites around a circle that share a cube in its middle; nobody touches it.
+class Party {
+ public:
+  Party(int agreed, int present, double delay) {
+    for (int i = 0; i < present; ++i) {
+      users_.push_back(std::make_unique<User>(startOf(i, agreed)));
+      SiteSettings settings;
+      settings.self = idOf(i);
+      settings.peers = agreed;
+      settings.packet_rate = kPacketRate;
+      settings.host_step = kHostStep;
+      settings.tick_source = TickSource::kCaller;
+      User& user = *users_.back();
+      user.cube = &user.rig.addCube(kMass, kHalf);
+      user.site = std::make_unique<Site>(settings, user.rig.world, user.device);
+      user.site->share(*user.cube);
+    }
+    for (int i = 0; i < present; ++i) {
+      for (int k = i + 1; k < present; ++k) {
+        auto [one, other] = makeSimulatedLinks({delay});
+        user(i).site->connect(idOf(k), *one, startOf(k, agreed));
+        user(k).site->connect(idOf(i), *other, startOf(i, agreed));
+        links_.push_back(std::move(one));
+        links_.push_back(std::move(other));
+      }
+    }
+  }
+
+  /// `force_W` on the first site's copy, by its host.
+  void run(double seconds, const Vec3& force_W) {
+    for (int step = 0; step < std::lround(seconds / kHostStep); ++step) {
+      for (int tick = 0; tick < 4; ++tick) {
+        for (auto& user : users_)
+          EXPECT_EQ(user->site->tick(static_cast<double>(ticks_) * kPeriod), kTickOk);
+        ++ticks_;
+      }
+      user(0).cube->activate();
+      user(0).cube->applyCentralForce(toBullet(force_W));
+      for (auto& user : users_) user->rig.step(kHostStep);
+    }
+  }
+
+  [[nodiscard]] const RigidState& copy(int i) const { return users_[i]->site->object(0); }
+  [[nodiscard]] double computeSpread() const {
+    double spread = 0.0;
+    for (std::size_t i = 1; i < users_.size(); ++i)
+      spread = std::max(spread, (copy(static_cast<int>(i)).p_W - copy(0).p_W).norm());
+    return spread;
+  }
+
+ private:
+  struct User {
+    explicit User(const Vec3& start_W) : device(start_W) {}
+    ~User() { site.reset(); }
+    BulletRig rig;
+    FakeDevice device;
+    btRigidBody* cube = nullptr;
+    std::unique_ptr<Site> site;
+  };
+  static PeerId idOf(int i) { return PeerId{static_cast<std::uint32_t>(i) + 1}; }
+  static Vec3 startOf(int i, int count) {
+    const double angle = 6.28318530717958648 * i / count;
+    return {0.0, 0.5 * std::cos(angle), 0.5 * std::sin(angle)};
+  }
+  User& user(int i) { return *users_[static_cast<std::size_t>(i)]; }
+
+  std::vector<std::unique_ptr<SimulatedLink>> links_;
+  std::vector<std::unique_ptr<User>> users_;
+  std::uint64_t ticks_ = 0;
+};
+
+class ManyPeers : public ::testing::TestWithParam<int> {};
+
+// The plain sum of couplers: each of the N (N - 1) pulls back by K v tau, as its target is as old
+// as the way and half a packet period. So a pushed cube comes to the speed at which that is the
+// push.
+TEST_P(ManyPeers, MoveAtTheSpeedAtWhichDelayHoldsThemBack) {
+  const int n = GetParam();
+  constexpr double kForce = 0.4, kDelay = 0.02, kStiffness = 200.0;
+  Party party(n, n, kDelay);
+  party.run(4.0, Vec3(kForce, 0, 0));
+  const double age = kDelay + 0.5 / kPacketRate;
+  const double speed = kForce / (n * (n - 1) * kStiffness * age);
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(party.copy(i).v_W.x(), speed, 0.03 * speed) << i;
+}
+
+// One is pushed for a while; all follow over the network, and come to rest at one place.
+TEST_P(ManyPeers, CopiesMeetAgain) {
+  const int n = GetParam();
+  Party party(n, n, 0.02);
+  party.run(0.5, Vec3(0.4, 0, 0));
+  EXPECT_GT(party.copy(n - 1).p_W.x(), 2e-4);
+  party.run(3.0, Vec3::Zero());
+  EXPECT_LT(party.computeSpread(), 1e-4);
+  for (int i = 0; i < n; ++i) EXPECT_LT(party.copy(i).v_W.norm(), 0.02) << i;
+}
+
+// Who happens to be online does not change what a copy weighs.
+TEST_P(ManyPeers, MassIsSharedByAllThatWereAgreedOn) {
+  const int n = GetParam();
+  Party alone(n, 1, 0.0);
+  alone.run(0.1, Vec3(0.4, 0, 0));
+  const double lag = 2.0 * kHostStep;  // of the host's force, at most
+  EXPECT_LE(alone.copy(0).v_W.x(), 0.4 * n / kMass * 0.1 + 1e-6);
+  EXPECT_GE(alone.copy(0).v_W.x(), 0.4 * n / kMass * (0.1 - lag) - 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ManyPeers, ::testing::Values(2, 3, 4, 8));
+
+}  // namespace
+}  // namespace tandem
