@@ -8,8 +8,8 @@
 # 1 s delay, 100 ms jitter, a quarter lost and a quarter twice. churn: 10,000 times a site leaves, is killed or gets
 # another port. matrix: two sites with worlds and devices under 150 conditions of the network, three times each, with an
 # outage. flood: two `tandem peer` for 20 s, and again with 100,000 forged datagrams a second at one of them, three times
-# each: its memory must grow no more than without (64 kB aside), and no more of its ticks be late (a hundredth of all
-# aside).
+# each: its memory must grow no more than without (64 kB aside), no more of its ticks be late (a hundredth of all aside),
+# and no more of its peer's states be lost (a hundredth aside).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -36,8 +36,8 @@ peer() {
     --out "$out/$run" --quiet
 }
 
-# live_pair NAME RATE: 20 s with so many forged datagrams a second at site 2. Sets $late, of a million of its ticks, and
-# $grown, its memory in kB from the 5th to the 19th second; and prints a line.
+# live_pair NAME RATE: 20 s with so many forged datagrams a second at site 2. Sets $late, of a million of its ticks,
+# $given, the states that it was given, and $grown, its memory in kB from the 5th to the 19th second; and prints a line.
 live_pair() {
   local run=$1 rate=$2 first second early end
   mkdir -p "$out/$run"
@@ -49,7 +49,7 @@ live_pair() {
   early=$(rss $second)
   sleep 14
   end=$(rss $second)
-  wait $first $second $flood
+  wait $first && wait $second && wait $flood || { step "flood: FAILED: a program ended badly"; return 1; }
   grown=$((end - early))
   late=$(python3 - "$out/$run/site2.json" "$early" "$end" <<'PYTHON'
 import json, sys
@@ -59,25 +59,27 @@ refused = sum(network["datagrams"]["refused"].values())
 print(f"  ticks {loop['ticks']}, late {loop['late']}, worst {1e3 * loop['worst_lateness']:.2f} ms; "
       f"memory {sys.argv[2]} kB after 5 s, {sys.argv[3]} kB after 19 s; "
       f"states given {network['states']['given']}, datagrams refused {refused}", file=sys.stderr)
-print(1000000 * loop["late"] // loop["ticks"])
+print(1000000 * loop["late"] // loop["ticks"], network["states"]["given"])
 PYTHON
 )
+  given=${late#* } late=${late% *}
 }
 
 # median NUMBER...: of an odd count.
 median() { printf '%s\n' "$@" | sort -n | sed -n "$((($# + 1) / 2))p"; }
 
 flood() {
-  local late grown all_late=() all_grown=() quiet_late=() quiet_grown=()
+  local late grown given all_late=() all_grown=() all_given=() quiet_late=() quiet_grown=() quiet_given=()
+  trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
   rm -rf "$out" && mkdir -p "$out"
   "$checkout/build/release/demos/tandem" key new "$out/k.psk" >/dev/null
   for round in 1 2 3; do  # other programs make more difference than the flood, so in turns
     step "flood: without"
     live_pair "quiet$round" 0
-    quiet_late+=("$late") quiet_grown+=("$grown")
+    quiet_late+=("$late") quiet_grown+=("$grown") quiet_given+=("$given")
     step "flood: with $flood_rate a second"
     live_pair "flooded$round" $flood_rate
-    all_late+=("$late") all_grown+=("$grown")
+    all_late+=("$late") all_grown+=("$grown") all_given+=("$given")
   done
   late=$(median "${all_late[@]}") grown=$(median "${all_grown[@]}")
   local most_late=$(($(median "${quiet_late[@]}") + 10000)) most_grown=$(($(median "${quiet_grown[@]}") + 64))
@@ -86,6 +88,9 @@ flood() {
   fi
   if (( late > most_late )); then
     step "flood: FAILED: $late of a million ticks were late; at most $most_late"; return 1
+  fi
+  if (( 100 * $(median "${all_given[@]}") < 99 * $(median "${quiet_given[@]}") )); then
+    step "flood: FAILED: states were lost"; return 1
   fi
   step "flood: passed"
 }

@@ -19,13 +19,8 @@ class Detour {
   void start(const RigidState& ours, const RigidState& theirs) noexcept {
     offset_W_ = ours.p_W - theirs.p_W;
     const Eigen::AngleAxisd turn((ours.q_WB * theirs.q_WB.conjugate()).normalized());
-    angle_ = turn.angle();
+    angle_ = turn.angle();  // at most pi
     axis_W_ = turn.axis();
-    // AngleAxis gives 0 to 2 pi; the short way round is at most pi.
-    if (angle_ > kPi) {
-      angle_ = 2.0 * kPi - angle_;
-      axis_W_ = -axis_W_;
-    }
     top_speed_ = std::max(kSpeed, offset_W_.norm() / kLongest);
     top_rate_ = std::max(kRate, angle_ / kLongest);
     settle();
@@ -51,7 +46,6 @@ class Detour {
   }
 
  private:
-  static constexpr double kPi = 3.14159265358979323846;
   static constexpr double kSpeed = 0.25, kRate = 2.5;  // [m/s], [rad/s]
   static constexpr double kLongest = 2.0;              // [s]
   static constexpr double kDecay = 0.1;                // [s]

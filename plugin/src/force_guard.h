@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "tandem/coordination/types.h"
@@ -11,22 +12,31 @@ namespace tandem {
 /// bounded slew instead of at once.
 class ForceGuard {
  public:
-  /// `max_force` [N] and `change_per_tick` [N] may be infinite; `fade_per_tick` [N].
+  /// `max_force` [N] and `change_per_tick` [N] may be infinite; `fade_per_tick` [N], which is no
+  /// faster than other changes.
   ForceGuard(double max_force, double change_per_tick, double fade_per_tick) noexcept
-      : max_force_(max_force), change_per_tick_(change_per_tick), fade_per_tick_(fade_per_tick) {}
+      : max_force_(max_force),
+        change_per_tick_(change_per_tick),
+        fade_per_tick_(std::min(fade_per_tick, change_per_tick)) {}
 
-  [[nodiscard]] Vec3 limit(const Vec3& wanted_W, bool fault) noexcept {
-    if (fault || !wanted_W.allFinite()) {
+  /// What the device can give of a force.
+  [[nodiscard]] Vec3 clamp(const Vec3& wanted_W) noexcept {
+    if (!(wanted_W.norm() > max_force_)) return wanted_W;
+    ++clamped_;
+    return shorten(wanted_W, max_force_);
+  }
+
+  /// Goes from the last tick's force to this one, as fast as allowed.
+  [[nodiscard]] Vec3 follow(const Vec3& allowed_W, bool fault) noexcept {
+    if (fault || !allowed_W.allFinite()) {
       last_W_ = shorten(last_W_, last_W_.norm() - fade_per_tick_);
       return last_W_;
     }
-    if (wanted_W == last_W_) return last_W_;
-    const Vec3 allowed_W = shorten(wanted_W, max_force_);
-    if (allowed_W != wanted_W) ++clamped_;
-    const Vec3 change_W = shorten(allowed_W - last_W_, change_per_tick_);
-    if (change_W != allowed_W - last_W_) {
+    if (allowed_W == last_W_) return last_W_;
+    const Vec3 wanted_change_W = allowed_W - last_W_;
+    if (wanted_change_W.norm() > change_per_tick_) {
       ++slewed_;
-      last_W_ += change_W;
+      last_W_ += shorten(wanted_change_W, change_per_tick_);
     } else {
       last_W_ = allowed_W;
     }

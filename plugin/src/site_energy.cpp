@@ -1,13 +1,14 @@
 #include <algorithm>
+#include <utility>
 
 #include "site_impl.h"
 
 // The account of what this side puts into the connection (PassivityObserver):
 //
-//   the hand             -f . dp, the force as rendered, over each tick; exact, as the device holds
-//   it weight, host forces  f . dp + t . w dt of the bodies that the island moves impulses J . (v +
-//   v') / 2: the host's, and contact with bodies that Bullet keeps neighbours           their
-//   kinetic energy when the island takes them, and gives them back
+//   the hand             -f . dp, the force as rendered, over each tick: exact, as it is held
+//   weight, host forces  f . dp + t . w dt of the bodies that the island moves
+//   impulses             J . (v + v') / 2: the host's, and of contact with bodies that Bullet keeps
+//   neighbours           their kinetic energy when the island takes them, and gives them back
 //
 // What the host moves by hand - a kinematic body, a body put elsewhere - has no measure: it fills
 // the tank. Without hand-off Bullet moves the bodies and nobody knows what it did to them: then
@@ -28,7 +29,7 @@ bool Site::Impl::keepsAccount() const noexcept { return settings.passivity.enabl
 
 /// Over the tick that has just ended.
 void Site::Impl::countHandWork() noexcept {
-  if (!sample.valid) {
+  if (status_now & kDeviceInvalid) {
     hand_before_W.reset();
     return;
   }
@@ -66,10 +67,17 @@ void Site::Impl::countNeighbour(const Neighbour& neighbour, double sign) noexcep
                    computeKineticEnergy(neighbour.settings, island.state(neighbour.body.index)));
 }
 
-/// What a packet says of energy, more than what the one before did.
-void Site::Impl::hearEnergy(const Remote& remote, const StatePacket& packet) noexcept {
-  if (packet.port_energy)
-    passivity.addReported(*packet.port_energy - remote.latest.port_energy.value_or(0.0));
+/// What a packet says of energy, more than the one before; the first after a silence says where
+/// the peer is, not what it did meanwhile. Of three sites that do not all hear each other, one
+/// would see what another took and not what the third gave: then takings do not count.
+void Site::Impl::hearEnergy(Remote& remote, const StatePacket& packet) noexcept {
+  const std::optional<double> before = std::exchange(remote.reported, packet.port_energy);
+  if (!before || !packet.port_energy) return;
+  const double more = *packet.port_energy - *before;
+  const bool are_all_heard = std::all_of(remotes.begin(), remotes.end(), [&](const Remote& r) {
+    return &r == &remote || r.health.state() == LinkState::kLive;
+  });
+  if (more > 0.0 || are_all_heard) passivity.addReported(more);
 }
 
 /// The force that the hand may get over the coming tick.

@@ -79,6 +79,7 @@ struct Remote {
   SiteBody body;                          ///< of the proxy
   StatePacket latest;
   bool heard = false;
+  std::optional<double> reported;  ///< energy that it has put in, as heard last [J]
   LinkHealth health{LinkLossSettings{}, 1.0};
   UserTrack track;                          ///< of the user, as the scheme is told
   LinkState link_state = LinkState::kLive;  ///< as it was acted on last
@@ -160,7 +161,7 @@ struct Site::Impl final : HostStepListener {
   void countImpulse(const SiteBody& body, const RigidState& before, const Vec3& impulse_W,
                     const Vec3& angular_impulse_W) noexcept;
   void countNeighbour(const Neighbour& neighbour, double sign) noexcept;
-  void hearEnergy(const Remote& remote, const StatePacket& packet) noexcept;
+  void hearEnergy(Remote& remote, const StatePacket& packet) noexcept;
   [[nodiscard]] Vec3 limitEnergy(const Vec3& wanted_W) noexcept;
 
   // What need not be done while nothing moves: site_rest.cpp

@@ -28,6 +28,7 @@ void Site::Impl::hearRemote(Remote& remote, const StatePacket& packet, double ti
   if (health.hear(time, packet.is_idle)) {
     remote.track.jump(packet.user);
     remote.rejoined_by = packet.sequence;
+    remote.reported.reset();
   } else {
     remote.track.hear(packet.user, time, silence);
   }
@@ -52,8 +53,8 @@ void Site::Impl::followLink(Remote& remote, double now) noexcept {
   const bool is_silent = state == LinkState::kLost || state == LinkState::kWaiting;
   const bool is_heard = state == LinkState::kLive || state == LinkState::kRejoining;
   if (is_heard && remote.is_detouring) followDetours(remote);
-  const bool is_calm = state == LinkState::kLive && !remote.track.isMakingUp(now) &&
-                       !remote.is_detouring && !health.isProxyOut();
+  const bool is_calm =
+      state == LinkState::kLive && !remote.track.isMakingUp(now) && !remote.is_detouring;
   if (remote.is_restrained ? is_silent && state == before : is_calm) return;
   remote.is_restrained = !is_calm;
 

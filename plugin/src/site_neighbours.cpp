@@ -73,7 +73,6 @@ void Site::Impl::hold(btRigidBody& rigid, Neighbour& neighbour) {
   setWorldWrench(body.index, body.f_gravity_W, Vec3::Zero());
   tick_start_states[body.index] = own.start;
   newcomers.push_back(body.index);
-  countNeighbour(neighbour, 1.0);
 }
 
 void Site::Impl::drive(btRigidBody& rigid, Neighbour& neighbour) {

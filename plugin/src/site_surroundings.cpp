@@ -156,6 +156,9 @@ void Site::Impl::catchUp() {
     from_states.swap(to_states);
   }
   for (BodyIndex index : newcomers) tick_start_states[index] = island.state(index);
+  for (const Neighbour& neighbour : neighbours)
+    if (std::find(newcomers.begin(), newcomers.end(), neighbour.body.index) != newcomers.end())
+      countNeighbour(neighbour, 1.0);
   newcomers.clear();
   // Whom they touched in the past has the momentum now.
   forEachBody([&](SiteBody& body) {

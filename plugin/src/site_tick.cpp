@@ -73,7 +73,7 @@ void Site::Impl::computeForce() noexcept {
     force_rest.set(island);
   }
   const bool fault = status_now & (kDeviceInvalid | kBodyMissing | kStateNotFinite);
-  force_W = guard.limit(limitEnergy(contact_W), fault);
+  force_W = guard.follow(limitEnergy(guard.clamp(contact_W)), fault);
   counters.force_clamped = guard.clampedCount();
   counters.force_slewed = guard.slewedCount();
 }
@@ -176,9 +176,9 @@ void Site::Impl::takeIn(Remote& remote, const Arrival& arrival, double time) noe
   const bool is_latest = !remote.heard || packet.sequence > remote.latest.sequence;
   if (is_latest) {
     remote.heard = true;
-    hearEnergy(remote, packet);
     remote.latest = packet;
     hearRemote(remote, packet, time);
+    hearEnergy(remote, packet);
   }
   const bool has_news = takeInObjects(remote, packet) || is_latest;
   ++(has_news ? counters.packets_taken : counters.packets_stale);

@@ -85,10 +85,11 @@ struct ShakenHand {
 
   /// `report(t)`: of the packet at that time.
   template <typename Report>
-  void run(double duration, Report report) {
+  void run(double duration, Report report, double start = 0.0) {
     Vec3 force_W = Vec3::Zero();
-    for (int tick = 0; tick < std::lround(duration / kPeriod); ++tick) {
-      const double now = tick * kPeriod;
+    const auto first = std::lround(start / kPeriod);
+    for (auto tick = first; tick < first + std::lround(duration / kPeriod); ++tick) {
+      const double now = static_cast<double>(tick) * kPeriod;
       if (tick % 8 == 0) {
         StatePacket packet = makePacket(kRemote, static_cast<std::uint64_t>(tick / 8),
                                         Vec3(0.03 * std::sin(20.0 * now), 0.0, 0.0));
@@ -127,10 +128,39 @@ TEST(Passivity, APeerThatPutsNothingInGivesNoMoreThanTheTank) {
 
 TEST(Passivity, APeerThatPutsItInMayGiveIt) {
   ShakenHand hand(PassivitySettings{});
-  hand.run(20.0, [](double t) { return 0.1 + t; });
+  hand.run(20.0, [](double t) { return t > 0.0 ? 0.1 + t : 0.0; });
   EXPECT_GT(hand.got, 10.0 * PassivitySettings{}.tank);
   EXPECT_EQ(hand.site->counters().energy_limited, 0u);
   EXPECT_NEAR(hand.site->passivity().own(), -hand.got, 0.01 * hand.got);
+}
+
+// What it did before it was heard, or while it was lost, is no debt and no credit of this hand.
+TEST(Passivity, OnlyWhatAPeerDoesWhileItIsHeardCounts) {
+  for (const double past : {-5.0, 5.0}) {
+    SCOPED_TRACE(past);
+    ShakenHand hand(PassivitySettings{});
+    hand.run(0.1, [&](double) { return past; });
+    const PassivityObserver& passivity = hand.site->passivity();
+    EXPECT_NEAR(passivity.available(), PassivitySettings{}.tank + passivity.own(), 1e-12);
+  }
+}
+
+// A single bad reading costs the force of its tick, and nothing later.
+TEST(Passivity, AReadingThatIsNoNumberLeavesTheAccountAlone) {
+  ShakenHand hand(PassivitySettings{});
+  const auto giving = [](double t) { return t > 0.0 ? 0.1 + t : 0.0; };
+  hand.run(0.5, giving);
+  hand.link = FakeLink(1000);
+  const PointState good = hand.device.sample.hip;
+  hand.device.sample.hip.p_W.x() = std::nan("");
+  (void)hand.site->tick(0.5);
+  hand.device.sample.hip = good;
+  hand.run(0.5, giving, 0.501);
+  EXPECT_TRUE(std::isfinite(hand.site->passivity().own()));
+  ASSERT_FALSE(hand.link.sent.empty());
+  EXPECT_TRUE(std::isfinite(hand.link.sent.back().port_energy.value_or(std::nan(""))));
+  EXPECT_EQ(hand.site->counters().energy_limited, 0u);
+  EXPECT_GT(hand.largest_step, 0.1);
 }
 
 TEST(Passivity, APeerWithoutAnAccountIsTakenAtItsWord) {

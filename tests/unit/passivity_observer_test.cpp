@@ -68,7 +68,7 @@ TEST(PassivityObserver, WhatOthersPutInMayBeGot) {
   EXPECT_EQ(observer.computeShare(1e-3), 1.0);
   EXPECT_EQ(observer.own(), -0.1);
   observer.addReported(-0.1);  // and got out again
-  EXPECT_LT(observer.available(), 0.0);
+  EXPECT_NEAR(observer.available(), -kTank, 1e-15);
   EXPECT_EQ(observer.computeShare(1e-3), 0.0);
 }
 
@@ -78,6 +78,25 @@ TEST(PassivityObserver, HeatIsForgotten) {
   for (int i = 0; i < 1000; ++i) observer.addOwn(1.0);
   EXPECT_NEAR(observer.available(), kTank + kMost, 1e-9);
   EXPECT_NEAR(observer.own(), 1000.0, 1e-9);
+}
+
+TEST(PassivityObserver, DebtsCountToOneTank) {
+  PassivityObserver observer;
+  observer.addReported(-1000.0);
+  EXPECT_NEAR(observer.available(), -kTank, 1e-12);
+  observer.addOwn(2.0 * kTank);
+  EXPECT_EQ(observer.computeShare(1e-3), 1.0);
+}
+
+TEST(PassivityObserver, WhatIsNoNumberDoesNotCount) {
+  PassivityObserver observer;
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    observer.addOwn(bad);
+    observer.addOwn(-bad);
+    observer.addReported(bad);
+  }
+  EXPECT_EQ(observer.own(), 0.0);
+  EXPECT_EQ(observer.available(), kTank);
 }
 
 TEST(PassivityObserver, RefillsToTheTankAndNoFurther) {

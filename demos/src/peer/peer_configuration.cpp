@@ -1,35 +1,14 @@
 #include "peer/peer_configuration.h"
 
-#include <array>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "own_keys.h"
+
 namespace tandem::demos {
 namespace {
-
-/// Keys that begin so are a site's own business.
-constexpr std::array kOwn = {"title",
-                             "site1.",
-                             "site2.",
-                             "device.",
-                             "network.delay",
-                             "network.jitter",
-                             "network.loss",
-                             "network.duplicate",
-                             "network.reorder",
-                             "network.seed",
-                             "rates.host",
-                             "rates.inner",
-                             "experiment.duration",
-                             "bridge."};
-
-bool isOwn(const std::string& key) {
-  for (const char* own : kOwn)
-    if (key.rfind(own, 0) == 0) return true;
-  return false;
-}
 
 /// Values are at most 255 bytes; of longer ones a hash is compared.
 std::string shorten(std::string value) {
@@ -41,7 +20,7 @@ void flatten(const nlohmann::json& node, const std::string& prefix,
              std::vector<ConfigurationItem>& items) {
   for (const auto& [name, value] : node.items()) {
     const std::string key = prefix + name;
-    if (isOwn(key)) continue;
+    if (isOwnKey(key)) continue;
     if (value.is_object()) {
       flatten(value, key + ".", items);
     } else {

@@ -148,6 +148,10 @@ const Run* SchemeGroup::find(std::string_view scheme) const {
   return nullptr;
 }
 
+std::string describeWithoutScheme(const Run& run) {
+  return json(settingsWithout(run, {kScheme})).dump();
+}
+
 bool haveEqualSettings(const Run& a, const Run& b) { return settingsOf(a) == settingsOf(b); }
 
 Grouping groupRuns(const std::vector<Run>& runs) {

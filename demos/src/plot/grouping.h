@@ -37,6 +37,9 @@ struct Grouping {
 /// True if two runs were asked for the same; titles and folder names do not count.
 [[nodiscard]] bool haveEqualSettings(const Run& a, const Run& b);
 
+/// All settings but the scheme as one text, equal for runs that differ in nothing else.
+[[nodiscard]] std::string describeWithoutScheme(const Run& run);
+
 /// Sorts runs in virtual time into groups and sweeps by their settings alone; titles and folder
 /// names do not count.
 ///

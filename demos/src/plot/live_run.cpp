@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "own_keys.h"
 #include "plot/signals.h"
 #include "usage_error.h"
 
@@ -22,6 +23,17 @@ json readJson(const std::filesystem::path& file) {
 double numberAt(const json& j, const char* pointer) {
   const json::json_pointer at(pointer);
   return j.contains(at) && j.at(at).is_number() ? j.at(at).get<double>() : kMissing;
+}
+
+/// What both sites must have been asked alike.
+json sharedSettings(const json& site) {
+  json shared = json::object();
+  for (const auto& [pointer, value] : site.value("scenario", json::object()).flatten().items()) {
+    std::string key = pointer.substr(pointer.empty() ? 0 : 1);
+    std::replace(key.begin(), key.end(), '/', '.');
+    if (!isOwnKey(key)) shared[key] = value;
+  }
+  return shared;
 }
 
 json describeSeparation(const Signal& separation) {
@@ -42,7 +54,7 @@ Run loadLiveRun(const std::filesystem::path& dir) {
   const std::filesystem::path file1 = dir / "site1.json", file2 = dir / "site2.json";
   json both = readJson(file1);
   const json other = readJson(file2);
-  if (both.value("scenario", json()) != other.value("scenario", json()))
+  if (sharedSettings(both) != sharedSettings(other))
     throw UsageError(
         fmt::format("{}: another scenario than in {}; give a folder that both sites "
                     "of one run wrote to",

@@ -34,7 +34,9 @@ std::vector<Pair> findPairs(const std::vector<Run>& runs) {
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     const auto key = [](const Run& run) {
-      return std::tuple(run.kind, run.setting("/network/delay"), schemeRank(run.scheme));
+      const double delay = run.setting("/network/delay");
+      return std::tuple(run.kind, std::isfinite(delay) ? delay : 0.0, describeWithoutScheme(run),
+                        schemeRank(run.scheme));
     };
     return key(*a.live) < key(*b.live);
   });
@@ -140,9 +142,8 @@ void addLive(Report& report, const std::vector<Run>& runs) {
   report.addTable(liveTable(pairs));
   int figures = 0;
   for (auto from = pairs.begin(); from != pairs.end();) {
-    const auto until = std::find_if(from, pairs.end(), [&](const Pair& pair) {
-      return pair.live->kind != from->live->kind ||
-             pair.live->setting("/network/delay") != from->live->setting("/network/delay");
+    const auto until = std::find_if(std::next(from), pairs.end(), [&](const Pair& pair) {
+      return describeWithoutScheme(*pair.live) != describeWithoutScheme(*from->live);
     });
     report.addFigure(liveFigure({from, until}, fmt::format("live-{}", ++figures)));
     from = until;

@@ -15,7 +15,7 @@
 namespace tandem::net {
 namespace {
 
-/// Room for some hundred datagrams: a tick takes in at most 64.
+/// Room for some hundred datagrams: a tick takes in at most 128.
 constexpr int kBufferSize = 256 * 1024;
 
 constexpr std::array<std::uint8_t, 12> kMappedIpv4 = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};

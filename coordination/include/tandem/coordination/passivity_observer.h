@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
+#include <cmath>
 
 namespace tandem {
 
@@ -28,7 +28,8 @@ void checkPassivitySettings(const PassivitySettings& settings);
 /// goes on. As states are late, so is what they report, and both belong to each other.
 ///
 /// Nothing is done while available >= band. Below, the force is multiplied by available / band, so
-/// that what is left is spent ever more slowly and never runs out.
+/// that what is left is spent ever more slowly and never runs out. A hand that pushes feels at
+/// least 2 %, and debts count to one tank: an account that others have emptied fills again.
 ///
 /// Plain value without a clock; real-time safe. After Hannaford and Ryu's passivity observer (IEEE
 /// T-RA 18(1), 2002), with two ports and a share of the force in place of a damper.
@@ -37,14 +38,17 @@ class PassivityObserver {
   explicit PassivityObserver(const PassivitySettings& settings = {}) noexcept
       : settings_(settings), lowest_(settings.tank) {}
 
-  /// This side has put in so much more [J]; negative: it got some out.
+  /// This side has put in so much more [J]; negative: it got some out. What is not finite does not
+  /// count.
   void addOwn(double energy) noexcept {
+    if (!std::isfinite(energy)) return;
     overdrawn_ += std::max(0.0, -energy - std::max(0.0, available()));
     own_ += energy;
     settle();
   }
   /// Others have reported so much more [J].
   void addReported(double energy) noexcept {
+    if (!std::isfinite(energy)) return;
     reported_ += energy;
     settle();
   }
@@ -69,9 +73,12 @@ class PassivityObserver {
   [[nodiscard]] double computeShare(double energy) const noexcept;
 
  private:
+  /// Neither heat nor debts last for ever: a hand that is muted for what others took must come
+  /// back.
   void settle() noexcept {
-    forgotten_ += std::max(0.0, available() - settings_.tank - settings_.most);
-    lowest_ = std::min(lowest_, available());
+    const double now = available();
+    lowest_ = std::min(lowest_, now);
+    forgotten_ += now - std::clamp(now, -settings_.tank, settings_.tank + settings_.most);
   }
 
   PassivitySettings settings_;
