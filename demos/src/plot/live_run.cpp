@@ -28,7 +28,8 @@ double numberAt(const json& j, const char* pointer) {
 /// What both sites must have been asked alike.
 json sharedSettings(const json& site) {
   json shared = json::object();
-  for (const auto& [pointer, value] : site.value("scenario", json::object()).flatten().items()) {
+  const json flat = site.value("scenario", json::object()).flatten();
+  for (const auto& [pointer, value] : flat.items()) {
     std::string key = pointer.substr(pointer.empty() ? 0 : 1);
     std::replace(key.begin(), key.end(), '/', '.');
     if (!isOwnKey(key)) shared[key] = value;
