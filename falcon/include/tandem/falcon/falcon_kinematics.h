@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "tandem/coordination/types.h"
+
+/// \file
+/// The Novint Falcon as a mechanism: three legs, each an arm that a motor turns and a parallelogram
+/// that carries the grip, around the axis towards the user. Frame D: origin in the base plane, x
+/// right, y up, z out of the device towards the user.
+namespace tandem {
+
+/// What a leg is made of [m]; only these combinations of the drawing's lengths matter.
+struct FalconGeometry {
+  double arm = 0.060;               ///< a: from the motor's axis to the elbow
+  double rod = 0.1025;              ///< b: of the parallelogram
+  double rod_ends = 0.0225;         ///< d + e: from the elbow, and to the grip
+  double base_less_grip = 0.02557;  ///< r - c: radii of the base's axes and the grip's
+  double aside = 0.00191;           ///< s - f: of the leg's plane
+  /// Of the legs 1 top, 2 right, 3 left, seen from the front [rad].
+  std::array<double, 3> azimuths = {1.8325957145940461, -0.26179938779914941, -2.3561944901923448};
+};
+
+/// Angles of the three arms, from the base plane towards the user [rad].
+using FalconAngles = Vec3;
+
+/// A grip's position with the angles that belong to it, and how both change together.
+struct FalconPose {
+  Vec3 p_D = Vec3::Zero();
+  FalconAngles angles = FalconAngles::Zero();
+  Eigen::Matrix3d dangles_dp = Eigen::Matrix3d::Zero();  ///< rows: legs [rad/m]
+};
+
+/// Position from angles, angles from position, torques from forces. The leg's plane has the
+/// coordinates
+///
+///   u = x cos(phi) + y sin(phi) - (r - c),  v = -x sin(phi) + y cos(phi) - (s - f),  w = z
+///
+/// and the rod's length ties them to the angle: with rho = hypot(u - a cos(th), w - a sin(th)),
+///
+///   F = (rho - (d + e))^2 + v^2 - b^2 = 0
+///
+/// Pure and real-time safe.
+class FalconKinematics {
+ public:
+  explicit FalconKinematics(const FalconGeometry& geometry = {}) noexcept;
+
+  /// Closed form. Nothing where no leg reaches, or for a position that is not finite.
+  [[nodiscard]] std::optional<FalconAngles> computeAngles(const Vec3& p_D) const noexcept;
+
+  /// By Newton's method from `guess_D`; the fixed default converges in the whole workspace.
+  /// Nothing if there is no such position within reach.
+  [[nodiscard]] std::optional<FalconPose> computePoseOfAngles(
+      const FalconAngles& angles, const Vec3& guess_D = Vec3(0.0, 0.0, 0.125)) const noexcept;
+
+  /// Both at once, for a position in reach.
+  [[nodiscard]] std::optional<FalconPose> computePose(const Vec3& p_D) const noexcept;
+
+ private:
+  struct Leg {
+    double value = 0.0;     ///< F [m^2]
+    Vec3 by_p_D;            ///< dF/dp [m]
+    double by_angle = 0.0;  ///< dF/dtheta [m^2/rad]
+  };
+  [[nodiscard]] Leg look(std::size_t leg, const Vec3& p_D, double angle) const noexcept;
+  [[nodiscard]] bool finish(FalconPose& pose) const noexcept;
+
+  FalconGeometry geometry_;
+  std::array<double, 3> cos_, sin_;  ///< of the azimuths
+};
+
+/// Torques of the motors, at the arms [N m], that make the grip push with `f_D` [N]: virtual work,
+/// tau . dtheta = f . dp. Nothing where the legs are stretched and cannot.
+[[nodiscard]] std::optional<Vec3> computeTorques(const FalconPose& pose, const Vec3& f_D) noexcept;
+
+/// Counts of the encoders by the angle of an arm: 1280 a turn of the motor, geared 110 : 14.25,
+/// counted from 35 degrees.
+[[nodiscard]] double angleOfCounts(double counts) noexcept;
+[[nodiscard]] double countsOfAngle(double angle) noexcept;
+
+/// What the motors take: -4095 to 4095.
+using FalconMotors = std::array<std::int16_t, 3>;
+inline constexpr std::int16_t kMostMotor = 4095;
+
+/// A Falcon's counts by torque are not published; fits to traces of the maker's driver give 3500 to
+/// 4500, and the smaller the value the smaller the force [1/(N m)].
+inline constexpr double kUsualMotorsPerTorque = 4200.0;
+
+/// Commands for torques, all three scaled alike where one is out of range, so that the force keeps
+/// its direction. Zero for torques that are not finite: it never wraps.
+[[nodiscard]] FalconMotors makeMotorCommands(
+    const Vec3& torques, double motors_per_torque = kUsualMotorsPerTorque) noexcept;
+
+}  // namespace tandem
