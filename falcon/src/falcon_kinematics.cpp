@@ -8,6 +8,7 @@ namespace tandem {
 namespace {
 
 constexpr int kMostSteps = 20;          // of Newton's method; 8 are enough in the whole workspace
+constexpr double kSolved = 1e-13;       // of F [m^2], a root: 1e-12 m of the rod
 constexpr double kConverged = 1e-15;    // of F [m^2]: 1e-14 m of the rod
 constexpr double kLeastTurning = 1e-9;  // dF/dtheta of a leg that is stretched [m^2/rad]
 
@@ -43,44 +44,41 @@ std::optional<FalconAngles> FalconKinematics::computeAngles(const Vec3& p_D) con
 }
 
 FalconKinematics::Leg FalconKinematics::look(std::size_t leg, const Vec3& p_D,
-                                             double angle) const noexcept {
+                                             const Eigen::Vector2d& elbow) const noexcept {
   const FalconGeometry& g = geometry_;
   const double c = cos_[leg], s = sin_[leg];
-  const double along = p_D.x() * c + p_D.y() * s - g.base_less_grip - g.arm * std::cos(angle);
-  const double up = p_D.z() - g.arm * std::sin(angle);
+  const double along = p_D.x() * c + p_D.y() * s - g.base_less_grip - elbow.x();
+  const double up = p_D.z() - elbow.y();
   const double v = -p_D.x() * s + p_D.y() * c - g.aside;
-  const double rho = std::hypot(along, up);
+  const double rho = std::sqrt(along * along + up * up);
   const double q = rho - g.rod_ends;
-  const double by_u = 2.0 * q * along / rho, by_w = 2.0 * q * up / rho, by_v = 2.0 * v;
+  const double by_rho = 2.0 * q / rho, by_u = by_rho * along, by_v = 2.0 * v;
   Leg result;
   result.value = q * q + v * v - g.rod * g.rod;
-  result.by_p_D = Vec3(by_u * c - by_v * s, by_u * s + by_v * c, by_w);
-  result.by_angle = 2.0 * q * g.arm * (along * std::sin(angle) - up * std::cos(angle)) / rho;
+  result.folding = q;
+  result.by_p_D = Vec3(by_u * c - by_v * s, by_u * s + by_v * c, by_rho * up);
+  result.by_angle = by_rho * (along * elbow.y() - up * elbow.x());
   return result;
 }
 
 std::optional<FalconPose> FalconKinematics::computePoseOfAngles(
     const FalconAngles& angles, const Vec3& guess_D) const noexcept {
   FalconPose pose{guess_D, angles, Eigen::Matrix3d::Zero()};
+  const Elbows elbows = findElbows(angles);
   for (int step = 0; step < kMostSteps; ++step) {
     Eigen::Matrix3d by_p;
     Vec3 value;
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const Leg leg = look(static_cast<std::size_t>(i), pose.p_D, angles[i]);
+      const auto k = static_cast<std::size_t>(i);
+      const Leg leg = look(k, pose.p_D, elbows[k]);
       by_p.row(i) = leg.by_p_D;
       value[i] = leg.value;
     }
     if (value.cwiseAbs().maxCoeff() <= kConverged) break;
-    const Vec3 change_D = by_p.inverse() * value;
-    if (!change_D.allFinite()) return std::nullopt;
-    pose.p_D -= change_D;
-    if (change_D.norm() < 1e-16) break;
+    pose.p_D -= by_p.inverse() * value;
+    if (!pose.p_D.allFinite()) return std::nullopt;
   }
-  // What Newton's method found may be no solution, or one behind the device.
-  if (!pose.p_D.allFinite() || !finish(pose)) return std::nullopt;
-  const std::optional<FalconAngles> back = computeAngles(pose.p_D);
-  constexpr double kSame = 1e-9;  // [rad]
-  if (!back || !((*back - angles).cwiseAbs().maxCoeff() < kSame)) return std::nullopt;
+  if (!finish(pose, elbows)) return std::nullopt;
   return pose;
 }
 
@@ -88,15 +86,27 @@ std::optional<FalconPose> FalconKinematics::computePose(const Vec3& p_D) const n
   const std::optional<FalconAngles> angles = computeAngles(p_D);
   if (!angles) return std::nullopt;
   FalconPose pose{p_D, *angles, Eigen::Matrix3d::Zero()};
-  if (!finish(pose)) return std::nullopt;
+  if (!finish(pose, findElbows(*angles))) return std::nullopt;
   return pose;
 }
 
-/// dtheta/dp = -(dF/dp) / (dF/dtheta), leg by leg.
-bool FalconKinematics::finish(FalconPose& pose) const noexcept {
+FalconKinematics::Elbows FalconKinematics::findElbows(const FalconAngles& angles) const noexcept {
+  Elbows elbows;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double angle = angles[static_cast<Eigen::Index>(i)];
+    elbows[i] = geometry_.arm * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  }
+  return elbows;
+}
+
+/// dtheta/dp = -(dF/dp) / (dF/dtheta), leg by leg. False for what is no pose of the device: the
+/// equation has other roots, with a rod folded back or an elbow on the wrong side.
+bool FalconKinematics::finish(FalconPose& pose, const Elbows& elbows) const noexcept {
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const Leg leg = look(static_cast<std::size_t>(i), pose.p_D, pose.angles[i]);
-    if (!(std::abs(leg.by_angle) > kLeastTurning)) return false;
+    const auto k = static_cast<std::size_t>(i);
+    const Leg leg = look(k, pose.p_D, elbows[k]);
+    if (!(std::abs(leg.value) <= kSolved && leg.folding >= 0.0 && leg.by_angle < -kLeastTurning))
+      return false;
     pose.dangles_dp.row(i) = -leg.by_p_D / leg.by_angle;
   }
   return pose.dangles_dp.allFinite();

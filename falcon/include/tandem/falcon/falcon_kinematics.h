@@ -59,13 +59,20 @@ class FalconKinematics {
   [[nodiscard]] std::optional<FalconPose> computePose(const Vec3& p_D) const noexcept;
 
  private:
+  /// How F and its slopes are at one leg.
   struct Leg {
     double value = 0.0;     ///< F [m^2]
+    double folding = 0.0;   ///< rho - (d + e) [m]: below 0 the rod is folded back
     Vec3 by_p_D;            ///< dF/dp [m]
     double by_angle = 0.0;  ///< dF/dtheta [m^2/rad]
   };
-  [[nodiscard]] Leg look(std::size_t leg, const Vec3& p_D, double angle) const noexcept;
-  [[nodiscard]] bool finish(FalconPose& pose) const noexcept;
+  /// `elbow`: a (cos, sin) of the arm's angle [m].
+  [[nodiscard]] Leg look(std::size_t leg, const Vec3& p_D,
+                         const Eigen::Vector2d& elbow) const noexcept;
+  /// Of the arms, each in its leg's plane [m].
+  using Elbows = std::array<Eigen::Vector2d, 3>;
+  [[nodiscard]] Elbows findElbows(const FalconAngles& angles) const noexcept;
+  [[nodiscard]] bool finish(FalconPose& pose, const Elbows& elbows) const noexcept;
 
   FalconGeometry geometry_;
   std::array<double, 3> cos_, sin_;  ///< of the azimuths
