@@ -23,7 +23,7 @@ Eigen::Matrix3d rows(const Vec3& a, const Vec3& b, const Vec3& c) {
   return m;
 }
 
-// Angles to 1e-6 rad, slopes to 1e-3 rad/m, as printed in docs/falcon.md.
+// By an independent solution of the same geometry; angles to 1e-6 rad, slopes to 1e-3 rad/m.
 const std::array<Known, 5> kKnown = {{
     {{0, 0, 0.125},
      Vec3::Constant(0.483618),
