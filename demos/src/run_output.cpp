@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "guard_summary.h"
 #include "usage_error.h"
 
 namespace tandem::demos {
@@ -83,15 +82,8 @@ nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run) {
   j["scenario"] = describeScenario(scenario);
   j["scalar"] = sizeof(btScalar) == 8 ? "float64" : "float";
   j["coherency"] = {{"mean_abs", s.coherency_mean}, {"max_abs", s.coherency_max}};
-  for (int i = 0; i < 2; ++i) {
-    const RunSummary::SiteSummary& site = s.sites[i];
-    j[i == 0 ? "site1" : "site2"] = {
-        {"coherency", {{"received_mean", site.received_mean}}},
-        {"contact_transitions", site.contact_transitions},
-        {"force", {{"max", site.force_max}, {"mean", site.force_mean}}},
-        {"device_end", site.device_end},
-        {"guards", describeGuards(site.counters, site.passivity)}};
-  }
+  j["site1"] = describeSite(s.sites[0]);
+  j["site2"] = describeSite(s.sites[1]);
   j["scene"]["bodies"] = nlohmann::json::array();
   for (const PlacedSceneBody& body : run.sceneBodies())
     j["scene"]["bodies"].push_back(describeBody(body));

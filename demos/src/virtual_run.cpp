@@ -116,20 +116,12 @@ void VirtualRun::summarise() {
   const double ticks = static_cast<double>(tick_count_);
   summary_.coherency_mean /= ticks;
   for (int s = 0; s < 2; ++s) {
-    RunSummary::SiteSummary& site = summary_.sites[s];
-    site.received_mean /= ticks;
-    bool touching = false;
-    for (const TickRecord& tick : recordings_[s]->ticks()) {
-      if (tick.contact != touching) ++site.contact_transitions;
-      touching = tick.contact;
-      const double force = tick.f_W.norm();
-      site.force_max = std::max(site.force_max, force);
-      site.force_mean += force / ticks;
-    }
+    SiteSummary& site = summary_.sites[s];
+    const double received_mean = site.received_mean / ticks;
+    site = summariseSite(worlds_[s]->site(), *recordings_[s]);
+    site.received_mean = received_mean;
     const Vec3 start_W = computeStart(scenario_, frame_, s);
     const DeviceSample end = worlds_[s]->device().read(scenario_.duration);
-    site.counters = worlds_[s]->site().counters();
-    site.passivity = worlds_[s]->site().passivity();
     site.device_end = frame_.toScene(end.hip.p_W - start_W).x();
   }
   summary_.state_hash =

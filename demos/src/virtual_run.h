@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "tandem/plugin/recording.h"
-#include "tandem/plugin/site.h"
 
 #include "scenario.h"
 #include "scene.h"
+#include "site_summary.h"
 
 namespace tandem::demos {
 
@@ -26,14 +26,6 @@ struct PlacedSceneBody {
 
 /// What a run comes to: the numbers of summary.json.
 struct RunSummary {
-  struct SiteSummary {
-    double received_mean = 0.0;  ///< mean |own object copy - other's as received| [m]
-    int contact_transitions = 0;
-    double force_max = 0.0, force_mean = 0.0;  ///< norm [N]
-    double device_end = 0.0;                   ///< displacement along the axis [m]
-    SiteCounters counters;
-    PassivityObserver passivity;
-  };
   double coherency_mean = 0.0, coherency_max = 0.0;  ///< |object at site 1 - object at site 2| [m]
   SiteSummary sites[2];
   std::uint64_t state_hash = 0;

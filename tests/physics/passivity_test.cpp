@@ -40,7 +40,7 @@ TEST_P(GuardsOfTheExperiments, InterveneNowhereInAMinute) {
   demos::VirtualRun run(
       demos::loadScenario(std::string(TANDEM_SCENARIOS "/") + GetParam().file, overrides));
   run.run();
-  for (const demos::RunSummary::SiteSummary& site : run.summary().sites) {
+  for (const demos::SiteSummary& site : run.summary().sites) {
     EXPECT_EQ(site.counters.force_clamped, 0u);
     EXPECT_EQ(site.counters.force_slewed, 0u);
     EXPECT_EQ(site.counters.energy_limited, 0u);

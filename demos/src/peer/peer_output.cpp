@@ -5,31 +5,19 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "guard_summary.h"
+#include "site_summary.h"
 
 namespace tandem::demos {
 namespace {
 
-nlohmann::json summariseSite(const Scenario& scenario, int site, PeerRun& run) {
-  int transitions = 0;
-  double most = 0.0, sum = 0.0;
-  bool touching = false;
-  for (const TickRecord& tick : run.recording().ticks()) {
-    if (tick.contact != touching) ++transitions;
-    touching = tick.contact;
-    most = std::max(most, tick.f_W.norm());
-    sum += tick.f_W.norm();
-  }
-  const double count =
-      static_cast<double>(std::max<std::size_t>(run.recording().ticks().size(), 1));
-  const Site& own = run.world().site();
+nlohmann::json summariseOwnSite(const Scenario& scenario, int number, PeerRun& run) {
+  const Site& site = run.world().site();
+  SiteSummary summary = summariseSite(site, run.recording());
+  summary.received_mean = run.receivedMean();
   const SceneFrame frame = makeSceneFrame(scenario);
-  const Vec3 moved_W = own.hip().p_W - computeStart(scenario, frame, site - 1);
-  return {{"coherency", {{"received_mean", run.receivedMean()}}},
-          {"contact_transitions", transitions},
-          {"force", {{"max", most}, {"mean", sum / count}}},
-          {"device_end", frame.toScene(moved_W).x()},
-          {"guards", describeGuards(own.counters(), own.passivity())}};
+  const Vec3 moved_W = site.hip().p_W - computeStart(scenario, frame, number - 1);
+  summary.device_end = frame.toScene(moved_W).x();
+  return describeSite(summary);
 }
 
 nlohmann::json summariseNetwork(const PeerRun& run) {
@@ -58,7 +46,7 @@ nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run)
   j["title"] = scenario.title;
   j["scenario"] = describeScenario(scenario);
   j["scalar"] = sizeof(btScalar) == 8 ? "float64" : "float";
-  j[fmt::format("site{}", site)] = summariseSite(scenario, site, run);
+  j[fmt::format("site{}", site)] = summariseOwnSite(scenario, site, run);
   j["network"] = summariseNetwork(run);
   j["loop"] = {{"ticks", loop.ticks},
                {"late", loop.late},

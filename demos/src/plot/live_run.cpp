@@ -14,12 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-json readJson(const std::filesystem::path& file) {
-  json read = json::parse(readText(file), nullptr, false);
-  if (!read.is_object()) throw UsageError(fmt::format("{}: not a JSON object", file.string()));
-  return read;
-}
-
 double numberAt(const json& j, const char* pointer) {
   const json::json_pointer at(pointer);
   return j.contains(at) && j.at(at).is_number() ? j.at(at).get<double>() : kMissing;
@@ -53,8 +47,8 @@ bool isLiveFolder(const std::filesystem::path& dir) {
 
 Run loadLiveRun(const std::filesystem::path& dir) {
   const std::filesystem::path file1 = dir / "site1.json", file2 = dir / "site2.json";
-  json both = readJson(file1);
-  const json other = readJson(file2);
+  json both = parseObject(readText(file1), file1.string());
+  const json other = parseObject(readText(file2), file2.string());
   if (sharedSettings(both) != sharedSettings(other))
     throw UsageError(
         fmt::format("{}: another scenario than in {}; give a folder that both sites "
@@ -63,10 +57,11 @@ Run loadLiveRun(const std::filesystem::path& dir) {
   both["site2"] = other.value("site2", json::object());
   both["coherency"] = describeSeparation(
       separationOf({readTable(dir / "site1.csv"), readTable(dir / "site2.csv")}));
-  Run run = parseRun(both.dump(), dir, dir.string());
-  run.live = LiveOutcome{numberAt(both, "/network/round_trip"),
+  const LiveOutcome live{numberAt(both, "/network/round_trip"),
                          (numberAt(both, "/loop/late") + numberAt(other, "/loop/late")) /
                              (numberAt(both, "/loop/ticks") + numberAt(other, "/loop/ticks"))};
+  Run run = makeRun(std::move(both), dir, dir.string());
+  run.live = live;
   return run;
 }
 

@@ -18,6 +18,18 @@ namespace {
 
 constexpr const char* kLiveStyle = "lc rgb '#000000' lw 1.4 dt (4,3)";
 
+const char* nameOf(RunKind kind) {
+  switch (kind) {
+    case RunKind::kCooperation:
+      return "cooperation";
+    case RunKind::kUserContact:
+      return "user-to-user contact";
+    case RunKind::kPlayground:
+      break;
+  }
+  return "playground";
+}
+
 struct Pair {
   const Run* live;
   const Run* in_virtual_time;  ///< or null
@@ -43,13 +55,22 @@ std::vector<Pair> findPairs(const std::vector<Run>& runs) {
   return pairs;
 }
 
-/// "virtual / live" and by how many per cent they differ.
-void addComparison(std::vector<std::string>& row, const Pair& pair, double (*value)(const Run&),
-                   int decimals) {
-  const double live = value(*pair.live);
-  const double in_virtual = pair.in_virtual_time ? value(*pair.in_virtual_time) : kMissing;
-  row.push_back(fixedText(in_virtual, decimals) + " / " + fixedText(live, decimals));
-  const double percent = 100.0 * (live / in_virtual - 1.0);
+using Value = double (*)(const Run&);
+
+double inVirtualTime(const Pair& pair, Value value) {
+  return pair.in_virtual_time ? value(*pair.in_virtual_time) : kMissing;
+}
+
+/// "virtual / live".
+std::string bothTexts(const Pair& pair, Value value, int decimals) {
+  return fixedText(inVirtualTime(pair, value), decimals) + " / " +
+         fixedText(value(*pair.live), decimals);
+}
+
+/// Both, and by how many per cent they differ.
+void addComparison(std::vector<std::string>& row, const Pair& pair, Value value, int decimals) {
+  row.push_back(bothTexts(pair, value, decimals));
+  const double percent = 100.0 * (value(*pair.live) / inVirtualTime(pair, value) - 1.0);
   row.push_back(std::isfinite(percent) ? fmt::format("{:+.1f}", percent) : "–");
 }
 
@@ -68,9 +89,8 @@ HtmlTable liveTable(const std::vector<Pair>& pairs) {
                   "round trip [ms]"};
   for (const Pair& pair : pairs) {
     const Run& live = *pair.live;
-    std::vector<std::string> row = {
-        live.kind == RunKind::kUserContact ? "user-to-user contact" : "cooperation",
-        schemeCell(live.scheme), fmt::format("{:g}", 1e3 * live.setting("/network/delay"))};
+    std::vector<std::string> row = {nameOf(live.kind), schemeCell(live.scheme),
+                                    fmt::format("{:g}", 1e3 * live.setting("/network/delay"))};
     if (live.hasObject() && live.kind != RunKind::kUserContact) {
       addComparison(
           row, pair, [](const Run& r) { return 1e3 * r.mean_coherency; }, 2);
@@ -79,10 +99,8 @@ HtmlTable liveTable(const std::vector<Pair>& pairs) {
     }
     addComparison(
         row, pair, [](const Run& r) { return r.site[0].force_mean; }, 3);
-    row.push_back(fixedText(pair.in_virtual_time ? pair.in_virtual_time->site[0].contact_transitions
-                                                 : kMissing,
-                            0) +
-                  " / " + fixedText(live.site[0].contact_transitions, 0));
+    row.push_back(bothTexts(
+        pair, [](const Run& r) { return r.site[0].contact_transitions; }, 0));
     row.push_back(fixedText(1e2 * live.live->late_share, 1));
     row.push_back(fixedText(1e3 * live.live->round_trip, 1));
     table.rows.push_back(row);
@@ -110,8 +128,7 @@ Figure liveFigure(const std::vector<Pair>& pairs, const std::string& name) {
   ColumnFigure figure;
   figure.name = name;
   figure.title = fmt::format("Live beside virtual time: {}, network delay {:g} ms",
-                             is_contact ? "user-to-user contact" : "cooperation",
-                             first.setting("/network/delay") * 1e3);
+                             nameOf(first.kind), first.setting("/network/delay") * 1e3);
   figure.legend = {{{"lines lc rgb '#888888' lw 4"}, "virtual time (in the scheme’s colour)"},
                    {{std::string("lines ") + kLiveStyle}, "live, over real sockets"}};
   figure.rows = {{is_contact ? "user 1 along x [mm]" : "|object 1 − object 2| [mm]", 190, {}},

@@ -16,11 +16,7 @@ using nlohmann::json;
 // summary.json with messages that name file and key.
 class Summary {
  public:
-  Summary(const std::string& text, std::string source) : source_(std::move(source)) {
-    root_ = json::parse(text, nullptr, false);
-    if (root_.is_discarded() || !root_.is_object())
-      throw UsageError(fmt::format("{}: not a JSON object", source_));
-  }
+  Summary(json root, std::string source) : source_(std::move(source)), root_(std::move(root)) {}
 
   const json* find(const std::string& pointer) const {
     const json::json_pointer at(pointer);
@@ -134,9 +130,19 @@ std::string Run::settingText(const std::string& pointer) const {
   return scenario.at(at).get<std::string>();
 }
 
+json parseObject(const std::string& text, const std::string& source) {
+  json object = json::parse(text, nullptr, false);
+  if (!object.is_object()) throw UsageError(fmt::format("{}: not a JSON object", source));
+  return object;
+}
+
 Run parseRun(const std::string& summary_text, const std::filesystem::path& dir,
              const std::string& source) {
-  const Summary summary(summary_text, source);
+  return makeRun(parseObject(summary_text, source), dir, source);
+}
+
+Run makeRun(json root, const std::filesystem::path& dir, const std::string& source) {
+  const Summary summary(std::move(root), source);
   Run run;
   run.dir = dir;
   run.kind = kindOf(summary.requiredText("/scenario/experiment/kind"));

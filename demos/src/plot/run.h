@@ -76,6 +76,13 @@ struct Run {
 /// and their tables. Throws UsageError naming file and key.
 [[nodiscard]] Run loadRun(const std::filesystem::path& dir);
 
+/// The JSON object that a text is; `source` names it in messages. Throws UsageError.
+[[nodiscard]] nlohmann::json parseObject(const std::string& text, const std::string& source);
+
+/// A run folder's summary, already read; `source` names it in messages. Throws UsageError.
+[[nodiscard]] Run makeRun(nlohmann::json summary, const std::filesystem::path& dir,
+                          const std::string& source);
+
 /// As loadRun(), from text that is already there; `source` names it in messages.
 [[nodiscard]] Run parseRun(const std::string& summary_text, const std::filesystem::path& dir,
                            const std::string& source);

@@ -190,7 +190,7 @@ HtmlTable runTable(const std::vector<Run>& runs, RunKind kind) {
   HtmlTable table;
   std::vector<const Run*> members;
   for (const Run& run : runs)
-    if (run.kind == kind && !run.live) members.push_back(&run);
+    if (run.kind == kind) members.push_back(&run);
   if (members.empty()) return table;
 
   const AskedSettings asked = splitAsked(members);

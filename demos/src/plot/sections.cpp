@@ -1,6 +1,7 @@
 #include "plot/sections.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -123,13 +124,11 @@ void addSweeps(Report& report, const std::vector<Sweep>& sweeps) {
 }
 
 void addPlaygrounds(Report& report, const std::vector<Run>& runs) {
-  const auto count =
-      static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const Run& run) {
-        return run.kind == RunKind::kPlayground && !run.live;
-      }));
+  const auto count = static_cast<std::size_t>(std::count_if(
+      runs.begin(), runs.end(), [](const Run& run) { return run.kind == RunKind::kPlayground; }));
   std::size_t index = 0;
   for (const Run& run : runs) {
-    if (run.kind != RunKind::kPlayground || run.live) continue;
+    if (run.kind != RunKind::kPlayground) continue;
     const std::string prefix = prefixOf("playground", index++, count);
     report.addHeading(2, run.title);
     addScene(report, run, prefix);
@@ -154,7 +153,7 @@ void addGlance(Report& report, const Grouping& grouping) {
 }
 
 void addNumbers(Report& report, const std::vector<Run>& runs) {
-  if (std::all_of(runs.begin(), runs.end(), [](const Run& run) { return run.live; })) return;
+  if (runs.empty()) return;
   report.addHeading(2, "All runs: asked and reached");
   if (std::any_of(runs.begin(), runs.end(), [](const Run& run) { return referenceOf(run); }))
     report.addParagraph(
@@ -189,9 +188,12 @@ Report composeReport(const std::vector<Run>& runs, const Grouping& grouping) {
   addCooperation(report, grouping.cooperation);
   addContact(report, grouping.contact);
   addSweeps(report, grouping.sweeps);
-  addPlaygrounds(report, runs);
+  std::vector<Run> in_virtual_time;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(in_virtual_time),
+               [](const Run& run) { return !run.live; });
+  addPlaygrounds(report, in_virtual_time);
   addLive(report, runs);
-  addNumbers(report, runs);
+  addNumbers(report, in_virtual_time);
   return report;
 }
 
