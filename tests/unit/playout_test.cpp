@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "support/random.h"
+#include "support/refusal.h"
 
 namespace tandem {
 namespace {
@@ -324,18 +324,10 @@ TEST(Playout, ClearForgetsTheSender) {
   EXPECT_EQ(playout.pop(2.0, 2.1)->packet.sequence, 0u);
 }
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 TEST(Playout, RefusesBadSettingsByName) {
-  const auto refusal = [](auto spoil) -> std::string {
-    PlayoutSettings settings;
-    spoil(settings);
-    try {
-      checkPlayoutSettings(settings);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto refusal = [](auto spoil) { return test::refusalOf(&checkPlayoutSettings, spoil); };
   EXPECT_NE(refusal([](auto& s) { s.most = -1.0; }).find("most"), std::string::npos);
   EXPECT_NE(refusal([](auto& s) { s.quantile = 1.5; }).find("quantile"), std::string::npos);
   EXPECT_NE(refusal([](auto& s) { s.slew = kNan; }).find("slew"), std::string::npos);

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,23 +7,15 @@
 #include "tandem/falcon/simulated_device.h"
 
 #include "support/random.h"
+#include "unit/simulated_device_rig.h"
 
 namespace tandem {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kPeriod = 1e-3;  // haptic period [s]
-
-SimulatedDevice makeDevice(const SimulatedDeviceSettings& settings, const Vec3& hand_force) {
-  return {settings, makeConstantHand(hand_force)};
-}
-
-/// Reads at every haptic period from 0 to `ticks`; gives the last sample.
-DeviceSample readTicks(HapticDevice& device, int ticks) {
-  DeviceSample sample;
-  for (int i = 0; i <= ticks; ++i) sample = device.read(i * kPeriod);
-  return sample;
-}
+using test::kEps;
+using test::kPeriod;
+using test::makeDevice;
+using test::readTicks;
 
 TEST(SimulatedDevice, EncoderIsOffByHalfAStepAtMost) {
   const std::uint64_t seed = 7;

@@ -9,25 +9,18 @@
 #include <gtest/gtest.h>
 
 #include "support/random.h"
+#include "unit/simulated_device_rig.h"
 
 namespace tandem {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+using test::kEps;
+using test::kPeriod;
+using test::makeDevice;
+using test::readTicks;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPeriod = 1e-3;  // haptic period [s]
-
-SimulatedDevice makeDevice(const SimulatedDeviceSettings& settings, const Vec3& hand_force) {
-  return {settings, makeConstantHand(hand_force)};
-}
-
-/// Reads at every haptic period from 0 to `ticks`; gives the last sample.
-DeviceSample readTicks(HapticDevice& device, int ticks) {
-  DeviceSample sample;
-  for (int i = 0; i <= ticks; ++i) sample = device.read(i * kPeriod);
-  return sample;
-}
 
 /// Scalar closed form of m x'' + b x' = f from rest, b > 0, in extended precision:
 /// x = f/b (t - tau (1 - e^-t/tau)), v = f/b (1 - e^-t/tau), tau = m/b.
