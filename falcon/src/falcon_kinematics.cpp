@@ -25,20 +25,24 @@ FalconKinematics::FalconKinematics(const FalconGeometry& geometry) noexcept : ge
   }
 }
 
+Vec3 FalconKinematics::toLeg(std::size_t leg, const Vec3& p_D) const noexcept {
+  const double c = cos_[leg], s = sin_[leg];
+  return {p_D.x() * c + p_D.y() * s - geometry_.base_less_grip,
+          -p_D.x() * s + p_D.y() * c - geometry_.aside, p_D.z()};
+}
+
 std::optional<FalconAngles> FalconKinematics::computeAngles(const Vec3& p_D) const noexcept {
   const FalconGeometry& g = geometry_;
   FalconAngles angles;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double u = p_D.x() * cos_[i] + p_D.y() * sin_[i] - g.base_less_grip;
-    const double v = -p_D.x() * sin_[i] + p_D.y() * cos_[i] - g.aside;
-    const double w = p_D.z();
-    const double across = g.rod * g.rod - v * v;
+    const Vec3 uvw = toLeg(i, p_D);
+    const double across = g.rod * g.rod - uvw.y() * uvw.y();
     if (!(across >= 0.0)) return std::nullopt;
     const double length = g.rod_ends + std::sqrt(across);
-    const double reach = std::hypot(u, w);
+    const double reach = std::hypot(uvw.x(), uvw.z());
     const double cosine = (reach * reach + g.arm * g.arm - length * length) / (2.0 * g.arm * reach);
     if (!(std::abs(cosine) <= 1.0)) return std::nullopt;
-    angles[static_cast<Eigen::Index>(i)] = std::atan2(w, u) - std::acos(cosine);
+    angles[static_cast<Eigen::Index>(i)] = std::atan2(uvw.z(), uvw.x()) - std::acos(cosine);
   }
   return angles;
 }
@@ -47,9 +51,8 @@ FalconKinematics::Leg FalconKinematics::look(std::size_t leg, const Vec3& p_D,
                                              const Eigen::Vector2d& elbow) const noexcept {
   const FalconGeometry& g = geometry_;
   const double c = cos_[leg], s = sin_[leg];
-  const double along = p_D.x() * c + p_D.y() * s - g.base_less_grip - elbow.x();
-  const double up = p_D.z() - elbow.y();
-  const double v = -p_D.x() * s + p_D.y() * c - g.aside;
+  const Vec3 uvw = toLeg(leg, p_D);
+  const double along = uvw.x() - elbow.x(), v = uvw.y(), up = uvw.z() - elbow.y();
   const double rho = std::sqrt(along * along + up * up);
   const double q = rho - g.rod_ends;
   const double by_rho = 2.0 * q / rho, by_u = by_rho * along, by_v = 2.0 * v;

@@ -59,6 +59,9 @@ class FalconKinematics {
   [[nodiscard]] std::optional<FalconPose> computePose(const Vec3& p_D) const noexcept;
 
  private:
+  /// u, v, w of a leg.
+  [[nodiscard]] Vec3 toLeg(std::size_t leg, const Vec3& p_D) const noexcept;
+
   /// How F and its slopes are at one leg.
   struct Leg {
     double value = 0.0;     ///< F [m^2]
