@@ -74,19 +74,18 @@ void Site::Impl::hearEnergy(Remote& remote, const StatePacket& packet) noexcept 
   const std::optional<double> before = std::exchange(remote.reported, packet.port_energy);
   if (!before || !packet.port_energy) return;
   const double more = *packet.port_energy - *before;
-  const bool are_all_heard = std::all_of(remotes.begin(), remotes.end(), [&](const Remote& r) {
+  const auto is_heard = [&](const Remote& r) {
     return &r == &remote || r.health.state() == LinkState::kLive;
-  });
-  if (more > 0.0 || are_all_heard) passivity.addReported(more);
+  };
+  if (more > 0.0 || std::all_of(remotes.begin(), remotes.end(), is_heard))
+    passivity.addReported(more);
 }
 
 /// The force that the hand may get over the coming tick.
 Vec3 Site::Impl::limitEnergy(const Vec3& wanted_W) noexcept {
-  if (wanted_W == Vec3::Zero()) return wanted_W;
-  const bool is_account_whole = std::all_of(remotes.begin(), remotes.end(), [](const Remote& r) {
-    return !r.heard || r.latest.port_energy;
-  });
-  if (!keepsAccount() || remotes.empty() || !is_account_whole) return wanted_W;
+  if (wanted_W == Vec3::Zero() || !keepsAccount() || remotes.empty()) return wanted_W;
+  const auto keeps_none = [](const Remote& r) { return r.heard && !r.latest.port_energy; };
+  if (std::any_of(remotes.begin(), remotes.end(), keeps_none)) return wanted_W;
   const double share = passivity.computeShare(period() * wanted_W.dot(island.state(hip).v_W));
   if (share == 1.0) return wanted_W;
   ++counters.energy_limited;
