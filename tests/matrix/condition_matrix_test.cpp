@@ -31,6 +31,9 @@ constexpr double kMaxForceStep = 10.0;
 /// What a hand may get in all when nothing is left [J]: it moves on in the tick in which the force
 /// is held, and the force falls no faster than it may.
 constexpr double kOverdraft = 0.01;
+/// What both hands may get together beyond what they put in [J]: two tanks, and what both claim
+/// while the news of it is on its way.
+constexpr double kMostGiven = 0.1;
 
 constexpr double kTick = MatrixScene::kPeriod;
 
@@ -73,6 +76,7 @@ void checkSite(const Condition& c, const SiteReport& site, Faults& faults) {
 std::string findFaults(const Condition& c, const CellReport& report) {
   Faults faults;
   faults.expect(report.joined >= 0.0, "joined [s]", report.joined, MatrixScene::kPatience);
+  faults.expectAtMost("energy given to both hands [J]", -report.least_energy, kMostGiven);
   for (const SiteReport& site : report.sites) checkSite(c, site, faults);
   return faults.text();
 }
