@@ -12,7 +12,8 @@ set -euo pipefail
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libbullet-dev libeigen3-dev libfmt-dev \
-                nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev libsodium-dev ;;
+                nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev libsodium-dev \
+                libftdi1-dev libhidapi-dev ;;
     demo)  echo gnuplot-nox fonts-dejavu-core ;;
     test)  echo libgtest-dev python3 ;;
     bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;

@@ -10,8 +10,10 @@ namespace tandem {
 /// What a haptic device can do; the site limits itself to it.
 struct DeviceCapabilities {
   std::string name;
-  int degrees_of_freedom = 3;                                      ///< rendered forces
-  double max_force = std::numeric_limits<double>::infinity();      ///< [N], norm
+  int degrees_of_freedom = 3;                                  ///< rendered forces
+  double max_force = std::numeric_limits<double>::infinity();  ///< [N], norm
+  /// Fastest change of the force that the hand should feel [N/s].
+  double max_slew = std::numeric_limits<double>::infinity();
   double max_stiffness = std::numeric_limits<double>::infinity();  ///< [N/m] that still feels calm
   Vec3 workspace = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< half extents [m]
   /// read() is exact at any moment, also between two ticks: packets then carry the state of their

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace tandem {
+
+/// How a serial line is set; a Falcon knows by it what it is expected to be.
+struct SerialLine {
+  int baud = 9600;      ///< [Bd], with 8 data bits, no parity, one stop bit, no flow control
+  int latency_ms = 16;  ///< after which an FTDI chip sends what it has [ms]
+  bool dtr = false;     ///< modem control line: high
+  bool rts = false;     ///< the other one
+};
+
+/// A line to a device that carries bytes both ways: USB, a tty, a HID bridge or memory. Never
+/// throws once it is made. One thread uses it, not the haptic one: calls may wait.
+class ByteTransport {
+ public:
+  virtual ~ByteTransport() = default;
+
+  /// What it is, for messages: "FTDI 0403:cb48 FTPNM0FB", "/dev/ttyUSB0".
+  [[nodiscard]] virtual const std::string& name() const noexcept = 0;
+
+  /// Sends all of it. False: the device is gone, or does not take it within a tenth of a second.
+  [[nodiscard]] virtual bool write(const std::uint8_t* bytes, std::size_t count) noexcept = 0;
+
+  /// What has come, up to `room` bytes, after waiting for the first of it up to `wait` [s]. 0:
+  /// nothing has; negative: the device is gone.
+  [[nodiscard]] virtual std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
+                                            double wait) noexcept = 0;
+
+  /// False: the line cannot be set so; lines that have no such wire leave it out.
+  [[nodiscard]] virtual bool setLine(const SerialLine& line) noexcept = 0;
+
+  /// Forgets what has come, and what is not sent yet.
+  virtual void purge() noexcept = 0;
+};
+
+}  // namespace tandem

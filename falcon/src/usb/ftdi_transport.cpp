@@ -1,0 +1,107 @@
+#include "tandem/falcon/ftdi_transport.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include <ftdi.h>
+
+#include "tandem/coordination/types.h"
+
+namespace tandem {
+namespace {
+
+constexpr unsigned kFirst = 0;
+/// USB transfers that last longer have failed [ms].
+constexpr int kTransferTime_ms = 100;
+
+struct ContextDeleter {
+  void operator()(ftdi_context* context) const noexcept { ftdi_free(context); }
+};
+using Context = std::unique_ptr<ftdi_context, ContextDeleter>;
+
+Context makeContext() {
+  Context context(ftdi_new());
+  if (!context) throw Error("libftdi1 does not start: is there memory, is /dev/bus/usb there?");
+  context->usb_read_timeout = context->usb_write_timeout = kTransferTime_ms;
+  return context;
+}
+
+std::string nameOf(const FtdiAddress& address) {
+  char ids[16];
+  std::snprintf(ids, sizeof ids, "%04x:%04x", static_cast<unsigned>(address.vendor),
+                static_cast<unsigned>(address.product));
+  return std::string("FTDI ") + ids + (address.serial.empty() ? "" : " " + address.serial);
+}
+
+class FtdiTransport final : public ByteTransport {
+ public:
+  FtdiTransport(Context context, const FtdiAddress& address)
+      : context_(std::move(context)), name_(nameOf(address)) {}
+
+  [[nodiscard]] const std::string& name() const noexcept override { return name_; }
+
+  [[nodiscard]] bool write(const std::uint8_t* bytes, std::size_t count) noexcept override {
+    const int size = static_cast<int>(count);
+    return ftdi_write_data(context_.get(), bytes, size) == size;
+  }
+
+  [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
+                                    double wait) noexcept override {
+    using Clock = std::chrono::steady_clock;
+    const auto until = Clock::now() + std::chrono::duration<double>(wait);
+    // The chip answers at the latest after its latency time, with nothing if it has nothing.
+    for (;;) {
+      const int count = ftdi_read_data(context_.get(), bytes, static_cast<int>(room));
+      if (count != 0 || Clock::now() >= until) return count;
+    }
+  }
+
+  [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {
+    ftdi_context* ftdi = context_.get();
+    return ftdi_set_baudrate(ftdi, line.baud) == 0 &&
+           ftdi_set_line_property(ftdi, BITS_8, STOP_BIT_1, NONE) == 0 &&
+           ftdi_setflowctrl(ftdi, SIO_DISABLE_FLOW_CTRL) == 0 &&
+           ftdi_set_latency_timer(ftdi, static_cast<unsigned char>(line.latency_ms)) == 0 &&
+           ftdi_setrts(ftdi, line.rts) == 0 && ftdi_setdtr(ftdi, line.dtr) == 0;
+  }
+
+  void purge() noexcept override { ftdi_tcioflush(context_.get()); }
+
+ private:
+  Context context_;
+  std::string name_;
+};
+
+}  // namespace
+
+std::vector<FtdiAddress> findFtdi(const FtdiAddress& like) {
+  const Context context = makeContext();
+  ftdi_device_list* list = nullptr;
+  std::vector<FtdiAddress> found;
+  if (ftdi_usb_find_all(context.get(), &list, like.vendor, like.product) < 0) return found;
+  for (const ftdi_device_list* one = list; one; one = one->next) {
+    char serial[128] = "";
+    if (ftdi_usb_get_strings(context.get(), one->dev, nullptr, 0, nullptr, 0, serial,
+                             sizeof serial) != 0)
+      serial[0] = '\0';
+    if (like.serial.empty() || like.serial == serial)
+      found.push_back({like.vendor, like.product, serial});
+  }
+  ftdi_list_free(&list);
+  return found;
+}
+
+std::unique_ptr<ByteTransport> openFtdi(const FtdiAddress& address) {
+  Context context = makeContext();
+  ftdi_set_interface(context.get(), INTERFACE_A);
+  const char* serial = address.serial.empty() ? nullptr : address.serial.c_str();
+  const int result = ftdi_usb_open_desc_index(context.get(), address.vendor, address.product,
+                                              nullptr, serial, kFirst);
+  if (result == -3) throw Error(nameOf(address) + " is not plugged in; see tandem device list");
+  if (result < 0)
+    throw Error(nameOf(address) + " cannot be opened (" + ftdi_get_error_string(context.get()) +
+                "); install the udev rule of Tandem and plug it in again");
+  return std::make_unique<FtdiTransport>(std::move(context), address);
+}
+
+}  // namespace tandem
