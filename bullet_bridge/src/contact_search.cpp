@@ -19,10 +19,12 @@ constexpr double kFarthest = 1e-3;
 /// taken for real they would keep bodies at rest trembling.
 constexpr double kRounding = sizeof(btScalar) == sizeof(double) ? 0.0 : 6e-8;
 
+constexpr int kManifolds = 512;
+
 btDefaultCollisionConstructionInfo makePools() {
   btDefaultCollisionConstructionInfo info;
-  info.m_defaultMaxPersistentManifoldPoolSize = 512;
-  info.m_defaultMaxCollisionAlgorithmPoolSize = 512;
+  info.m_defaultMaxPersistentManifoldPoolSize = kManifolds;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = kManifolds;
   return info;
 }
 
@@ -36,7 +38,7 @@ btCollisionObjectWrapper wrap(const PrivateCopy& copy) {
 
 ContactSearch::ContactSearch(double min_bounce_speed)
     : configuration_(makePools()),
-      dispatcher_(&configuration_),
+      dispatcher_(&configuration_, kManifolds),
       min_bounce_speed_(min_bounce_speed) {
   // A body lying flat gets all its corners at once, instead of one per step while it rocks on the
   // others.
@@ -44,54 +46,116 @@ ContactSearch::ContactSearch(double min_bounce_speed)
 }
 
 ContactSearch::~ContactSearch() {
-  for (Pair& pair : pairs_) release(pair);
+  for (Pair& pair : book_.pairs) release(pair);
+}
+
+void ContactSearch::setOrigin(const Vec3& origin_W, const std::vector<RigidState>& states) {
+  wanted_origin_W_ = origin_W;
+  moved_states_ = states;
+}
+
+bool ContactSearch::placeStanding(PrivateCopy& copy) {
+  const btTransform pose = copy.findOriginal(wanted_origin_W_);
+  if (pose == copy.object.getWorldTransform()) return false;
+  placings_.push_back({&copy, pose});
+  return true;
+}
+
+void ContactSearch::showSurfaces() {
+  surfacings_.clear();
+  const auto show = [&](PrivateCopy& copy) {
+    const Surface surface = Surface::of(*copy.original);
+    if (!(surface == Surface::of(copy.object))) surfacings_.push_back({&copy, surface});
+  };
+  for (const auto& body : bodies_) show(*body);
+  for (const auto& object : standing_) show(*object);
 }
 
 /// By island index, standing ones last in the order in which they came: equal scenes, equal order.
-void ContactSearch::sortPairs() {
+void ContactSearch::sortLinks() {
   const auto rank = [](const PrivateCopy& copy) {
     return copy.index == kStanding ? std::numeric_limits<BodyIndex>::max() : copy.index;
   };
-  std::stable_sort(pairs_.begin(), pairs_.end(), [&](const Pair& x, const Pair& y) {
+  std::stable_sort(links_.begin(), links_.end(), [&](const Link& x, const Link& y) {
     return std::pair(rank(*x.a), rank(*x.b)) < std::pair(rank(*y.a), rank(*y.b));
   });
-  indexPairs();
+}
+
+void ContactSearch::draw() {
+  if (!is_changed_) {
+    if (!is_drawn_) removed_.clear();
+    return;
+  }
+  is_changed_ = false;
+  sortLinks();
+  fillDraft();
+  is_drawn_ = true;
 }
 
 /// So that a tick looks at pairs of bodies that move, and at no others.
-void ContactSearch::indexPairs() {
-  for (auto& list : pairs_of_) list.clear();
-  std::fill(copy_of_.begin(), copy_of_.end(), nullptr);
+void ContactSearch::fillDraft() {
+  draft_.pairs.clear();
+  for (auto& list : draft_.pairs_of) list.clear();
+  std::fill(draft_.copy_of.begin(), draft_.copy_of.end(), nullptr);
   for (const auto& body : bodies_) {
     const auto index = static_cast<std::size_t>(body->index);
-    if (index >= copy_of_.size()) copy_of_.resize(index + 1, nullptr);
-    copy_of_[index] = body.get();
+    if (index >= draft_.copy_of.size()) draft_.copy_of.resize(index + 1, nullptr);
+    draft_.copy_of[index] = body.get();
   }
-  near_.clear();
-  near_.reserve(pairs_.size());
-  were_near_.reserve(pairs_.size());
-  awake_.reserve(bodies_.size());
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    for (const PrivateCopy* copy : {pairs_[i].a, pairs_[i].b}) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    draft_.pairs.push_back({links_[i].a, links_[i].b});
+    for (const PrivateCopy* copy : {links_[i].a, links_[i].b}) {
       if (copy->index == kStanding) continue;
       const auto body = static_cast<std::size_t>(copy->index);
-      if (body >= pairs_of_.size()) pairs_of_.resize(body + 1);
-      pairs_of_[body].push_back(i);
+      if (body >= draft_.pairs_of.size()) draft_.pairs_of.resize(body + 1);
+      draft_.pairs_of[body].push_back(i);
     }
-    if (pairs_[i].near) near_.push_back(i);
   }
+  draft_.near.clear();
+  draft_.near.reserve(links_.size());
+  draft_.were_near.reserve(links_.size());
+  draft_.awake.clear();
+  draft_.awake.reserve(bodies_.size());
 }
 
 void ContactSearch::erase(const btCollisionObject* original) {
   const auto is_it = [&](const auto& copy) { return copy->original == original; };
-  std::erase_if(pairs_, [&](Pair& pair) {
-    if (!is_it(pair.a) && !is_it(pair.b)) return false;
-    release(pair);
-    return true;
-  });
-  std::erase_if(bodies_, is_it);
-  std::erase_if(standing_, is_it);
-  indexPairs();
+  std::erase_if(links_, [&](const Link& link) { return is_it(link.a) || is_it(link.b); });
+  std::erase_if(placings_, [&](const Placing& placing) { return is_it(placing.copy); });
+  std::erase_if(surfacings_, [&](const Surfacing& one) { return is_it(one.copy); });
+  for (auto* copies : {&bodies_, &standing_}) {
+    const auto gone = std::find_if(copies->begin(), copies->end(), is_it);
+    if (gone == copies->end()) continue;
+    removed_.push_back(std::move(*gone));
+    copies->erase(gone);
+  }
+  is_changed_ = true;
+}
+
+void ContactSearch::commit() noexcept {
+  if (is_drawn_) {
+    is_drawn_ = false;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      std::size_t& place = links_[i].place;
+      if (place != kNowhere) {
+        std::swap(draft_.pairs[i].algorithm, book_.pairs[place].algorithm);
+        draft_.pairs[i].near = book_.pairs[place].near;
+        if (draft_.pairs[i].near) draft_.near.push_back(i);
+      }
+      place = i;
+    }
+    for (Pair& pair : book_.pairs) release(pair);
+    std::swap(book_, draft_);
+  }
+  origin_W_ = wanted_origin_W_;
+  for (const Placing& placing : placings_) placing.copy->place(placing.pose);
+  placings_.clear();
+  for (const Surfacing& one : surfacings_) one.surface.applyTo(one.copy->object);
+  surfacings_.clear();
+  if (moved_states_.empty()) return;
+  for (const auto& body : bodies_)
+    place(body->index, moved_states_[static_cast<std::size_t>(body->index)]);
+  moved_states_.clear();
 }
 
 bool ContactSearch::overlaps(const Pair& pair, const Region& a, const Region& b) const noexcept {
@@ -99,9 +163,8 @@ bool ContactSearch::overlaps(const Pair& pair, const Region& a, const Region& b)
   return overlap(a, b);
 }
 
-void ContactSearch::place(BodyIndex body, const std::vector<RigidState>& states) noexcept {
-  PrivateCopy& copy = *copy_of_[static_cast<std::size_t>(body)];
-  const RigidState& state = states[static_cast<std::size_t>(body)];
+void ContactSearch::place(BodyIndex body, const RigidState& state) noexcept {
+  PrivateCopy& copy = *book_.copy_of[static_cast<std::size_t>(body)];
   const Vec3 p = state.p_W - origin_W_;
   if (p == copy.p_placed && state.q_WB.coeffs() == copy.q_placed.coeffs()) return;
   copy.p_placed = p;
@@ -109,63 +172,60 @@ void ContactSearch::place(BodyIndex body, const std::vector<RigidState>& states)
   copy.place(toBullet(p, state.q_WB));
 }
 
-void ContactSearch::placeAll(const std::vector<RigidState>& states) noexcept {
-  for (const auto& body : bodies_) place(body->index, states);
-}
-
 template <typename Visit>
 void ContactSearch::forEachPairOf(BodyIndex body, Visit visit) {
-  if (static_cast<std::size_t>(body) >= pairs_of_.size()) return;
-  for (const std::size_t i : pairs_of_[static_cast<std::size_t>(body)]) visit(i);
+  if (static_cast<std::size_t>(body) >= book_.pairs_of.size()) return;
+  for (const std::size_t i : book_.pairs_of[static_cast<std::size_t>(body)]) visit(i);
 }
 
 void ContactSearch::lookAround(const std::vector<RigidState>& states,
                                const std::vector<double>& reach, std::vector<char>& awake,
                                std::vector<char>& near) noexcept {
-  were_near_.swap(near_);
-  near_.clear();
-  for (const std::size_t i : were_near_) pairs_[i].near = false;
+  book_.were_near.swap(book_.near);
+  book_.near.clear();
+  for (const std::size_t i : book_.were_near) book_.pairs[i].near = false;
   const auto grown = [&](const PrivateCopy& copy) {
     if (copy.index == kStanding) return copy.bounds;
     return growRegion(copy.bounds,
                       static_cast<btScalar>(reach[static_cast<std::size_t>(copy.index)]));
   };
-  awake_.clear();
-  for (std::size_t body = 0; body < copy_of_.size(); ++body) {
-    if (!awake[body] || !copy_of_[body]) continue;
-    awake_.push_back(static_cast<BodyIndex>(body));
-    place(awake_.back(), states);
+  const auto placeAt = [&](BodyIndex body) { place(body, states[static_cast<std::size_t>(body)]); };
+  book_.awake.clear();
+  for (std::size_t body = 0; body < book_.copy_of.size(); ++body) {
+    if (!awake[body] || !book_.copy_of[body]) continue;
+    book_.awake.push_back(static_cast<BodyIndex>(body));
+    placeAt(book_.awake.back());
   }
   // Those that rest are where they were placed last. Waking is catching: those that are woken wake
   // others.
-  for (std::size_t next = 0; next < awake_.size(); ++next) {
-    forEachPairOf(awake_[next], [&](std::size_t i) {
-      Pair& pair = pairs_[i];
+  for (std::size_t next = 0; next < book_.awake.size(); ++next) {
+    forEachPairOf(book_.awake[next], [&](std::size_t i) {
+      Pair& pair = book_.pairs[i];
       const auto a = static_cast<std::size_t>(pair.a->index);
       const auto b = pair.b->index != kStanding ? static_cast<std::size_t>(pair.b->index) : a;
       if (pair.near || reach[a] < 0.0 || reach[b] < 0.0) return;
       if (!overlaps(pair, grown(*pair.a), grown(*pair.b))) return;
       pair.near = true;
-      near_.push_back(i);
+      book_.near.push_back(i);
       for (const std::size_t body : {a, b}) {
         near[body] = 1;
         if (awake[body]) continue;
         awake[body] = 1;
-        awake_.push_back(static_cast<BodyIndex>(body));
-        place(awake_.back(), states);
+        book_.awake.push_back(static_cast<BodyIndex>(body));
+        placeAt(book_.awake.back());
       }
     });
   }
-  std::sort(near_.begin(), near_.end());
-  for (const std::size_t i : were_near_)
-    if (!pairs_[i].near) release(pairs_[i]);
+  std::sort(book_.near.begin(), book_.near.end());
+  for (const std::size_t i : book_.were_near)
+    if (!book_.pairs[i].near) release(book_.pairs[i]);
 }
 
 void ContactSearch::find(const std::vector<RigidState>& states,
                          std::vector<RigidContact>& contacts) noexcept {
-  for (const BodyIndex body : awake_) place(body, states);
-  for (const std::size_t i : near_) {
-    Pair& pair = pairs_[i];
+  for (const BodyIndex body : book_.awake) place(body, states[static_cast<std::size_t>(body)]);
+  for (const std::size_t i : book_.near) {
+    Pair& pair = book_.pairs[i];
     if (overlaps(pair, pair.a->bounds, pair.b->bounds)) search(pair, contacts);
   }
 }

@@ -83,7 +83,8 @@ struct Obstacles::Impl {
   btDiscreteDynamicsWorld& host;
   ContactSearch search;
   std::vector<Ball> balls;
-  std::vector<Obstacle> near_spheres;
+  std::vector<Obstacle> near_spheres, next_near_spheres;
+  bool has_next = false;  ///< of the two
   KnownShapes known_shapes;
   std::vector<Orphan> orphans;
   bool changed = false;
@@ -110,17 +111,19 @@ void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
                 "; use a convex shape or a compound of them");
   impl_->search.addBody(index, body, impl_->takeOver());
+  impl_->search.draw();
 }
 
 void Obstacles::removeBody(BodyIndex index) {
   if (btCollisionObject* body = impl_->findBody(index)) impl_->remove(body);
+  impl_->search.draw();
 }
 
 void Obstacles::addSphere(BodyIndex index, double radius) {
   impl_->balls.push_back({index, static_cast<btScalar>(radius)});
 }
 
-bool Obstacles::update(const std::vector<RigidState>& states, double margin,
+bool Obstacles::search(const std::vector<RigidState>& states, double margin,
                        const std::vector<char>* moves) {
   const auto reach = static_cast<btScalar>(margin);
   impl_->changed = false;
@@ -130,9 +133,16 @@ bool Obstacles::update(const std::vector<RigidState>& states, double margin,
   impl_->findForBodies(states, reach, moves);
   impl_->dropLost();
   impl_->takeFound();
-  impl_->search.copySurfaces();
+  impl_->search.showSurfaces();
+  impl_->search.draw();
   impl_->findForSpheres(states, reach);
   return impl_->changed;
+}
+
+void Obstacles::commit() noexcept {
+  impl_->search.commit();
+  if (impl_->has_next) impl_->near_spheres.swap(impl_->next_near_spheres);
+  impl_->has_next = false;
 }
 
 const std::vector<Obstacle>& Obstacles::nearSpheres() const noexcept { return impl_->near_spheres; }
@@ -187,9 +197,7 @@ void Obstacles::Impl::forgetOrphans() {
 void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {
   if (search.bodies().empty()) return;
   const Vec3& p_W = states[static_cast<std::size_t>(search.bodies().front()->index)].p_W;
-  if ((p_W - search.origin()).norm() <= kOriginReach) return;
-  search.setOrigin(p_W);
-  search.placeAll(states);
+  if ((p_W - search.origin()).norm() > kOriginReach) search.setOrigin(p_W, states);
 }
 
 void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btScalar margin,
@@ -234,7 +242,7 @@ void Obstacles::Impl::takeFound() {
     const auto copy = std::find_if(known.begin(), known.end(),
                                    [&](const auto& entry) { return entry->original == object; });
     if (copy != known.end()) {
-      changed |= (*copy)->placeAsOriginal(search.origin());
+      changed |= search.placeStanding(**copy);
     } else {
       changed = true;
       search.addStanding(*object, takeOver());
@@ -252,11 +260,12 @@ void Obstacles::Impl::findForSpheres(const std::vector<RigidState>& states, btSc
     findStaticObjects(host, regions.back(), found);
   }
   sortAsAdded(found);
-  near_spheres.clear();
+  next_near_spheres.clear();
   for (const btCollisionObject* object : found) {
     appendObstacles(*object, *object->getCollisionShape(), object->getWorldTransform(), regions,
-                    known_shapes, near_spheres);
+                    known_shapes, next_near_spheres);
   }
+  has_next = true;
 }
 
 }  // namespace tandem

@@ -35,7 +35,7 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
       host_shape(host_object.getCollisionShape()),
       index(body),
       own_shape(makeOwnShape(*host_object.getCollisionShape())) {
-  copySurface();
+  Surface::of(host_object).applyTo(object);
   if (host_shape->getShapeType() == STATIC_PLANE_PROXYTYPE)
     plane = static_cast<const btStaticPlaneShape*>(own_shape.get());
   if (host_shape->getShapeType() == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
@@ -44,18 +44,31 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
   place(btTransform::getIdentity());
 }
 
-void PrivateCopy::copySurface() {
-  object.setFriction(original->getFriction());
-  object.setRollingFriction(original->getRollingFriction());
-  object.setSpinningFriction(original->getSpinningFriction());
-  object.setRestitution(original->getRestitution());
-  object.setUserPointer(original->getUserPointer());
-  object.setUserIndex(original->getUserIndex());
-  object.setUserIndex2(original->getUserIndex2());
-  object.setUserIndex3(original->getUserIndex3());
+Surface Surface::of(const btCollisionObject& object) noexcept {
+  Surface surface;
+  surface.friction = object.getFriction();
+  surface.rolling_friction = object.getRollingFriction();
+  surface.spinning_friction = object.getSpinningFriction();
+  surface.restitution = object.getRestitution();
+  surface.user_pointer = object.getUserPointer();
+  surface.user_index = object.getUserIndex();
+  surface.user_index2 = object.getUserIndex2();
+  surface.user_index3 = object.getUserIndex3();
+  return surface;
 }
 
-bool PrivateCopy::placeAsOriginal(const Vec3& origin_W) {
+void Surface::applyTo(btCollisionObject& object) const noexcept {
+  object.setFriction(friction);
+  object.setRollingFriction(rolling_friction);
+  object.setSpinningFriction(spinning_friction);
+  object.setRestitution(restitution);
+  object.setUserPointer(user_pointer);
+  object.setUserIndex(user_index);
+  object.setUserIndex2(user_index2);
+  object.setUserIndex3(user_index3);
+}
+
+btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
   const btTransform& host_pose = original->getWorldTransform();
   Vec3 p = fromBullet(host_pose.getOrigin()) - origin_W;
   if (plane) {
@@ -65,10 +78,7 @@ bool PrivateCopy::placeAsOriginal(const Vec3& origin_W) {
     const Vec3 normal = fromBullet(host_pose.getBasis() * host_plane.getPlaneNormal());
     p = (normal.dot(p) + static_cast<double>(host_plane.getPlaneConstant())) * normal;
   }
-  const btTransform pose(host_pose.getBasis(), toBullet(p));
-  const bool moved = !(pose == object.getWorldTransform());
-  if (moved) place(pose);
-  return moved;
+  return btTransform(host_pose.getBasis(), toBullet(p));
 }
 
 void PrivateCopy::place(const btTransform& pose) {

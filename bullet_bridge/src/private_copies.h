@@ -13,18 +13,26 @@ class btStaticPlaneShape;
 
 namespace tandem {
 
+/// How an object's surface is, and what its owner knows it by.
+struct Surface {
+  btScalar friction = 0, rolling_friction = 0, spinning_friction = 0, restitution = 0;
+  void* user_pointer = nullptr;
+  int user_index = -1, user_index2 = -1, user_index3 = -1;
+
+  [[nodiscard]] static Surface of(const btCollisionObject& object) noexcept;
+  void applyTo(btCollisionObject& object) const noexcept;
+  bool operator==(const Surface&) const noexcept = default;
+};
+
 /// An object of the host's world as the private contact search has it: same shape and surface, at a
 /// place of its own.
 struct PrivateCopy {
   /// `index`: of the island's body, or kStanding.
   PrivateCopy(btCollisionObject& host_object, BodyIndex index);
 
-  /// Puts the copy where a standing original is, seen from `origin_W`. Returns whether that moved
-  /// it.
-  bool placeAsOriginal(const Vec3& origin_W);
+  /// Where a standing original is, seen from `origin_W`.
+  [[nodiscard]] btTransform findOriginal(const Vec3& origin_W) const;
   void place(const btTransform& pose);
-  /// Friction and restitution as the original has them now.
-  void copySurface();
 
   btCollisionObject* original;         ///< the host may have deleted it: compare, do not read
   const btCollisionShape* host_shape;  ///< another one: another object at the same address

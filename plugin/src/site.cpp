@@ -40,7 +40,8 @@ Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& host, Hapt
       obstacles(host),
       neighbour_search(host, static_cast<std::size_t>(settings.max_neighbours)),
       island(makeIslandSettings(settings)),
-      guard(hand.capabilities().max_force, settings.max_slew / settings.haptic_rate,
+      guard(hand.capabilities().max_force,
+            std::min(settings.max_slew, hand.capabilities().max_slew) / settings.haptic_rate,
             settings.fault_slew / settings.haptic_rate),
       passivity(settings.passivity),
       host_step(settings.host_step),
@@ -184,8 +185,9 @@ void Site::Impl::finishSetUp() {
   snapshots.setBodyCount(count);
   tick_start_states.resize(count);
   moved_last.reserve(count);
-  moves.resize(count);
-  scratch_states.resize(count);
+  mirror.states.resize(count);
+  mirror.moves.resize(count);
+  newcomers.reserve(neighbours.size());
   packet_turns.setObjectCount(objects.size());
   for (Remote& remote : remotes) remote.object_sequences.resize(objects.size());
   for (RestMark* mark : {&force_rest, &hash_rest, &start_rest, &snapshot_rest, &quiet_rest})
@@ -194,12 +196,18 @@ void Site::Impl::finishSetUp() {
   to_states.resize(count);
   object_records.resize(objects.size());
   proxy_records.resize(remotes.size());
+  for (Neighbour& neighbour : neighbours) neighbour.body.given.reserve(kGivenImpulses);
   forEachBody([&](SiteBody& body) {
+    body.given.reserve(kGivenImpulses);
     body.bullet->remember();
     body.f_gravity_W = body.bullet->gravityForce();
     setWorldWrench(body.index, isHandoff() ? body.f_gravity_W : Vec3::Zero(), Vec3::Zero());
   });
-  if (!native) updateSurroundings(host_step > 0.0 ? host_step : kUsualHostStep);
+  if (native) return;
+  const double step = host_step > 0.0 ? host_step : kUsualHostStep;
+  makeRoomFor(step);
+  mirrorIsland();
+  updateSurroundings(step);
 }
 
 Site::Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
@@ -212,7 +220,8 @@ void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
   impl_->connect(remote, link, start_W);
 }
 std::uint32_t Site::tick(double now) noexcept { return impl_->tick(now); }
-std::uint32_t Site::status() const noexcept { return impl_->status_ever; }
+void Site::betweenTicks(const std::function<void()>& work) { impl_->desk.run(work); }
+std::uint32_t Site::status() const noexcept { return impl_->status_ever | impl_->status_of_host; }
 const SiteCounters& Site::counters() const noexcept { return impl_->counters; }
 const IslandCounters& Site::islandCounters() const noexcept { return impl_->island.counters(); }
 std::uint64_t Site::tickCount() const noexcept { return impl_->ticks; }

@@ -1,7 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "site_impl.h"
+
+// The host's step, as the thread that steps the world has it. What touches the island is asked of
+// whoever owns it (IslandDesk); what touches the host's world is done here:
+//
+//   pre-tick    look: what the host did to its bodies     ask: give it to the island, which moves
+//   on
+//               hand off where they are at the step's end
+//   Bullet      steps
+//   post-tick   take back what its solver did             ask: give that to the island
+//               look around                               ask: take in what is near
 
 namespace tandem {
 namespace {
@@ -19,6 +30,9 @@ Vec3 dropRounding(const Vec3& momentum) noexcept {
 }
 /// A host later than this, besides what it may, has dropped the time: its clock is set on [s].
 constexpr double kLostTime = 0.5;
+
+/// A live host's clock is set on by what it was late at least in so long [s].
+constexpr double kHostWatch = 1.0;
 
 /// The lateness of the host's forces falls by this part of the host's time.
 constexpr double kLatenessDecay = 0.02;
@@ -42,31 +56,40 @@ RigidState interpolate(const RigidState& a, double a_time, const RigidState& b, 
 }  // namespace
 
 void Site::Impl::beforeHostStep(double dt) noexcept {
-  followHostClock(dt);
-  const double end = host_time + dt;
   ++counters.host_steps;
   if (skipBeforeHostStep(dt)) return;
   dropMissingNeighbours();
   if (!allBodiesPresent()) {
     // The hand still gets its fading force.
-    if (settings.tick_source == TickSource::kHostStep) runTicksUntil(end);
+    desk.run([&] {
+      followHostClock(dt);
+      if (settings.tick_source == TickSource::kHostStep) runTicksUntil(host_time + dt);
+    });
     return;
   }
   if (native) {
+    followHostClock(dt);
     beforeNativeStep(dt);
     return;
   }
-  if (!isHandoff() && std::abs(dt - period()) > 1e-3 * period()) status_ever |= kHostStepWrong;
+  if (!isHandoff() && std::abs(dt - period()) > 1e-3 * period()) status_of_host |= kHostStepWrong;
 
-  host_step = dt;
-  if (island_time < end) handoff_due = end;
-  if (isHandoff()) passHostChanges(dt);
-  if (settings.tick_source == TickSource::kHostStep) {
-    steerDriven(end);
-    runTicksUntil(end);
-  }
+  if (isHandoff()) lookAtBodies(dt);
+  desk.run([&] {
+    followHostClock(dt);
+    const double end = host_time + dt;
+    host_step = dt;
+    if (island_time < end) handoff_due = end;
+    if (isHandoff()) passHostChanges(dt);
+    if (settings.tick_source == TickSource::kHostStep) {
+      lookAtDriven(end);
+      steerDriven();
+      runTicksUntil(end);
+    }
+    if (isHandoff()) findEnds(end);
+  });
   if (isHandoff()) {
-    handOff(end, dt);
+    handOff(dt);
   } else {
     forEachBody([&](SiteBody& body) {
       if (island.isDynamic(body.index)) body.bullet->applyWrench(body.f_W, body.t_W, dt);
@@ -75,45 +98,59 @@ void Site::Impl::beforeHostStep(double dt) noexcept {
 }
 
 void Site::Impl::afterHostStep(double dt) noexcept {
-  host_time += dt;
-  if (skipAfterHostStep()) return;
+  if (skipAfterHostStep(dt)) return;
   dropMissingNeighbours();
-  if (!allBodiesPresent()) return;
+  if (!allBodiesPresent()) return desk.run([&] { host_time += dt; });
   if (native) {
+    host_time += dt;
     afterNativeStep(dt);
     return;
   }
-  forEachBody([&](SiteBody& body) {
-    if (isHandoff()) {
-      receive(body);
-    } else if (island.isDynamic(body.index)) {
-      island.setState(body.index, body.bullet->state());
-    } else {
-      body.bullet->setState(island.state(body.index));
-    }
+  if (isHandoff()) forEachBody([&](SiteBody& body) { takeBack(body); });
+  const bool is_behind = settings.tick_source == TickSource::kCaller;
+  if (is_behind) lookAtDriven(host_time + dt);
+  desk.run([&] {
+    host_time += dt;
+    forEachBody([&](SiteBody& body) {
+      if (isHandoff()) {
+        receive(body);
+      } else if (island.isDynamic(body.index)) {
+        island.setState(body.index, body.bullet->state());
+      } else {
+        body.bullet->setState(island.state(body.index));
+      }
+    });
+    announceNextEnd(dt);
+    if (is_behind) steerDriven();
+    makeRoomFor(dt);
+    mirrorIsland();
   });
-  announceNextEnd(dt);
+  if (isHandoff()) forEachBody([&](SiteBody& body) { parkIfItStood(body); });
   updateSurroundings(dt);
   ++counters.searches;
   fallQuiet();
 }
 
 /// What Bullet's solver did besides: contact with moving bodies that are not held.
-void Site::Impl::receive(SiteBody& body) noexcept {
+void Site::Impl::takeBack(SiteBody& body) noexcept {
   HostChange change;
-  const bool was_parked = body.bullet->isParked();
-  body.was_near_awake = was_parked && !body.bullet->isAsleep();
-  if (!was_parked) {
+  body.was_parked = body.bullet->isParked();
+  body.was_near_awake = body.was_parked && !body.bullet->isAsleep();
+  if (!body.was_parked) {
     change = body.bullet->restore();
-    std::erase_if(body.given, [&](const GivenImpulse& g) { return g.time <= host_time; });
   } else if (body.bullet->wakeIfHit(change)) {
     noteWoken(body);
   }
-  change.impulse_W = dropRounding(change.impulse_W);
-  change.angular_impulse_W = dropRounding(change.angular_impulse_W);
-  give(body, change.impulse_W, change.angular_impulse_W);
-  const bool was_hit = change.impulse_W != Vec3::Zero() || change.angular_impulse_W != Vec3::Zero();
-  if (!was_parked) parkIfItStood(body, was_hit);
+  body.hit_W = dropRounding(change.impulse_W);
+  body.angular_hit_W = dropRounding(change.angular_impulse_W);
+}
+
+void Site::Impl::receive(SiteBody& body) noexcept {
+  if (!body.was_parked)
+    std::erase_if(body.given, [&](const GivenImpulse& g) { return g.time <= host_time; });
+  give(body, body.hit_W, body.angular_hit_W);
+  body.may_park = mayPark(body);
+  body.seen = body.end;
 }
 
 /// The island stops at the end of the next step for a moment, even inside a tick.
@@ -125,7 +162,9 @@ void Site::Impl::announceNextEnd(double dt) noexcept {
 /// A host may be late and make up for it, step by step. One that has dropped time never will.
 void Site::Impl::followHostClock(double dt) noexcept {
   const double late = island_time - (host_time + dt);
-  if (late > kLostTime + settings.host_stall) {
+  if (desk.isOpen()) {
+    followLiveHost(late, dt);
+  } else if (late > kLostTime + settings.host_stall) {
     host_time += late;
     ++counters.host_clock_set;
   }
@@ -134,14 +173,49 @@ void Site::Impl::followHostClock(double dt) noexcept {
   host_lateness = std::max(beyond_tick, host_lateness - kLatenessDecay * dt);
 }
 
+/// By a clock of its own a host is early or late for good. One that asks for what has not been yet
+/// gets what is now, and its clock is set back; one that was late all through a while is not going
+/// to make up for the least of it.
+void Site::Impl::followLiveHost(double late, double dt) noexcept {
+  if (late < 0.0) host_time += late;
+  least_late = std::min(least_late, std::max(late, 0.0));
+  watched_host += dt;
+  if (watched_host < kHostWatch) return;
+  if (least_late > period()) {
+    host_time += least_late;
+    ++counters.host_clock_set;
+  }
+  least_late = std::numeric_limits<double>::infinity();
+  watched_host = 0.0;
+}
+
 bool Site::Impl::allBodiesPresent() noexcept {
   bool present = !native || native->isPresent();
   forEachBody([&](SiteBody& body) { present &= body.bullet->isInWorld(); });
-  if (!present) status_ever |= kBodyMissing;
+  if (!present) status_of_host |= kBodyMissing;
   return present;
 }
 
-/// What the host did to the bodies for its coming step goes to the island.
+/// What the host did to its bodies for its coming step.
+void Site::Impl::lookAtBodies(double dt) noexcept {
+  forEachBody([&](SiteBody& body) {
+    body.is_told = false;
+    if (body.bullet->isParked()) {
+      if (body.bullet->isUndisturbed() && !body.bullet->hasMissedWorldGravity()) return;
+      unpark(body);
+    }
+    body.is_told = true;
+    body.change = body.bullet->takeHostChanges(dt);
+    body.f_gravity_seen_W = body.bullet->gravityForce();
+  });
+  for (Neighbour& neighbour : neighbours) {
+    if (!neighbour.bullet) continue;
+    neighbour.linear_damping = neighbour.bullet->linearDamping();
+    neighbour.angular_damping = neighbour.bullet->angularDamping();
+  }
+}
+
+/// It goes to the island.
 ///
 /// An impulse acts at once. A force acts over the step - over the next one, if the step's ticks
 /// have been run already, and as much later as the host is late at its worst. The island's ticks
@@ -156,11 +230,8 @@ void Site::Impl::passHostChanges(double dt) noexcept {
   const double ticks_ahead = std::ceil((rest - kClockTolerance) / period());
   const double pay_over = std::max(ticks_ahead, 1.0) * period();
   forEachBody([&](SiteBody& body) {
-    if (body.bullet->isParked()) {
-      if (body.bullet->isUndisturbed() && !body.bullet->hasMissedWorldGravity()) return;
-      unpark(body);
-    }
-    const HostChange change = body.bullet->takeHostChanges(dt);
+    if (!body.is_told) return;
+    const HostChange& change = body.change;
     if (change.moved) move(body, change);
     give(body, change.impulse_W - dt * change.f_W, change.angular_impulse_W - dt * change.t_W);
 
@@ -168,7 +239,7 @@ void Site::Impl::passHostChanges(double dt) noexcept {
     body.owed_angular_W = dropRounding(body.owed_angular_W + dt * change.t_W);
     body.f_host_W = change.f_W + (body.owed_W - rest * change.f_W) / pay_over;
     body.t_host_W = change.t_W + (body.owed_angular_W - rest * change.t_W) / pay_over;
-    body.f_gravity_W = body.bullet->gravityForce();
+    body.f_gravity_W = body.f_gravity_seen_W;
     setWorldWrench(body.index, body.f_gravity_W + body.f_host_W, body.t_host_W);
   });
   for (Neighbour& neighbour : neighbours)
@@ -182,7 +253,7 @@ void Site::Impl::give(SiteBody& body, const Vec3& impulse_W,
   const RigidState before = island.state(body.index);
   island.applyImpulse(body.index, impulse_W, angular_impulse_W);
   countImpulse(body, before, impulse_W, angular_impulse_W);
-  if (island_time > host_time) body.given.push_back({island_time, impulse_W, angular_impulse_W});
+  if (island_time > host_time) body.note({island_time, impulse_W, angular_impulse_W});
 }
 
 /// Books what the island has had of the host's forces since they were settled last.
@@ -218,16 +289,25 @@ void Site::Impl::runTicksUntil(double time) noexcept {
   }
 }
 
-void Site::Impl::handOff(double end, double dt) noexcept {
+void Site::Impl::findEnds(double end) noexcept {
   const std::vector<RigidState>* states = snapshots.find(end, kClockTolerance);
   forEachBody([&](SiteBody& body) {
-    const RigidState state = states ? (*states)[body.index] : stateAt(body.index, end);
-    body.stands = body.bullet->standsAt(state);
+    body.end = states ? (*states)[body.index] : stateAt(body.index, end);
+  });
+  for (Remote& remote : remotes)
+    if (remote.user.body) remote.ghost_seen = island.isGhost(*remote.user.body);
+}
+
+/// Bullet gets its bodies' states at the end of the step.
+void Site::Impl::handOff(double dt) noexcept {
+  for (Remote& remote : remotes) showGhost(remote);
+  forEachBody([&](SiteBody& body) {
+    body.stands = body.bullet->standsAt(body.end);
     if (body.bullet->isParked()) {
       if (body.stands) return;
       unpark(body);
     }
-    body.bullet->handOff(state, dt);
+    body.bullet->handOff(body.end, dt);
     ++counters.bodies_handed_off;
   });
 }

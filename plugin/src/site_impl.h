@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,6 +18,7 @@
 
 #include "detour.h"
 #include "force_guard.h"
+#include "island_desk.h"
 #include "native_model.h"
 #include "packet_turns.h"
 #include "rest_mark.h"
@@ -41,11 +43,34 @@ struct SiteBody {
   Vec3 owed_W = Vec3::Zero(),
        owed_angular_W = Vec3::Zero();           ///< host's impulses still to be given [N s]
   Vec3 f_W = Vec3::Zero(), t_W = Vec3::Zero();  ///< impulse mode: for the coming host step
-  bool stands = false;                          ///< in the present host step
+  // Of the present host step: what the host's thread saw, and what the island said.
+  HostChange change;  ///< by the host, if it `is_told`
+  bool is_told = false;
+  Vec3 f_gravity_seen_W = Vec3::Zero();
+  RigidState end;                                           ///< at the end of the step
+  Vec3 hit_W = Vec3::Zero(), angular_hit_W = Vec3::Zero();  ///< impulses of Bullet's solver
+  bool stands = false;
+  bool was_parked = false;
+  bool may_park = false;            ///< the host's forces are settled
+  RigidState seen;                  ///< as Bullet has it, for who may not look himself
   bool was_near_awake = false;      ///< parked, but Bullet woke it: something awake is near
   int steps_stood = 0;              ///< host steps in which nothing moved or hit it
-  std::vector<GivenImpulse> given;  ///< what Bullet's state does not have yet
+  std::vector<GivenImpulse> given;  ///< what Bullet's state does not have yet; room is reserved
+
+  /// Without room the latest two count as one.
+  void note(const GivenImpulse& impulse) noexcept {
+    if (given.size() < given.capacity()) {
+      given.push_back(impulse);
+    } else if (!given.empty()) {
+      given.back().time = impulse.time;
+      given.back().impulse_W += impulse.impulse_W;
+      given.back().angular_impulse_W += impulse.angular_impulse_W;
+    }
+  }
 };
+
+/// Of impulses that a late host does not have yet.
+inline constexpr std::size_t kGivenImpulses = 64;
 
 struct SharedObject {
   std::unique_ptr<HapticBody> bullet;  ///< what `body` points to
@@ -62,12 +87,15 @@ struct SharedObject {
 /// A moving body of the host that the island holds while it may take part in contact: dynamic, then
 /// the island moves it, or kinematic, then the host does.
 struct Neighbour {
-  btRigidBody* rigid = nullptr;             ///< null: the slot is empty
-  const btCollisionShape* shape = nullptr;  ///< that it came with
-  IslandBody settings;                      ///< of the slot
-  std::unique_ptr<HapticBody> bullet;       ///< of a dynamic one: what `body` points to
-  std::unique_ptr<DrivenBody> driven;       ///< of a kinematic one
+  btRigidBody* rigid = nullptr;                        ///< null: the slot is empty
+  const btCollisionShape* shape = nullptr;             ///< that it came with
+  IslandBody settings;                                 ///< of the slot
+  std::unique_ptr<HapticBody> bullet;                  ///< of a dynamic one: what `body` points to
+  std::unique_ptr<DrivenBody> driven;                  ///< of a kinematic one
+  double linear_damping = 0.0, angular_damping = 0.0;  ///< as Bullet understands it, seen last
   SiteBody body;
+  bool is_new = false;   ///< promoted, but not in the island yet
+  bool is_held = false;  ///< dynamic, and the island has it
 };
 
 struct Remote {
@@ -91,6 +119,8 @@ struct Remote {
   /// Per object: which packet its target is from.
   std::vector<std::optional<std::uint64_t>> object_sequences;
   std::optional<Arrival> pending;  ///< fetched, not yet taken in
+  bool ghost_seen = false;         ///< its proxy is one in the island, as the host's thread knows
+  bool ghost_shown = false;        ///< and in the host's world
 };
 
 struct Site::Impl final : HostStepListener {
@@ -107,9 +137,11 @@ struct Site::Impl final : HostStepListener {
 
   // The tick: site_tick.cpp
   std::uint32_t tick(double now) noexcept;
+  void beginLive() noexcept;
+  void makeUp(double now) noexcept;
   void readDevice(double now) noexcept;
   void computeForce() noexcept;
-  void advance(double now) noexcept;
+  void advance(double now, double end) noexcept;
   void advanceIsland(double until) noexcept;
   void takeInUntil(double time, double now) noexcept;
   [[nodiscard]] double nextArrival(double now, double until) noexcept;
@@ -130,12 +162,16 @@ struct Site::Impl final : HostStepListener {
   void passHostChanges(double dt) noexcept;
   void give(SiteBody& body, const Vec3& impulse_W, const Vec3& angular_impulse_W) noexcept;
   void followHostClock(double dt) noexcept;
+  void followLiveHost(double late, double dt) noexcept;
   void settleHostForces() noexcept;
+  void lookAtBodies(double dt) noexcept;
+  void takeBack(SiteBody& body) noexcept;
   void receive(SiteBody& body) noexcept;
   void announceNextEnd(double dt) noexcept;
   void move(const SiteBody& body, const HostChange& change) noexcept;
   void runTicksUntil(double time) noexcept;
-  void handOff(double end, double dt) noexcept;
+  void findEnds(double end) noexcept;
+  void handOff(double dt) noexcept;
   [[nodiscard]] RigidState stateAt(BodyIndex body, double time) noexcept;
 
   // What a silent peer still does: site_links.cpp
@@ -150,6 +186,7 @@ struct Site::Impl final : HostStepListener {
   void slowTargets(Remote& remote) noexcept;
   void followDetours(Remote& remote) noexcept;
   void restrainObjects(const Remote& remote) noexcept;
+  void showGhost(Remote& remote) noexcept;
   void restrainProxy(Remote& remote) noexcept;
   void noteSearched() noexcept;
 
@@ -166,15 +203,20 @@ struct Site::Impl final : HostStepListener {
 
   // What need not be done while nothing moves: site_rest.cpp
   [[nodiscard]] bool mayPark(const SiteBody& body) const noexcept;
-  void parkIfItStood(SiteBody& body, bool was_hit) noexcept;
+  void parkIfItStood(SiteBody& body) noexcept;
   void unpark(SiteBody& body) noexcept;
   void noteWoken(SiteBody& body) noexcept;
   bool skipBeforeHostStep(double dt) noexcept;
-  bool skipAfterHostStep() noexcept;
+  bool skipAfterHostStep(double dt) noexcept;
   void fallQuiet();
 
   // What is around: site_surroundings.cpp
+  void makeRoomFor(double host_step_time);
+  void mirrorIsland() noexcept;
   void updateSurroundings(double dt);
+  bool searchObstacles(double horizon, double way);
+  void takeObstacles() noexcept;
+  void finishSurroundings(bool changed) noexcept;
   [[nodiscard]] std::size_t countHapticBodies() const noexcept;
   [[nodiscard]] bool isFullSearch() const noexcept;
   [[nodiscard]] double computeSpeedInSprings() noexcept;
@@ -186,11 +228,12 @@ struct Site::Impl final : HostStepListener {
   void dropMissingNeighbours();
   void promote(btRigidBody& rigid, Neighbour& neighbour);
   void hold(btRigidBody& rigid, Neighbour& neighbour);
-  void drive(btRigidBody& rigid, Neighbour& neighbour);
+  void takeNewcomers() noexcept;
   void demote(Neighbour& neighbour);
-  void payOff(Neighbour& neighbour);
+  [[nodiscard]] GivenImpulse computeOwed(const SiteBody& body) noexcept;
   void demoteAll();
-  void steerDriven(double step_end) noexcept;
+  void lookAtDriven(double step_end) noexcept;
+  void steerDriven() noexcept;
   void followDamping(Neighbour& neighbour) noexcept;
 
   // The same with a native contact model: site_native.cpp
@@ -203,11 +246,15 @@ struct Site::Impl final : HostStepListener {
   void forEachBody(Visit visit) {
     for (SharedObject& object : objects) visit(object.body);
     for (Neighbour& neighbour : neighbours)
-      if (neighbour.bullet) visit(neighbour.body);
+      if (neighbour.is_held) visit(neighbour.body);
     for (Remote& remote : remotes)
       if (remote.proxy) visit(remote.body);
   }
 
+  /// The island stands still for good.
+  [[nodiscard]] bool hasStopped() const noexcept {
+    return (status_now & (kBodyMissing | kStateNotFinite)) != 0;
+  }
   [[nodiscard]] double period() const noexcept { return 1.0 / settings.haptic_rate; }
   [[nodiscard]] bool isHandoff() const noexcept {
     return !native && settings.injection == Injection::kHandoff;
@@ -231,7 +278,9 @@ struct Site::Impl final : HostStepListener {
   SiteCounters counters;
   Recording* recording = nullptr;
 
+  IslandDesk desk;
   std::uint32_t status_now = kTickOk, status_ever = kTickOk;
+  std::atomic<std::uint32_t> status_of_host{kTickOk};  ///< what the host's thread noticed
   std::uint64_t ticks = 0;
   std::uint64_t packets_due = 0;
   int idle_notices = 0;     ///< to be sent before states become rare
@@ -244,10 +293,11 @@ struct Site::Impl final : HostStepListener {
   Vec3 contact_W = Vec3::Zero();      ///< contact force on the device as the model has it [N]
   Vec3 force_W = Vec3::Zero();        ///< as rendered [N]
 
+  bool lets_go = false;  ///< the force fades to zero, and stays there
+
   double island_time = 0.0;
   double tick_start = 0.0;
   std::vector<RigidState> tick_start_states;
-  std::vector<char> moves;            ///< work space: by island body, awake now
   std::vector<BodyIndex> moved_last;  ///< awake when the last tick began
   double host_time = 0.0;             ///< host's simulated time
   double host_step = 0.0;             ///< its latest step; 0: not known
@@ -255,8 +305,16 @@ struct Site::Impl final : HostStepListener {
   double host_force_end = 0.0;        ///< without news from the host its forces end then
   double host_force_settled = 0.0;    ///< island time up to which they are booked
   double host_lateness = 0.0;         ///< by which the host's forces come late
+  double least_late = 1e300;          ///< of a live host, in the present watch [s]
+  double watched_host = 0.0;          ///< length of that [s]
   Snapshots snapshots;
-  std::vector<RigidState> scratch_states, from_states, to_states;
+  /// The island as the host's thread knows it.
+  struct Mirror {
+    std::vector<RigidState> states;  ///< by body
+    std::vector<char> moves;         ///< by body, awake then
+    double speed = 0.0;              ///< largest [m/s]
+  } mirror;
+  std::vector<RigidState> from_states, to_states;
   std::vector<Aside> asides;
   PacketTurns packet_turns;
 
@@ -266,6 +324,7 @@ struct Site::Impl final : HostStepListener {
   RestMark start_rest;     ///< tick_start_states were kept
   RestMark snapshot_rest;  ///< states were kept for the ends of host steps
   RestMark quiet_rest;     ///< all bodies slept in Bullet, too
+  bool may_skip = false;   ///< the next host step, if nothing has changed
   bool quiet = false;      ///< the present host step is skipped
   StandingWatch standing_watch;
   std::vector<HapticBody*> quiet_bodies;

@@ -158,6 +158,13 @@ void Site::Impl::restrainObjects(const Remote& remote) noexcept {
     island.setCouplerShare(object.couplers[place], isRenewed(remote, object) ? share : 0.0);
 }
 
+/// In the host's world, by the host's thread.
+void Site::Impl::showGhost(Remote& remote) noexcept {
+  if (!remote.proxy || remote.ghost_seen == remote.ghost_shown) return;
+  remote.ghost_shown = remote.ghost_seen;
+  remote.proxy->setGhost(remote.ghost_seen);
+}
+
 void Site::Impl::restrainProxy(Remote& remote) noexcept {
   if (!remote.user.body) return;
   const BodyIndex body = *remote.user.body;
@@ -165,7 +172,10 @@ void Site::Impl::restrainProxy(Remote& remote) noexcept {
   const bool is_out = health.isProxyOut();
   if (is_out != island.isGhost(body)) {
     island.setGhost(body, is_out);
-    if (remote.proxy) remote.proxy->setGhost(is_out);
+    if (!desk.isOpen()) {
+      remote.ghost_seen = is_out;
+      showGhost(remote);
+    }
     if (remote.held_proxy) setNativeGhost(remote.held_proxy->rigid(), is_out);
     if (is_out) {
       RigidState state = island.state(body);

@@ -35,20 +35,21 @@ void Site::Impl::dropMissingNeighbours() {
       demote(neighbour);
 }
 
+/// Not the island's before takeNewcomers().
 void Site::Impl::promote(btRigidBody& rigid, Neighbour& neighbour) {
   ++counters.promoted;
   const BodyIndex index = neighbour.body.index;
   neighbour.rigid = &rigid;
   neighbour.shape = rigid.getCollisionShape();
-  neighbour.body = {};
-  neighbour.body.index = index;
+  neighbour.is_new = true;
   neighbour.settings = {};
   neighbour.settings.is_rigid = true;
   const std::optional<Shape> shape = convertShape(*rigid.getCollisionShape());
   if (shape) neighbour.settings.shape = *shape;
   neighbour.settings.touches_spheres = shape.has_value();
   if (rigid.isKinematicObject()) {
-    drive(rigid, neighbour);
+    neighbour.driven = std::make_unique<DrivenBody>(host_world.world(), rigid, host_time);
+    neighbour.settings.motion = neighbour.driven->motion();
   } else {
     hold(rigid, neighbour);
   }
@@ -58,29 +59,40 @@ void Site::Impl::promote(btRigidBody& rigid, Neighbour& neighbour) {
 }
 
 void Site::Impl::hold(btRigidBody& rigid, Neighbour& neighbour) {
-  SiteBody& body = neighbour.body;
   neighbour.bullet = std::make_unique<HapticBody>(host_world.world(), rigid, 1.0, Sleep::kAsHost);
-  body.bullet = neighbour.bullet.get();
-  body.f_gravity_W = neighbour.bullet->gravityForce();
+  const HapticBody& bullet = *neighbour.bullet;
+  neighbour.linear_damping = bullet.linearDamping();
+  neighbour.angular_damping = bullet.angularDamping();
 
   IslandBody& own = neighbour.settings;
-  own.mass = neighbour.bullet->mass();
-  own.inertia_B = neighbour.bullet->inertia();
-  own.damping = own.mass * computeDecay(neighbour.bullet->linearDamping());
-  own.angular_damping = computeDecay(neighbour.bullet->angularDamping());
-  own.start = neighbour.bullet->state();
-  island.fill(body.index, own);
-  setWorldWrench(body.index, body.f_gravity_W, Vec3::Zero());
-  tick_start_states[body.index] = own.start;
-  newcomers.push_back(body.index);
+  own.mass = bullet.mass();
+  own.inertia_B = bullet.inertia();
+  own.damping = own.mass * computeDecay(bullet.linearDamping());
+  own.angular_damping = computeDecay(bullet.angularDamping());
+  own.start = bullet.state();
+  SiteBody& body = neighbour.body;
+  body.bullet = neighbour.bullet.get();
+  body.f_gravity_W = bullet.gravityForce();
+  body.seen = own.start;
 }
 
-void Site::Impl::drive(btRigidBody& rigid, Neighbour& neighbour) {
-  neighbour.driven = std::make_unique<DrivenBody>(host_world.world(), rigid, host_time);
-  neighbour.settings.motion = neighbour.driven->motion();
-  neighbour.settings.start = neighbour.driven->at(island_time);
-  island.fill(neighbour.body.index, neighbour.settings);
-  tick_start_states[neighbour.body.index] = neighbour.settings.start;
+/// The island gets those that were promoted.
+void Site::Impl::takeNewcomers() noexcept {
+  for (Neighbour& neighbour : neighbours) {
+    if (!neighbour.is_new) continue;
+    neighbour.is_new = false;
+    neighbour.is_held = neighbour.bullet != nullptr;
+    const BodyIndex index = neighbour.body.index;
+    if (neighbour.driven) neighbour.settings.start = neighbour.driven->at(island_time);
+    island.fill(index, neighbour.settings);
+    if (neighbour.bullet) {
+      setWorldWrench(index, neighbour.body.f_gravity_W, Vec3::Zero());
+      newcomers.push_back(index);
+    }
+    tick_start_states[index] = neighbour.settings.start;
+  }
+  obstacles.commit();
+  mirrorIsland();
 }
 
 void Site::Impl::demote(Neighbour& neighbour) {
@@ -98,31 +110,40 @@ void Site::Impl::demote(Neighbour& neighbour) {
     }
   }
   obstacles.removeBody(index);
-  std::erase(newcomers, index);
-  if (neighbour.bullet) countNeighbour(neighbour, -1.0);
-  if (neighbour.bullet && is_present) payOff(neighbour);
-  island.clear(index);
+  GivenImpulse owed;
+  desk.run([&] {
+    obstacles.commit();
+    std::erase(newcomers, index);
+    if (neighbour.bullet) countNeighbour(neighbour, -1.0);
+    if (neighbour.bullet) owed = computeOwed(neighbour.body);
+    island.clear(index);
+    neighbour.is_held = false;
+    mirrorIsland();
+  });
+  if (neighbour.bullet && is_present)
+    neighbour.bullet->applyWrench(owed.impulse_W, owed.angular_impulse_W, 1.0);
   neighbour.bullet.reset();
   neighbour.driven.reset();
+  neighbour.rigid = nullptr;
   neighbour.body = {};
   neighbour.body.index = index;
-  neighbour.rigid = nullptr;
+  neighbour.body.given.reserve(kGivenImpulses);
 }
 
 /// Momentum that reached the island later than the host's time, and the host's own force that has
 /// not reached it yet.
-void Site::Impl::payOff(Neighbour& neighbour) {
+GivenImpulse Site::Impl::computeOwed(const SiteBody& body) noexcept {
   settleHostForces();
-  const SiteBody& body = neighbour.body;
   const double ahead = std::max(0.0, island_time - host_time);
-  Vec3 impulse_W = body.owed_W + ahead * body.f_host_W;
-  Vec3 angular_impulse_W = body.owed_angular_W + ahead * body.t_host_W;
+  GivenImpulse owed;
+  owed.impulse_W = body.owed_W + ahead * body.f_host_W;
+  owed.angular_impulse_W = body.owed_angular_W + ahead * body.t_host_W;
   for (const GivenImpulse& given : body.given) {
     if (given.time <= host_time) continue;
-    impulse_W += given.impulse_W;
-    angular_impulse_W += given.angular_impulse_W;
+    owed.impulse_W += given.impulse_W;
+    owed.angular_impulse_W += given.angular_impulse_W;
   }
-  neighbour.bullet->applyWrench(impulse_W, angular_impulse_W, 1.0);
+  return owed;
 }
 
 void Site::Impl::demoteAll() {
@@ -130,15 +151,20 @@ void Site::Impl::demoteAll() {
     if (neighbour.rigid) demote(neighbour);
 }
 
-/// Kinematic bodies go where the host's latest pose and velocity lead. The step that ends at
-/// `step_end` is still to come for the island if it ticks inside of it: then they are there in
-/// time. Else it is over, what was guessed was wrong by a little, and is mended slowly.
-void Site::Impl::steerDriven(double step_end) noexcept {
+/// Where the host's step that ends at `step_end` has taken, or will take, kinematic bodies.
+void Site::Impl::lookAtDriven(double step_end) noexcept {
+  for (Neighbour& neighbour : neighbours)
+    if (neighbour.driven) neighbour.driven->look(step_end);
+}
+
+/// Kinematic bodies go where the host's latest pose and velocity lead. The step that they were seen
+/// in is still to come for the island if it ticks inside of it: then they are there in time. Else
+/// it is over, what was guessed was wrong by a little, and is mended slowly.
+void Site::Impl::steerDriven() noexcept {
   for (Neighbour& neighbour : neighbours) {
     if (!neighbour.driven) continue;
     DrivenBody& driven = *neighbour.driven;
     const BodyIndex index = neighbour.body.index;
-    driven.look(step_end);
     const double within = settings.tick_source == TickSource::kHostStep
                               ? driven.seenAt() - island_time
                               : kMendingTime;
@@ -156,8 +182,8 @@ void Site::Impl::steerDriven(double step_end) noexcept {
 /// The host may change a body's damping while we hold it.
 void Site::Impl::followDamping(Neighbour& neighbour) noexcept {
   IslandBody& own = neighbour.settings;
-  const double damping = own.mass * computeDecay(neighbour.bullet->linearDamping());
-  const double angular_damping = computeDecay(neighbour.bullet->angularDamping());
+  const double damping = own.mass * computeDecay(neighbour.linear_damping);
+  const double angular_damping = computeDecay(neighbour.angular_damping);
   if (damping == own.damping && angular_damping == own.angular_damping) return;
   own.damping = damping;
   own.angular_damping = angular_damping;

@@ -29,9 +29,11 @@ bool Site::Impl::mayPark(const SiteBody& body) const noexcept {
          is_zero(body.owed_angular_W);
 }
 
-void Site::Impl::parkIfItStood(SiteBody& body, bool was_hit) noexcept {
+void Site::Impl::parkIfItStood(SiteBody& body) noexcept {
+  if (body.was_parked) return;
+  const bool was_hit = body.hit_W != Vec3::Zero() || body.angular_hit_W != Vec3::Zero();
   body.steps_stood = body.stands && !was_hit ? body.steps_stood + 1 : 0;
-  if (body.steps_stood < kStepsToPark || !mayPark(body)) return;
+  if (body.steps_stood < kStepsToPark || !body.may_park) return;
   body.bullet->park();
   if (body.bullet->isParked()) ++counters.bodies_parked;
 }
@@ -48,47 +50,63 @@ void Site::Impl::noteWoken(SiteBody& body) noexcept {
 
 /// Pre-tick of a host step in which nothing is to be done; false if something is.
 bool Site::Impl::skipBeforeHostStep(double dt) noexcept {
-  quiet = quiet_rest.holds(island) && dt == host_step && standing_watch.isGravityUnchanged() &&
+  quiet = may_skip && dt == host_step && standing_watch.isGravityUnchanged() &&
           std::all_of(quiet_bodies.begin(), quiet_bodies.end(), [](const HapticBody* body) {
             return body->isInWorld() && body->isUndisturbed();
           });
   if (!quiet) return false;
-  host_force_settled = island_time;
-  if (settings.tick_source != TickSource::kHostStep) return true;
-  const double end = host_time + dt;
-  runTicksUntil(end);
-  quiet = quiet_rest.holds(island);
-  if (!quiet) handOff(end, dt);
-  return true;
+  bool slept = false;
+  desk.run([&] {
+    slept = quiet = quiet_rest.holds(island);
+    if (!slept) return;
+    followHostClock(dt);
+    host_force_settled = island_time;
+    if (settings.tick_source != TickSource::kHostStep) return;
+    const double end = host_time + dt;
+    runTicksUntil(end);
+    quiet = quiet_rest.holds(island);
+    if (!quiet) findEnds(end);
+  });
+  if (slept && !quiet) handOff(dt);
+  return slept;
 }
 
 /// Post-tick of such a step; false if something has happened all the same.
-bool Site::Impl::skipAfterHostStep() noexcept {
+bool Site::Impl::skipAfterHostStep(double dt) noexcept {
   if (!quiet) return false;
-  const bool slept = std::all_of(quiet_bodies.begin(), quiet_bodies.end(),
-                                 [](const HapticBody* body) { return body->isAsleep(); });
-  if (!slept || !standing_watch.isUnchanged()) {
-    quiet_rest.clear();
-    return false;
-  }
-  announceNextEnd(host_step);
+  may_skip = std::all_of(quiet_bodies.begin(), quiet_bodies.end(),
+                         [](const HapticBody* body) { return body->isAsleep(); }) &&
+             standing_watch.isUnchanged();
+  if (!may_skip) return false;
+  desk.run([&] {
+    host_time += dt;
+    announceNextEnd(host_step);
+  });
   ++counters.host_steps_skipped;
   return true;
 }
 
 /// After a host step with everything done: the next may be skipped if all sleep.
 void Site::Impl::fallQuiet() {
-  quiet_rest.clear();
-  if (!isHandoff() || !island.isAsleep() || ticks == 0) return;
+  may_skip = false;
+  if (!isHandoff()) return;
   bool all_parked = true;
   forEachBody([&](const SiteBody& body) { all_parked &= body.bullet->isParked(); });
   // What the host moves by hand may come at any step, and wakes nobody.
   if (!all_parked || neighbour_search.isAnythingDriven()) return;
 
+  Vec3 hand_W = Vec3::Zero();
+  desk.run([&] {
+    quiet_rest.clear();
+    if (!island.isAsleep() || ticks == 0) return;
+    quiet_rest.set(island);
+    hand_W = island.state(hip).p_W;
+    may_skip = true;
+  });
+  if (!may_skip) return;
   quiet_bodies.clear();
   forEachBody([&](const SiteBody& body) { quiet_bodies.push_back(body.bullet); });
-  standing_watch.remember(quiet_bodies, island.state(hip).p_W, settings.hip_radius + kWatchMargin);
-  quiet_rest.set(island);
+  standing_watch.remember(quiet_bodies, hand_W, settings.hip_radius + kWatchMargin);
 }
 
 }  // namespace tandem

@@ -39,33 +39,58 @@ bool hasChanged(const Neighbour& neighbour) {
 
 }  // namespace
 
+void Site::Impl::makeRoomFor(double host_step_time) {
+  if (!(host_step_time > 0.0)) return;
+  const double horizon = kLatePeriods * host_step_time + settings.host_stall;
+  snapshots.makeRoom(static_cast<std::size_t>(horizon / host_step_time) + kSpareSnapshots);
+}
+
+/// What a search needs to know of the island.
+void Site::Impl::mirrorIsland() noexcept {
+  if (settings.guide) return;
+  mirror.speed = 0.0;
+  for (std::size_t b = 0; b < mirror.states.size(); ++b) {
+    mirror.states[b] = island.state(static_cast<BodyIndex>(b));
+    mirror.speed = std::max(mirror.speed, mirror.states[b].v_W.norm());
+  }
+  std::fill(mirror.moves.begin(), mirror.moves.end(), char{0});
+  for (const BodyIndex b : island.awakeBodies()) mirror.moves[static_cast<std::size_t>(b)] = 1;
+}
+
 void Site::Impl::updateSurroundings(double dt) {
   // The enclosure of a guide has no end, and nothing else in it.
   if (settings.guide) return;
   const double horizon = kLatePeriods * dt + settings.host_stall;
-  if (dt > 0.0) snapshots.makeRoom(static_cast<std::size_t>(horizon / dt) + kSpareSnapshots);
-  if (settings.tick_source == TickSource::kCaller) steerDriven(host_time);
   updateNeighbours(horizon);
-  double speed = 0.0;
-  for (std::size_t b = 0; b < scratch_states.size(); ++b) {
-    const auto index = static_cast<BodyIndex>(b);
-    scratch_states[b] = island.state(index);
-    speed = std::max(speed, scratch_states[b].v_W.norm());
-  }
-  std::fill(moves.begin(), moves.end(), char{0});
-  for (const BodyIndex b : island.awakeBodies()) moves[static_cast<std::size_t>(b)] = 1;
-  const std::vector<char>* of_interest = isFullSearch() ? nullptr : &moves;
-  bool changed =
-      obstacles.update(scratch_states, kStandingMargin + kSafety * speed * horizon, of_interest);
+  // Springs that are stretched, also by what was just found, may shoot a body farther.
+  double way_by_springs = 0.0;
+  bool changed = searchObstacles(horizon, 0.0);
+  desk.run([&] {
+    takeObstacles();
+    if (!island.isAsleep()) way_by_springs = kSafety * computeSpeedInSprings() * horizon;
+    if (way_by_springs <= kStandingMargin) finishSurroundings(changed);
+  });
+  if (way_by_springs <= kStandingMargin) return;
+  changed |= searchObstacles(horizon, way_by_springs);
+  desk.run([&] {
+    takeObstacles();
+    finishSurroundings(changed);
+  });
+}
+
+/// `way` [m]: that bodies may go besides what their speed takes them.
+bool Site::Impl::searchObstacles(double horizon, double way) {
+  const std::vector<char>* of_interest = isFullSearch() ? nullptr : &mirror.moves;
+  return obstacles.search(mirror.states, kStandingMargin + kSafety * mirror.speed * horizon + way,
+                          of_interest);
+}
+
+void Site::Impl::takeObstacles() noexcept {
+  obstacles.commit();
   island.setObstacles(obstacles.nearSpheres());
-  // Springs that are stretched, also by what was just found, may shoot a body farther than that.
-  const double way_by_springs =
-      island.isAsleep() ? 0.0 : kSafety * computeSpeedInSprings() * horizon;
-  if (way_by_springs > kStandingMargin) {
-    changed |= obstacles.update(
-        scratch_states, kStandingMargin + kSafety * speed * horizon + way_by_springs, of_interest);
-    island.setObstacles(obstacles.nearSpheres());
-  }
+}
+
+void Site::Impl::finishSurroundings(bool changed) noexcept {
   if (changed) island.wake();
   catchUp();
   noteSearched();
@@ -112,14 +137,15 @@ void Site::Impl::updateNeighbours(double horizon) {
   const auto is_calm = [&](const SiteBody& body) {
     return !is_full && body.bullet->isParked() && !body.was_near_awake;
   };
+  const auto state = [&](BodyIndex b) { return mirror.states[static_cast<std::size_t>(b)]; };
   seeds.clear();
-  seeds.push_back(makeSphereSeed(island.state(hip), settings.hip_radius));
+  seeds.push_back(makeSphereSeed(state(hip), settings.hip_radius));
   for (const Remote& remote : remotes)
     if (remote.proxy && !is_calm(remote.body))
-      seeds.push_back(makeSphereSeed(island.state(remote.body.index), settings.proxy.radius));
+      seeds.push_back(makeSphereSeed(state(remote.body.index), settings.proxy.radius));
   for (const SharedObject& object : objects)
     if (!is_calm(object.body))
-      seeds.push_back(makeSphereSeed(island.state(object.body.index), object.bounding_radius));
+      seeds.push_back(makeSphereSeed(state(object.body.index), object.bounding_radius));
 
   const std::vector<btRigidBody*>& near = neighbour_search.find(seeds, horizon);
   // Who is not found by a search around some of us may be near the others.
@@ -130,13 +156,17 @@ void Site::Impl::updateNeighbours(double horizon) {
     // One that the host has made another comes back as that, in the same breath.
     if ((is_whole && !is_near) || hasChanged(neighbour)) demote(neighbour);
   }
+  bool has_come = false;
   for (btRigidBody* rigid : near) {
     const auto holds = [&](const Neighbour& neighbour) { return neighbour.rigid == rigid; };
     if (std::any_of(neighbours.begin(), neighbours.end(), holds)) continue;
     const auto slot = std::find_if(neighbours.begin(), neighbours.end(),
                                    [](const Neighbour& neighbour) { return !neighbour.rigid; });
-    if (slot != neighbours.end()) promote(*rigid, *slot);
+    if (slot == neighbours.end()) continue;
+    promote(*rigid, *slot);
+    has_come = true;
   }
+  if (has_come) desk.run([&] { takeNewcomers(); });
 }
 
 /// Newcomers come in the state of the host's time; the island may be ahead of it.

@@ -19,6 +19,9 @@ constexpr double kIdleAfter = 0.5;
 /// States that say so at the full rate, before they become rare: some may be lost.
 constexpr int kIdleNotices = 5;
 
+/// Of ticks that were left out, so much is moved over [s].
+constexpr double kMostMadeUp = 0.1;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool isSame(const RigidState& a, const RigidState& b) noexcept {
@@ -33,7 +36,8 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
     handoff_due += now;
     host_time += now;
   }
-  status_now = status_ever & (kBodyMissing | kStateNotFinite);
+  status_now = (status_ever | status_of_host) & (kBodyMissing | kStateNotFinite);
+  makeUp(now);
   tick_start = now;
   readDevice(now);
   countHandWork();
@@ -44,10 +48,30 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
   addToHash(now);
   device.write(force_W);
   lookForIdleness(now);
-  advance(now);
+  advance(now, now + period());
   ++ticks;
   status_ever |= status_now;
   return status_now;
+}
+
+/// From now on a thread of its own ticks.
+void Site::Impl::beginLive() noexcept {
+  forEachBody([](SiteBody& body) { body.seen = body.bullet->state(); });
+}
+
+/// Ticks that the caller has left out: the island moves on over them, and does what was due, but
+/// nothing is felt. Longer silence is time that nobody has had.
+void Site::Impl::makeUp(double now) noexcept {
+  if (now - island_time <= kSameTime || !isHandoff() || hasStopped()) return;
+  if (now - island_time > kMostMadeUp) island_time = host_force_settled = now - kMostMadeUp;
+  while (now - island_time > kSameTime) {
+    tick_start = island_time;
+    takeInUntil(tick_start, tick_start);
+    followLinks(tick_start);
+    const double end = std::min(island_time + period(), now);
+    advance(tick_start, end);
+    ++counters.ticks_made_up;
+  }
 }
 
 void Site::Impl::readDevice(double now) noexcept {
@@ -72,14 +96,13 @@ void Site::Impl::computeForce() noexcept {
     contact_W = island.computeContactForce(hip);
     force_rest.set(island);
   }
-  const bool fault = status_now & (kDeviceInvalid | kBodyMissing | kStateNotFinite);
+  const bool fault = lets_go || status_now & (kDeviceInvalid | kBodyMissing | kStateNotFinite);
   force_W = guard.follow(limitEnergy(guard.clamp(contact_W)), fault);
   counters.force_clamped = guard.clampedCount();
   counters.force_slewed = guard.slewedCount();
 }
 
-void Site::Impl::advance(double now) noexcept {
-  const double end = now + period();
+void Site::Impl::advance(double now, double end) noexcept {
   if (!start_rest.holds(island)) {
     // Who fell asleep in the last tick has moved in it, too.
     const std::vector<BodyIndex>& awake = island.awakeBodies();
@@ -88,7 +111,7 @@ void Site::Impl::advance(double now) noexcept {
     moved_last.assign(awake.begin(), awake.end());
     start_rest.set(island);
   }
-  if (status_now & (kBodyMissing | kStateNotFinite)) return;
+  if (hasStopped()) return;
 
   if (!isHandoff()) {
     // Bullet moves the bodies: with impulses under the forces of the period's start.
@@ -265,7 +288,7 @@ void Site::Impl::capture(double now) noexcept {
   if (!recording) return;
   const auto fill = [&](const SiteBody& body, BodyRecord& record) {
     record.island = island.state(body.index);
-    record.bullet = body.bullet->state();
+    record.bullet = desk.isOpen() ? body.seen : body.bullet->state();
   };
   for (std::size_t i = 0; i < objects.size(); ++i) fill(objects[i].body, object_records[i]);
   for (std::size_t i = 0; i < remotes.size(); ++i) {

@@ -29,8 +29,8 @@ namespace {
 
 constexpr std::size_t kShown = 3;
 
-bool counting = false, showing = false;
-std::size_t counted = 0;
+thread_local bool counting = false, showing = false;
+thread_local std::size_t counted = 0;
 
 void note(const char* door, std::size_t size) {
   if (!counting) return;

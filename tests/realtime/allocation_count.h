@@ -7,8 +7,9 @@ namespace tandem::test {
 /// Counts what is taken from the heap while it lives: operator new in all its forms, malloc and its
 /// relatives in everything that is linked statically, and Bullet's btAlignedAlloc.
 ///
-/// One at a time, in a program of one thread. The first few allocations are shown on standard error
-/// with their call stack, unless `shows` is false.
+/// It counts what the thread takes that made it, and belongs to that thread; one at a time. The
+/// first few allocations are shown on standard error with their call stack, unless `shows` is
+/// false.
 class AllocationCount {
  public:
   explicit AllocationCount(bool shows = true);

@@ -3,8 +3,7 @@
 #include <cstdint>
 
 #include "tandem/coordination/datagram_channel.h"
-
-#include "link/duration_histogram.h"
+#include "tandem/plugin/duration_histogram.h"
 
 namespace tandem::demos {
 

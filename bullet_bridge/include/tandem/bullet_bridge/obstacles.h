@@ -25,8 +25,11 @@ namespace tandem {
 /// the host's world meanwhile. Kinematic objects are no candidates: they can be bodies. Bullet's
 /// global contact callbacks see the copies, too; they carry their originals' user pointers.
 ///
-/// Not thread safe: all functions in the thread that steps the host's world. Compound shapes make
-/// Bullet allocate in every search; all others only at first touch.
+/// Two threads may share it. addBody(), removeBody(), addSphere() and search() are for the thread
+/// that steps the host's world; nothing of what they find acts before commit(), which is for the
+/// thread that ticks, as are nearSpheres(), lookAround() and find(), while the other waits.
+/// Compound shapes make Bullet allocate in every search of contacts; all others only at first
+/// touch.
 class Obstacles final : public ContactFinder {
  public:
   /// `host` must outlive this object, bodies too unless they have left the world.
@@ -50,8 +53,20 @@ class Obstacles final : public ContactFinder {
   /// triangle. Returns whether anything has come, gone or moved: who rested on it should be
   /// woken. With `moves`, by index, it searches around those that move only, and keeps whatever it
   /// had found; call it without now and then.
-  bool update(const std::vector<RigidState>& states, double margin,
+  bool search(const std::vector<RigidState>& states, double margin,
               const std::vector<char>* moves = nullptr);
+
+  /// What was added, removed and found acts from now on. Real-time safe. nearSpheres() is another
+  /// vector then.
+  void commit() noexcept;
+
+  /// Both at once.
+  bool update(const std::vector<RigidState>& states, double margin,
+              const std::vector<char>* moves = nullptr) {
+    const bool has_changed = search(states, margin, moves);
+    commit();
+    return has_changed;
+  }
 
   /// Obstacles near the spheres whose shape the island knows itself: those of convertShape() and
   /// convertMesh(), also as children of compounds.

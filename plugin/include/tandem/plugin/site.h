@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ class btRigidBody;
 
 namespace tandem {
 
+class HapticLoop;
 class Recording;
 
 /// What a tick has to report; each bit says what to do.
@@ -46,6 +48,7 @@ struct SiteCounters {
   std::uint64_t bodies_parked = 0;       ///< put to sleep in Bullet, one by one
   std::uint64_t bodies_woken = 0;        ///< of those
   std::uint64_t host_clock_set = 0;      ///< the host had dropped time: its clock was set on
+  std::uint64_t ticks_made_up = 0;       ///< left out by the caller, and moved over by the next
   std::uint64_t links_faded = 0;         ///< remotes whose gains began to fall, each time
   std::uint64_t links_lost = 0;          ///< and came to zero
   std::uint64_t links_rejoined = 0;      ///< heard again after that, or at last
@@ -63,8 +66,9 @@ struct SiteCounters {
 /// host's step. Shared objects and remote users are ordinary btRigidBodys of the host's world.
 ///
 /// Set-up calls may allocate and throw; tick() does neither. One thread calls everything of one
-/// site, the one that steps the world. World, device, links and shared bodies must outlive the
-/// site; destroying the site gives the host everything back as it was.
+/// site, the one that steps the world; with a HapticLoop there are two. World, device, links and
+/// shared bodies must outlive the site; destroying the site gives the host everything back as it
+/// was.
 class Site {
  public:
   /// Throws std::invalid_argument for settings out of range; tandem::Error if the device gives no
@@ -91,6 +95,11 @@ class Site {
   /// One haptic period from `now` [s]; the first call starts the clock. Returns TickStatus bits.
   /// Real-time safe. Only with TickSource::kCaller.
   std::uint32_t tick(double now) noexcept;
+
+  /// Runs `work` while no tick runs: whatever may be called of this site may be called there. With
+  /// a HapticLoop that is its thread, and this waits for it, a period at the most; so `work` must
+  /// be short, not throw, and not call this. Any thread but the haptic one.
+  void betweenTicks(const std::function<void()>& work);
 
   /// All status bits since the start.
   [[nodiscard]] std::uint32_t status() const noexcept;
@@ -132,6 +141,7 @@ class Site {
   void record(Recording* recording) noexcept;
 
  private:
+  friend class HapticLoop;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,0 +1,143 @@
+#include "tandem/plugin/haptic_loop.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+#include "realtime.h"
+#include "site_impl.h"
+
+namespace tandem {
+namespace {
+
+/// The fading force is gone after this many ticks in any case.
+constexpr int kMostFadingTicks = 100;
+
+/// For one writer.
+void raise(std::atomic<double>& most, double value) noexcept {
+  if (value > most.load(std::memory_order_relaxed)) most.store(value, std::memory_order_relaxed);
+}
+
+void add(std::atomic<std::uint64_t>& count, std::uint64_t more) noexcept {
+  count.store(count.load(std::memory_order_relaxed) + more, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+double readMonotonicClock() noexcept { return readClock(); }
+
+struct HapticLoop::Impl {
+  Impl(Site::Impl& own, const HapticLoopSettings& wanted) : site(own), settings(wanted) {}
+
+  void run() noexcept;
+  std::uint64_t tickAt(std::uint64_t due) noexcept;
+
+  Site::Impl& site;
+  HapticLoopSettings settings;
+  RealtimeRights rights;
+  double begin = 0.0;
+  std::atomic<bool> has_begun{false}, is_stopping{false};
+  DurationHistogram lateness, tick_times;
+  std::atomic<std::uint64_t> ticks{0}, skipped{0};
+  std::atomic<double> late_max{0.0}, tick_max{0.0}, longest_gap{0.0}, latest{0.0};
+  std::thread thread;
+};
+
+/// Makes the tick whose moment it is: `due`, unless that has passed. Returns the next one.
+std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
+  const double period = site.period();
+  sleepUntil(begin + static_cast<double>(due) * period);
+  const double start = readClock();
+  const double late = start - (begin + static_cast<double>(due) * period);
+  const auto passed = static_cast<std::uint64_t>(std::max(late, 0.0) / period);
+  due += passed;
+  add(skipped, passed);
+  lateness.add(std::max(late, 0.0));
+  raise(late_max, late);
+  if (ticks.load(std::memory_order_relaxed) > 0)
+    raise(longest_gap, start - latest.load(std::memory_order_relaxed));
+  latest.store(start, std::memory_order_relaxed);
+
+  site.tick(static_cast<double>(due) * period);
+
+  const double length = readClock() - start;
+  tick_times.add(length);
+  raise(tick_max, length);
+  add(ticks, 1);
+  site.desk.serve();
+  return due + 1;
+}
+
+void HapticLoop::Impl::run() noexcept {
+  rights.take(settings.priority, settings.locks_memory);
+  // A site that has ticked before goes on from there.
+  auto due = static_cast<std::uint64_t>(std::llround(site.island_time / site.period()));
+  const double first = settings.begin.value_or(readClock());
+  begin = first - static_cast<double>(due) * site.period();
+  latest.store(first, std::memory_order_relaxed);
+  has_begun.store(true, std::memory_order_release);
+  while (!is_stopping.load(std::memory_order_acquire)) due = tickAt(due);
+  site.lets_go = true;
+  for (int i = 0; i < kMostFadingTicks && site.force_W != Vec3::Zero(); ++i) due = tickAt(due);
+  site.device.write(Vec3::Zero());
+  site.desk.close();
+  site.desk.serve();
+}
+
+HapticLoop::HapticLoop(Site& site, const HapticLoopSettings& settings)
+    : impl_(std::make_unique<Impl>(*site.impl_, settings)) {
+  Site::Impl& own = *site.impl_;
+  if (own.settings.tick_source != TickSource::kCaller)
+    throw std::invalid_argument("a haptic loop needs a site with TickSource::kCaller");
+  if (!own.isHandoff())
+    throw std::invalid_argument(
+        "a haptic loop needs a site whose island hands off: ContactModel::kIsland and "
+        "Injection::kHandoff");
+  if (own.desk.isOpen()) throw std::invalid_argument("the site has a haptic loop already");
+  if (settings.priority < 0 || settings.priority > 99)
+    throw std::invalid_argument("priority must be 0 to 99, 0 for none");
+  own.beginLive();
+  own.desk.open();
+  try {
+    impl_->thread = std::thread([this] { impl_->run(); });
+  } catch (const std::system_error& error) {
+    own.desk.close();
+    throw Error(std::string("no haptic thread: ") + error.what());
+  }
+  while (!impl_->has_begun.load(std::memory_order_acquire)) std::this_thread::yield();
+}
+
+HapticLoop::~HapticLoop() { stop(); }
+
+void HapticLoop::stop() noexcept {
+  if (!impl_->thread.joinable()) return;
+  impl_->is_stopping.store(true, std::memory_order_release);
+  impl_->thread.join();
+  impl_->site.lets_go = false;
+}
+
+const std::vector<std::string>& HapticLoop::notes() const noexcept { return impl_->rights.notes(); }
+
+LoopReport HapticLoop::report() const noexcept {
+  const auto read = [](const auto& value) { return value.load(std::memory_order_relaxed); };
+  LoopReport report;
+  report.ticks = read(impl_->ticks);
+  report.skipped = read(impl_->skipped);
+  report.late_p50 = impl_->lateness.percentile(0.5);
+  report.late_p99 = impl_->lateness.percentile(0.99);
+  report.late_max = read(impl_->late_max);
+  report.tick_p50 = impl_->tick_times.percentile(0.5);
+  report.tick_p99 = impl_->tick_times.percentile(0.99);
+  report.tick_max = read(impl_->tick_max);
+  report.longest_gap = read(impl_->longest_gap);
+  report.silence = std::max(0.0, readClock() - read(impl_->latest));
+  return report;
+}
+
+const DurationHistogram& HapticLoop::lateness() const noexcept { return impl_->lateness; }
+const DurationHistogram& HapticLoop::tickTimes() const noexcept { return impl_->tick_times; }
+
+}  // namespace tandem

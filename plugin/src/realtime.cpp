@@ -1,0 +1,78 @@
+#include "realtime.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
+
+namespace tandem {
+namespace {
+
+constexpr long kNanoseconds = 1'000'000'000;
+
+/// A tick's stack, with much to spare.
+void touchStack() noexcept {
+  std::array<std::uint8_t, 64 * 1024> stack;
+  explicit_bzero(stack.data(), stack.size());
+}
+
+}  // namespace
+
+double readClock() noexcept {
+  timespec now{};
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void sleepUntil(double moment) noexcept {
+  timespec until{};
+  until.tv_sec = static_cast<time_t>(moment);
+  until.tv_nsec = static_cast<long>((moment - static_cast<double>(until.tv_sec)) * 1e9);
+  if (until.tv_nsec >= kNanoseconds) {
+    until.tv_nsec -= kNanoseconds;
+    ++until.tv_sec;
+  }
+  // A signal that this thread handles ends it early.
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
+
+void RealtimeRights::take(int priority, bool locks_memory) noexcept {
+  touchStack();
+  if (locks_memory) {
+    // On fault: what is never touched needs no memory.
+    has_locked_ = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
+    if (!has_locked_)
+      notes_.push_back(std::string("memory is not locked (") + std::strerror(errno) +
+                       "): a tick may wait for a page; raise ulimit -l");
+  }
+  if (priority == 0) return;
+  sched_param wanted{};
+  wanted.sched_priority = priority;
+  if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) != 0) {
+    notes_.push_back(std::string("no real-time priority (") + std::strerror(errno) +
+                     "): ticks come late while the machine is busy; give your user rtprio in "
+                     "/etc/security/limits.d, or the program CAP_SYS_NICE");
+    return;
+  }
+  // Optional, and for the system's administrator only.
+  wakefulness_ = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+  const std::int32_t none = 0;
+  if (wakefulness_ >= 0 && write(wakefulness_, &none, sizeof none) != sizeof none) {
+    close(wakefulness_);
+    wakefulness_ = -1;
+  }
+}
+
+RealtimeRights::~RealtimeRights() {
+  if (wakefulness_ >= 0) close(wakefulness_);
+  if (has_locked_) munlockall();
+}
+
+}  // namespace tandem

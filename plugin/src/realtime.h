@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tandem {
+
+/// The monotonic clock [s].
+[[nodiscard]] double readClock() noexcept;
+
+/// Until a moment of it [s]; at once if that has passed.
+void sleepUntil(double moment) noexcept;
+
+/// What makes a thread punctual, as far as the system grants it; given back with the thread, the
+/// memory with this.
+class RealtimeRights {
+ public:
+  RealtimeRights() = default;
+  ~RealtimeRights();
+  RealtimeRights(const RealtimeRights&) = delete;
+  RealtimeRights& operator=(const RealtimeRights&) = delete;
+
+  /// For the calling thread: SCHED_FIFO at `priority` (0: as it is), the process's memory locked,
+  /// its stack there, and the processor kept from sleeping deeply.
+  void take(int priority, bool locks_memory) noexcept;
+
+  /// What was not granted, with the remedy.
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
+
+ private:
+  std::vector<std::string> notes_;
+  bool has_locked_ = false;
+  int wakefulness_ = -1;
+};
+
+}  // namespace tandem

@@ -1,0 +1,151 @@
+#include "tandem/plugin/haptic_loop.h"
+
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "thread/live_rig.h"
+
+namespace tandem {
+namespace {
+
+using test::LiveSite;
+using test::Wire;
+
+/// As the tests may be run by anybody on a busy machine.
+constexpr HapticLoopSettings kModest{.priority = 0, .locks_memory = false, .begin = {}};
+/// Of the force, as the watched device asks for: 2 N in a tick, and rounding.
+constexpr double kMostStep = 2.0 + 1e-9, kMostForce = 8.0 + 1e-9;
+
+void expectSafe(const test::WatchedDevice& device) {
+  EXPECT_TRUE(device.is_finite);
+  EXPECT_LE(device.largest, kMostForce);
+  EXPECT_LE(device.largest_step, kMostStep);
+  EXPECT_EQ(device.last_W, Vec3(Vec3::Zero())) << "the hand was let go with a force on it";
+}
+
+TEST(HapticLoop, TwoSitesPushACubeAmongBoxesWhileTheirHostsStep) {
+  LiveSite one(1, Vec3(0.0, 2.0, 0.0)), two(2, Vec3(-1.0, 0.0, 0.0));
+  {
+    const Wire wire(one.queue, two.queue);
+    HapticLoop loop_one(*one.site, kModest), loop_two(*two.site, kModest);
+    std::thread other([&] { two.host(2.0); });
+    one.host(2.0);
+    other.join();
+    EXPECT_GT(loop_one.report().ticks, 0u);
+  }
+  for (const LiveSite* live : {&one, &two}) {
+    expectSafe(live->watched);
+    EXPECT_GT(live->watched.largest, 0.0);
+    EXPECT_EQ(live->site->status(), kTickOk);
+    EXPECT_GT(live->site->counters().promoted, 0u);
+    EXPECT_GT(live->site->counters().packets_taken, 0u);
+    EXPECT_TRUE(isFinite(live->site->object(0)));
+  }
+  // Both have the cube pushed away from where it stood, to about the same place.
+  EXPECT_GT(one.site->object(0).p_W.y(), 0.005);
+  EXPECT_NEAR(one.site->object(0).p_W.y(), two.site->object(0).p_W.y(), 0.03);
+}
+
+TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(1.0);
+  loop.stop();
+  // One more step of the host, without the thread: now nothing moves in between.
+  live.rig.world.stepSimulation(static_cast<btScalar>(LiveSite::kHostPeriod), 0);
+  const Vec3 in_island = live.site->object(0).p_W;
+  const Vec3 in_bullet = fromBullet(live.cube->getCenterOfMassPosition());
+  // The host is at most a step and a half behind, at less than 0.3 m/s.
+  EXPECT_LT((in_island - in_bullet).norm(), 0.3 * 1.5 * LiveSite::kHostPeriod + 1e-3);
+}
+
+TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFelt) {
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(0.5);
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  live.host(0.5);
+  loop.stop();
+  expectSafe(live.watched);
+  EXPECT_GT(live.watched.largest, 0.0);
+  EXPECT_EQ(live.site->status(), kTickOk);
+}
+
+TEST(HapticLoop, AnUnpluggedDeviceHasNoForceAndComesBack) {
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(0.5);
+  live.watched.is_unplugged = true;
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  Vec3 felt_W = Vec3::Ones();
+  live.site->betweenTicks([&] { felt_W = live.watched.last_W; });
+  EXPECT_EQ(felt_W, Vec3(Vec3::Zero()));
+  live.watched.is_unplugged = false;
+  live.host(0.5);
+  loop.stop();
+  expectSafe(live.watched);
+  EXPECT_EQ(live.site->status(), static_cast<std::uint32_t>(kDeviceInvalid));
+}
+
+TEST(HapticLoop, SkipsTicksWhoseTimeHasPassedAndMovesOverThem) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  live.watched.dawdles_every = 50;
+  HapticLoop loop(*live.site, kModest);
+  live.host(1.0);
+  loop.stop();
+  const LoopReport report = loop.report();
+  EXPECT_GT(report.skipped, 0u);
+  EXPECT_GT(report.longest_gap, 4e-3);
+  // Each tick that was left out has been moved over, but for those in gaps above 0.1 s.
+  EXPECT_GT(live.site->counters().ticks_made_up, 0u);
+  EXPECT_LE(live.site->counters().ticks_made_up, report.skipped);
+  EXPECT_EQ(live.site->tickCount(), report.ticks);
+  expectSafe(live.watched);
+}
+
+TEST(HapticLoop, AnyThreadMayLookBetweenTicks) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  std::uint64_t seen = 0, seen_by_other = 0;
+  std::thread other([&] {
+    for (int i = 0; i < 50; ++i)
+      live.site->betweenTicks([&] { seen_by_other = live.site->tickCount(); });
+  });
+  for (int i = 0; i < 50; ++i) live.site->betweenTicks([&] { seen = live.site->tickCount(); });
+  other.join();
+  loop.stop();
+  EXPECT_GT(seen, 0u);
+  EXPECT_GT(seen_by_other, 0u);
+  EXPECT_GE(live.site->tickCount(), std::max(seen, seen_by_other));
+}
+
+TEST(HapticLoop, StartsAgain) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  std::uint64_t ticks = 0;
+  for (int round = 0; round < 3; ++round) {
+    HapticLoop loop(*live.site, kModest);
+    live.host(0.2);
+    loop.stop();
+    EXPECT_GT(live.site->tickCount(), ticks);
+    ticks = live.site->tickCount();
+  }
+  expectSafe(live.watched);
+}
+
+TEST(HapticLoop, RefusesWhatItCannotTick) {
+  LiveSite live(1, Vec3::Zero());
+  EXPECT_THROW(HapticLoop(*live.site, {.priority = 100, .locks_memory = false, .begin = {}}),
+               std::invalid_argument);
+  const HapticLoop loop(*live.site, kModest);
+  EXPECT_THROW(HapticLoop(*live.site, kModest), std::invalid_argument);
+
+  test::BulletRig rig;
+  SimulatedDevice device({}, makeConstantHand(Vec3::Zero()));
+  Site stepped({}, rig.world, device);
+  EXPECT_THROW(HapticLoop{stepped}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tandem
