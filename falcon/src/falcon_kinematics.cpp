@@ -121,7 +121,14 @@ std::optional<Vec3> computeTorques(const FalconPose& pose, const Vec3& f_D) noex
   return torques;
 }
 
+std::optional<Vec3> computeVelocity(const FalconPose& pose, const Vec3& angle_rates) noexcept {
+  const Vec3 v_D = pose.dangles_dp.inverse() * angle_rates;
+  if (!v_D.allFinite()) return std::nullopt;
+  return v_D;
+}
+
 double angleOfCounts(double counts) noexcept { return counts * kRadiansPerCount + kAngleOfZero; }
+Vec3 angleRatesOfCounts(const Vec3& count_rates) noexcept { return kRadiansPerCount * count_rates; }
 double countsOfAngle(double angle) noexcept { return (angle - kAngleOfZero) / kRadiansPerCount; }
 
 FalconMotors makeMotorCommands(const Vec3& torques, double motors_per_torque) noexcept {

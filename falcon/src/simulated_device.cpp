@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "damped_mass.h"
+#include "force_limit.h"
 #include "settings_check.h"
 
 // One read interval, cut in sub-steps of length h; the rendered force is held over all of it:
@@ -26,6 +27,7 @@ namespace {
 
 using falcon_detail::DampedMassStep;
 using falcon_detail::require;
+using falcon_detail::shorten;
 
 constexpr double kUnitTolerance = 1e-6;  // a guide written with seven digits is a unit vector
 
@@ -36,15 +38,6 @@ int countSubsteps(double interval) noexcept {
   constexpr double kMost = 1000.0;  // periods
   constexpr double kSlack = 1e-6;   // k and k+1 periods differ by one period but for rounding
   return 4 * static_cast<int>(std::clamp(std::ceil(interval / kPeriod - kSlack), 1.0, kMost));
-}
-
-/// What motors that can give `max_force` make of `f`: the same direction, at most that norm.
-Vec3 saturate(const Vec3& f, double max_force) noexcept {
-  if (!f.allFinite()) return Vec3::Zero();
-  const double largest = f.cwiseAbs().maxCoeff();
-  if (largest == 0.0) return f;
-  const Vec3 scaled = f / largest;  // so that the norm of a huge force does not overflow
-  return largest * scaled.norm() <= max_force ? f : scaled.normalized() * max_force;
 }
 
 double roundTo(double value, double resolution) noexcept {
@@ -101,7 +94,7 @@ DeviceSample SimulatedDevice::read(double now) noexcept {
 }
 
 void SimulatedDevice::write(const Vec3& f_W) noexcept {
-  force_W_ = saturate(f_W, settings_.max_force);
+  force_W_ = shorten(f_W, settings_.max_force);
 }
 
 /// The part of a vector that the slot lets through, in the free axes.

@@ -85,9 +85,16 @@ class FalconKinematics {
 /// tau . dtheta = f . dp. Nothing where the legs are stretched and cannot.
 [[nodiscard]] std::optional<Vec3> computeTorques(const FalconPose& pose, const Vec3& f_D) noexcept;
 
+/// Velocity of the grip [m/s] while the arms turn at `angle_rates` [rad/s]. Nothing where the legs
+/// are stretched and do not say.
+[[nodiscard]] std::optional<Vec3> computeVelocity(const FalconPose& pose,
+                                                  const Vec3& angle_rates) noexcept;
+
 /// Counts of the encoders by the angle of an arm: 1280 a turn of the motor, geared 110 : 14.25,
 /// counted from 35 degrees.
 [[nodiscard]] double angleOfCounts(double counts) noexcept;
+/// The same of a change: 6.35905e-4 rad per count.
+[[nodiscard]] Vec3 angleRatesOfCounts(const Vec3& count_rates) noexcept;
 [[nodiscard]] double countsOfAngle(double angle) noexcept;
 
 /// What the motors take: -4095 to 4095.

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tandem/coordination/types.h"
+#include "tandem/falcon/falcon_kinematics.h"
+
+namespace tandem::bench {
+
+/// A Falcon's encoders: what is left of a position once it is counted.
+class CountedGrip {
+ public:
+  struct Reading {
+    Vec3 counts = Vec3::Zero();  ///< of the three legs
+    FalconPose pose;             ///< that belongs to them
+  };
+
+  /// Throws tandem::Error for a position that is out of reach.
+  [[nodiscard]] Reading read(const Vec3& p_D);
+
+ private:
+  FalconKinematics kinematics_;
+  Vec3 guess_D_ = Vec3(0.0, 0.0, 0.125);
+};
+
+/// One way to the grip's velocity in D [m/s].
+using Estimate = std::function<Vec3(double time, const CountedGrip::Reading& reading)>;
+
+struct Candidate {
+  std::string name;
+  std::string space;  ///< where it estimates: "counts" of the legs, or "point" of the grip
+  std::function<Estimate()> make;
+};
+
+[[nodiscard]] std::vector<Candidate> makeCandidates();
+
+}  // namespace tandem::bench
