@@ -2,26 +2,26 @@
 # tandem_velocity_estimators: lag at 3 Hz [ms], noise in a stroke of 100 mm/s with uneven, unstamped
 # readings [mm/s], stiffest wall with forces a period late [N/m], name.
 $low_pass << END
- 0.5  34.4  12048  "difference"
+ 0.5  34.4  14578  "difference"
  1.4  15.0   9957  "120 Hz"
- 2.7   8.3   6183  "60 Hz"
+ 2.7   8.3   6801  "60 Hz"
  5.3   4.4   3839  "30 Hz"
 10.5   2.5   1970  "15 Hz"
 END
 $observer << END
- 2.5   6.6   5620  "0.5"
+ 2.5   6.6   6183  "0.5"
  3.5   4.3   4645  "0.6"
- 5.2   2.6   2884  "0.7"
+ 5.2   2.6   3173  "0.7"
 END
 $published << END
- 1.1  23.1  12048  "0.5"
- 2.1  19.8   8229  "0.7"
- 4.9   7.5   1628  "1"
+ 1.1  23.1  13253  "0.5"
+ 2.1  19.8   9957  "0.7"
+ 4.9   7.5   1791  "1"
  6.2   1.8   1628  "1.5"
 END
 $usual << END
  3.3   4.2   7481  "usual"
- 5.2   2.7   7481  "16 ms"
+ 5.2   2.7   9052  "16 ms"
 END
 
 set encoding utf8
@@ -53,7 +53,7 @@ plot $low_pass u 1:2 w lp ls 1, \
      $published u 1:2:4 w labels left offset 0.7,0.5 tc rgb '#2ca02c', \
      $usual u 1:2:4 w labels left offset 0.7,0.6 tc rgb '#d62728'
 set xlabel 'stiffest calm wall, forces a period late [kN/m]'
-set xrange [0:15]
+set xrange [0:16]
 unset for [i=1:4] label i
 unset ylabel
 plot $low_pass u ($3/1e3):2 w lp ls 1, $observer u ($3/1e3):2 w lp ls 2, $published u ($3/1e3):2 w lp ls 3, \

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "support/random.h"
+
 namespace tandem::bench {
 namespace {
 
 constexpr double kPeriod = 1e-3;          // [s]
 constexpr int kSubsteps = 20;             // of the handle's motion in a period
 constexpr int kTicks = 1500, kEnd = 500;  // of which the last are looked at
+constexpr int kPlaces = 10;               // in the middle of the workspace
 constexpr double kMass = 0.15;            // [kg]
 constexpr double kOwnDamping = 0.5;       // [N s/m]
 constexpr double kPress = 3.0;            // [N]
@@ -57,10 +60,12 @@ double measureSwingAt(const Vec3& face_D, const Candidate* candidate, const Wall
 }  // namespace
 
 double measureSwing(const Candidate* candidate, const Wall& wall) {
+  test::Random random(12);
   double worst = 0.0;
-  for (const Vec3& off :
-       {Vec3(0.0, 0.0, 0.0), Vec3(3.3e-3, -2.1e-3, 13e-6), Vec3(-9e-3, 5e-3, 29e-6)})
-    worst = std::max(worst, measureSwingAt(Vec3(0.0, 0.0, 0.125) + off, candidate, wall));
+  for (int i = 0; i < kPlaces; ++i) {
+    const Vec3 face_D = Vec3(0.0, 0.0, 0.125) + random.inCube(0.015);
+    worst = std::max(worst, measureSwingAt(face_D, candidate, wall));
+  }
   return worst;
 }
 
