@@ -1,53 +1,21 @@
 #include "tandem/falcon/guarded_device.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "devices/told_device.h"
-#include "support/random.h"
+#include "devices/guard_rig.h"
 
 namespace tandem {
 namespace {
 
-constexpr double kPeriod = 1e-3;  // [s]
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-/// A guard over a told device, tick by tick.
-class GuardRig {
- public:
-  explicit GuardRig(const GuardSettings& settings = {}, const DeviceCapabilities& device = {})
-      : script{device},
-        guard(std::make_unique<GuardedDevice>(std::make_unique<test::ToldDevice>(script),
-                                              settings)) {}
-
-  /// Reads a period later and writes; gives the device's force.
-  Vec3 tick(const Vec3& wanted) {
-    now += kPeriod;
-    (void)guard->read(now);
-    guard->write(wanted);
-    return script.force;
-  }
-  void tickFor(double duration, const Vec3& wanted) {
-    const int ticks = static_cast<int>(std::lround(duration / kPeriod));
-    for (int i = 0; i < ticks; ++i) (void)tick(wanted);
-  }
-  /// To where the ramp is over.
-  void warmUp(const Vec3& wanted) { tickFor(0.6, wanted); }
-  [[nodiscard]] std::uint64_t cuts(GuardCut reason) const {
-    return guard->status().cuts[static_cast<std::size_t>(reason)];
-  }
-
-  test::DeviceScript script;
-  std::unique_ptr<GuardedDevice> guard;
-  double now = 10.0;  // [s]
-};
-
-const Vec3 kPush(0.0, 3.0, -4.0);  // 5 N
+using test::GuardRig;
+using test::kInf;
+using test::kPeriod;
+using test::kPush;
 
 TEST(GuardedDevice, GivesNothingBeforeAPositionAndThenRampsIn) {
   GuardRig rig;
@@ -199,6 +167,18 @@ TEST(GuardedDevice, IsZeroAtOnceOnATimeThatMakesNoSense) {
   }
 }
 
+TEST(GuardedDevice, HearsOfItsDeadManFromAnotherThread) {
+  GuardRig rig;
+  std::thread other([&] {
+    for (int i = 0; i < 1000; ++i) rig.guard->holdDeadMan(i % 2 == 0);
+  });
+  rig.tickFor(1.0, kPush);
+  other.join();
+  rig.tickFor(0.01, kPush);
+  EXPECT_EQ(rig.script.force, Vec3::Zero());  // at last it was let go
+  EXPECT_GE(rig.cuts(GuardCut::kDeadMan), 1u);
+}
+
 TEST(GuardedDevice, LeavesItsDeviceWithoutForce) {
   GuardRig rig;
   rig.warmUp(kPush);
@@ -219,95 +199,6 @@ TEST(GuardedDevice, RefusesWhatGuardsNothing) {
     if (bad != 0.0) refuses({8.0, 2000.0, bad});
   }
   EXPECT_THROW(GuardedDevice(nullptr), std::invalid_argument);
-}
-
-/// A force that no program should ask for, now and then.
-Vec3 drawForce(test::Random& random) {
-  const double odd[] = {std::nan(""), kInf, 1e300, -1e300};
-  Vec3 force = random.direction() * random.logUniform(1e-3, 100.0);
-  if (random.below(30) == 0) force[random.below(3)] = odd[random.below(4)];
-  return force;
-}
-
-TEST(GuardedDevice, HearsOfItsDeadManFromAnotherThread) {
-  GuardRig rig;
-  std::thread other([&] {
-    for (int i = 0; i < 1000; ++i) rig.guard->holdDeadMan(i % 2 == 0);
-  });
-  rig.tickFor(1.0, kPush);
-  other.join();
-  rig.tickFor(0.01, kPush);
-  EXPECT_EQ(rig.script.force, Vec3::Zero());  // at last it was let go
-  EXPECT_GE(rig.cuts(GuardCut::kDeadMan), 1u);
-}
-
-// Anything may go wrong at any time. Held to: the clamp, the slew, and zero 100 ms after a fault.
-TEST(GuardedDevice, HoldsItsPromisesWhateverHappens) {
-  constexpr std::uint64_t kSeed = 31;
-  SCOPED_TRACE(kSeed);
-  test::Random random(kSeed);
-  for (int run = 0; run < 60; ++run) {
-    GuardSettings settings;
-    settings.max_force = random.logUniform(0.5, 20.0);
-    settings.max_slew = random.logUniform(10.0, 1e4);
-    settings.ramp = random.below(3) == 0 ? 0.0 : random.uniform(0.0, 1.0);
-    DeviceCapabilities device;
-    if (random.below(2) == 0) device.max_slew = random.logUniform(10.0, 1e4);
-    GuardRig rig(settings, device);
-    const double max_force = rig.guard->capabilities().max_force;
-    const double fade_slew = std::max(rig.guard->capabilities().max_slew, max_force / 0.03);
-    double last_zero = rig.now, last_change = rig.now, fault = kInf, wrote = rig.now;
-    bool is_quiet = false;
-    for (int i = 0; i < 20000; ++i) {
-      const Vec3 before = rig.script.force;
-      const double step =
-          random.below(300) == 0 ? random.uniform(0.0, 0.3) : random.uniform(0.0, 0.01);
-      rig.now += step;
-      if (random.below(500) == 0) rig.script.sample.valid = !rig.script.sample.valid;
-      if (random.below(500) == 0) rig.guard->holdDeadMan(random.below(4) != 0);
-      if (random.below(500) == 0) is_quiet = !is_quiet;
-      (void)rig.guard->read(rig.now);
-      if (!is_quiet) {
-        rig.guard->write(drawForce(random));
-        wrote = rig.now;
-      }
-
-      const Vec3 force = rig.script.force;
-      ASSERT_TRUE(force.allFinite());
-      ASSERT_LE(force.norm(), max_force * (1.0 + 1e-12));
-      ASSERT_LE((force - before).norm(), fade_slew * (rig.now - last_change) + 1e-9);
-      if (!rig.guard->status().is_cut) {
-        ASSERT_LE((force - before).norm(), rig.guard->capabilities().max_slew * 2e-3 + 1e-9);
-      }
-      if (force != before) last_change = rig.now;
-      if (force == Vec3::Zero()) last_zero = rig.now;
-
-      // A fault is over for this test once the force has been zero after it.
-      if (rig.guard->status().is_cut && fault == kInf) fault = rig.now;
-      if (wrote < rig.now - 0.05) fault = std::min(fault, wrote + 0.05);
-      if (last_zero >= fault) fault = kInf;
-      if (step <= 0.01) {
-        ASSERT_LE(rig.now - fault, 0.1) << i;
-      }
-    }
-  }
-}
-
-// While nothing is wrong and nothing is too fast, the direction is that of the wanted force.
-TEST(GuardedDevice, KeepsTheDirection) {
-  constexpr std::uint64_t kSeed = 32;
-  SCOPED_TRACE(kSeed);
-  test::Random random(kSeed);
-  for (int run = 0; run < 100; ++run) {
-    GuardRig rig({8.0, 2000.0, random.uniform(0.0, 0.2)});
-    const Vec3 wanted = random.direction() * random.logUniform(0.1, 1e6);
-    for (int i = 0; i < 300; ++i) {
-      const Vec3 force = rig.tick(wanted);
-      ASSERT_LT(force.cross(wanted.normalized()).norm(), 1e-12);
-      ASSERT_GE(force.dot(wanted), 0.0);
-    }
-    EXPECT_NEAR(rig.script.force.norm(), std::min(8.0, wanted.norm()), 1e-9);
-  }
 }
 
 }  // namespace
