@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <thread>
 
@@ -27,8 +26,6 @@ void add(std::atomic<std::uint64_t>& count, std::uint64_t more) noexcept {
 
 }  // namespace
 
-double readMonotonicClock() noexcept { return readClock(); }
-
 struct HapticLoop::Impl {
   Impl(Site::Impl& own, const HapticLoopSettings& wanted) : site(own), settings(wanted) {}
 
@@ -39,9 +36,9 @@ struct HapticLoop::Impl {
   HapticLoopSettings settings;
   RealtimeRights rights;
   double begin = 0.0;
-  std::atomic<bool> has_begun{false}, is_stopping{false};
+  std::atomic<bool> has_begun{false}, is_stopping{false}, has_ended{false};
   DurationHistogram lateness, tick_times;
-  std::atomic<std::uint64_t> ticks{0}, skipped{0};
+  std::atomic<std::uint64_t> ticks{0}, skipped_ticks{0}, late_ticks{0};
   std::atomic<double> late_max{0.0}, tick_max{0.0}, longest_gap{0.0}, latest{0.0};
   std::thread thread;
 };
@@ -50,11 +47,12 @@ struct HapticLoop::Impl {
 std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
   const double period = site.period();
   sleepUntil(begin + static_cast<double>(due) * period);
-  const double start = readClock();
+  const double start = readMonotonicClock();
   const double late = start - (begin + static_cast<double>(due) * period);
   const auto passed = static_cast<std::uint64_t>(std::max(late, 0.0) / period);
   due += passed;
-  add(skipped, passed);
+  add(skipped_ticks, passed);
+  add(late_ticks, late > 0.5 * period);
   lateness.add(std::max(late, 0.0));
   raise(late_max, late);
   if (ticks.load(std::memory_order_relaxed) > 0)
@@ -63,7 +61,7 @@ std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
 
   site.tick(static_cast<double>(due) * period);
 
-  const double length = readClock() - start;
+  const double length = readMonotonicClock() - start;
   tick_times.add(length);
   raise(tick_max, length);
   add(ticks, 1);
@@ -75,16 +73,20 @@ void HapticLoop::Impl::run() noexcept {
   rights.take(settings.priority, settings.locks_memory);
   // A site that has ticked before goes on from there.
   auto due = static_cast<std::uint64_t>(std::llround(site.island_time / site.period()));
-  const double first = settings.begin.value_or(readClock());
+  const double first = settings.begin.value_or(readMonotonicClock());
   begin = first - static_cast<double>(due) * site.period();
   latest.store(first, std::memory_order_relaxed);
   has_begun.store(true, std::memory_order_release);
-  while (!is_stopping.load(std::memory_order_acquire)) due = tickAt(due);
+  const double periods = std::min(settings.duration / site.period(), 1e18);
+  const std::uint64_t end = due + static_cast<std::uint64_t>(std::llround(periods));
+  while (due < end && !is_stopping.load(std::memory_order_acquire)) due = tickAt(due);
   site.lets_go = true;
   for (int i = 0; i < kMostFadingTicks && site.force_W != Vec3::Zero(); ++i) due = tickAt(due);
   site.device.write(Vec3::Zero());
+  site.lets_go = false;
   site.desk.close();
   site.desk.serve();
+  has_ended.store(true, std::memory_order_release);
 }
 
 HapticLoop::HapticLoop(Site& site, const HapticLoopSettings& settings)
@@ -99,6 +101,8 @@ HapticLoop::HapticLoop(Site& site, const HapticLoopSettings& settings)
   if (own.desk.isOpen()) throw std::invalid_argument("the site has a haptic loop already");
   if (settings.priority < 0 || settings.priority > 99)
     throw std::invalid_argument("priority must be 0 to 99, 0 for none");
+  if (!(settings.duration >= 0.0))
+    throw std::invalid_argument("duration must be a number of seconds, 0 or above");
   own.beginLive();
   own.desk.open();
   try {
@@ -116,7 +120,10 @@ void HapticLoop::stop() noexcept {
   if (!impl_->thread.joinable()) return;
   impl_->is_stopping.store(true, std::memory_order_release);
   impl_->thread.join();
-  impl_->site.lets_go = false;
+}
+
+bool HapticLoop::isRunning() const noexcept {
+  return !impl_->has_ended.load(std::memory_order_acquire);
 }
 
 const std::vector<std::string>& HapticLoop::notes() const noexcept { return impl_->rights.notes(); }
@@ -125,7 +132,8 @@ LoopReport HapticLoop::report() const noexcept {
   const auto read = [](const auto& value) { return value.load(std::memory_order_relaxed); };
   LoopReport report;
   report.ticks = read(impl_->ticks);
-  report.skipped = read(impl_->skipped);
+  report.skipped = read(impl_->skipped_ticks);
+  report.late = read(impl_->late_ticks);
   report.late_p50 = impl_->lateness.percentile(0.5);
   report.late_p99 = impl_->lateness.percentile(0.99);
   report.late_max = read(impl_->late_max);
@@ -133,7 +141,7 @@ LoopReport HapticLoop::report() const noexcept {
   report.tick_p99 = impl_->tick_times.percentile(0.99);
   report.tick_max = read(impl_->tick_max);
   report.longest_gap = read(impl_->longest_gap);
-  report.silence = std::max(0.0, readClock() - read(impl_->latest));
+  report.silence = std::max(0.0, readMonotonicClock() - read(impl_->latest));
   return report;
 }
 

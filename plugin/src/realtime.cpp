@@ -8,13 +8,10 @@
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/mman.h>
-#include <time.h>
 #include <unistd.h>
 
 namespace tandem {
 namespace {
-
-constexpr long kNanoseconds = 1'000'000'000;
 
 /// A tick's stack, with much to spare.
 void touchStack() noexcept {
@@ -23,25 +20,6 @@ void touchStack() noexcept {
 }
 
 }  // namespace
-
-double readClock() noexcept {
-  timespec now{};
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-void sleepUntil(double moment) noexcept {
-  timespec until{};
-  until.tv_sec = static_cast<time_t>(moment);
-  until.tv_nsec = static_cast<long>((moment - static_cast<double>(until.tv_sec)) * 1e9);
-  if (until.tv_nsec >= kNanoseconds) {
-    until.tv_nsec -= kNanoseconds;
-    ++until.tv_sec;
-  }
-  // A signal that this thread handles ends it early.
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
-}
 
 void RealtimeRights::take(int priority, bool locks_memory) noexcept {
   touchStack();

@@ -5,12 +5,6 @@
 
 namespace tandem {
 
-/// The monotonic clock [s].
-[[nodiscard]] double readClock() noexcept;
-
-/// Until a moment of it [s]; at once if that has passed.
-void sleepUntil(double moment) noexcept;
-
 /// What makes a thread punctual, as far as the system grants it; given back with the thread, the
 /// memory with this.
 class RealtimeRights {

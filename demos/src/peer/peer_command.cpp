@@ -82,7 +82,8 @@ void runPeerCommand(const PeerCommand& command) {
   };
   if (!command.quiet) fmt::print("site {} on {}\n", command.site, toString(run.mesh().bound()));
   if (!run.waitForPeer(command.patience, stop, report)) return;
-  run.run(stop, report);
+  run.run(stop, report,
+          [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); });
   const nlohmann::json summary = makePeerSummary(scenario, command.site, run);
   if (command.folder) writePeerRun(*command.folder, command.site, summary, run);
   if (!command.quiet) printPeerSummary(summary, command.site);

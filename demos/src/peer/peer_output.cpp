@@ -41,17 +41,20 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
 }  // namespace
 
 nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run) {
-  const LoopCounts& loop = run.loop();
+  const LoopReport& loop = run.loop();
   nlohmann::json j;
   j["title"] = scenario.title;
   j["scenario"] = describeScenario(scenario);
   j["scalar"] = sizeof(btScalar) == 8 ? "float64" : "float";
   j[fmt::format("site{}", site)] = summariseOwnSite(scenario, site, run);
   j["network"] = summariseNetwork(run);
-  j["loop"] = {{"ticks", loop.ticks},
-               {"late", loop.late},
-               {"stalls", loop.stalls},
-               {"worst_lateness", loop.worst_lateness}};
+  j["loop"] = {
+      {"ticks", loop.ticks},
+      {"late", loop.late},
+      {"skipped", loop.skipped},
+      {"worst_lateness", loop.late_max},
+      {"lateness", {{"p50", loop.late_p50}, {"p99", loop.late_p99}}},
+      {"tick_time", {{"p50", loop.tick_p50}, {"p99", loop.tick_p99}, {"max", loop.tick_max}}}};
   return j;
 }
 
@@ -82,9 +85,12 @@ void printPeerSummary(const nlohmann::json& summary, int site) {
              own["force"]["mean"].get<double>(), own["force"]["max"].get<double>());
   fmt::print("contact changes, device end      {:>12} , {:.4f} m\n",
              own["contact_transitions"].get<int>(), own["device_end"].get<double>());
-  fmt::print("ticks, of these late, worst      {:>12} , {} , {:.2f} ms\n",
+  fmt::print("ticks, late, skipped, worst      {:>12} , {} , {} , {:.2f} ms\n",
              loop["ticks"].get<std::uint64_t>(), loop["late"].get<std::uint64_t>(),
-             1e3 * loop["worst_lateness"].get<double>());
+             loop["skipped"].get<std::uint64_t>(), 1e3 * loop["worst_lateness"].get<double>());
+  fmt::print("length of a tick, median / p99   {:>12.1f} / {:.1f} us\n",
+             1e6 * loop["tick_time"]["p50"].get<double>(),
+             1e6 * loop["tick_time"]["p99"].get<double>());
   for (const auto& [reason, count] : summary["network"]["datagrams"]["refused"].items())
     fmt::print("refused datagrams, {:<13} {:>12}\n", reason, count.get<std::uint64_t>());
 }

@@ -6,15 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "peer/mesh_thread.h"
 #include "usage_error.h"
 
 namespace tandem::demos {
 namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
-constexpr double kMostBehind = 0.1;    ///< farther behind, a site gives up time [s]
-constexpr double kFadeSlew = 2000.0;   ///< of the force at the end [N/s]
-constexpr double kFarewell = 0.15;     ///< time to say it [s]
+/// The threads are made so long before the start [s].
+constexpr double kGetReady = 0.05;
+constexpr double kMostBehind = 0.1;  ///< later than this, a site joins one that runs [s]
+constexpr double kFarewell = 0.15;   ///< time to say it [s]
 /// The start lies so far ahead that the other site hears of it in time: this, or round trips.
 constexpr double kCountdown = 1.0;
 constexpr double kCountdownTrips = 6.0;
@@ -49,12 +51,16 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
               return peers;
             }()),
       link_(mesh_.link(other_)) {
+  if (scenario.contact_model != "island" || scenario.injection != "handoff")
+    throw UsageError(
+        "tandem peer needs contact.model = island and bridge.injection = handoff; the others have "
+        "no haptic rate of their own");
   makeWorld();
 }
 
 void PeerRun::makeWorld() {
   world_.reset();
-  world_ = std::make_unique<SiteWorld>(scenario_, index_, link_);
+  world_ = std::make_unique<SiteWorld>(scenario_, index_, queue_);
   Site& own = world_->site();
   const auto ticks = static_cast<std::size_t>(std::llround(duration() * scenario_.haptic_rate));
   const auto arrivals = static_cast<std::size_t>(2.0 * duration() * scenario_.packet_rate) + 64;
@@ -66,12 +72,29 @@ void PeerRun::makeWorld() {
 
 double PeerRun::duration() const noexcept { return scenario_.duration; }
 
-double PeerRun::receivedMean() const noexcept {
-  return loop_.ticks > 0 ? coherency_sum_ / static_cast<double>(loop_.ticks) : 0.0;
+double PeerRun::receivedMean() const {
+  if (!scenario_.hasObject() || recording_->ticks().empty()) return 0.0;
+  auto next = recording_->arrivals().begin();
+  const auto end = recording_->arrivals().end();
+  std::uint64_t newest = 0;
+  Vec3 received_W = object_start_W_;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < recording_->ticks().size(); ++i) {
+    for (; next != end && next->arrival.time <= recording_->ticks()[i].time; ++next) {
+      const StatePacket& packet = next->arrival.packet;
+      if (packet.sequence < newest || packet.object_count == 0) continue;
+      newest = packet.sequence;
+      received_W = packet.objects[0].state.p_W;
+    }
+    sum += (recording_->object(i, 0).island.p_W - received_W).norm();
+  }
+  return sum / static_cast<double>(recording_->ticks().size());
 }
 
+PeerStatus PeerRun::peerStatus() const { return mesh_.status(other_, readMonotonicClock()); }
+
 void PeerRun::poll() noexcept {
-  const double now = clock_.now();
+  const double now = readMonotonicClock();
   link_.setClock(now);
   mesh_.poll(now);
 }
@@ -79,12 +102,12 @@ void PeerRun::poll() noexcept {
 bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
                           const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
-  const double began = clock_.now();
+  const double began = readMonotonicClock();
   double next_send = began, next_report = began;
   std::optional<double> live_since;
   for (;;) {
     poll();
-    const double now = clock_.now();
+    const double now = readMonotonicClock();
     if (stop()) {
       leave(ByeReason::kUserLeaves);
       return false;
@@ -97,7 +120,7 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
     const double lead = std::max(kCountdown, kCountdownTrips * status.round_trip);
     const bool may_choose = self_ < other_ && live_since && now - *live_since > 0.3;
     if (may_choose && !link_.start()) link_.setStart(now + lead);
-    if (link_.start() && now >= *link_.start() - 2e-3) {
+    if (link_.start() && now >= *link_.start() - kGetReady) {
       if (now - *link_.start() > kMostBehind) joinLate(now);
       return true;
     }
@@ -132,7 +155,7 @@ void PeerRun::joinLate(double now) {
 }
 
 void PeerRun::checkAnswer(double waited, double patience) const {
-  const PeerStatus status = mesh_.status(other_, clock_.now());
+  const PeerStatus status = mesh_.status(other_, readMonotonicClock());
   if (status.difference) {
     const ConfigurationDifference& d = *status.difference;
     const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
@@ -155,54 +178,36 @@ void PeerRun::checkAnswer(double waited, double patience) const {
 }
 
 void PeerRun::run(const std::function<bool()>& stop,
-                  const std::function<void(const PeerReport&)>& report) {
-  const double period = 1.0 / scenario_.haptic_rate;
-  const auto count = static_cast<std::uint64_t>(std::llround(duration() * scenario_.haptic_rate));
-  double next_report = 0.0;
-  for (std::uint64_t tick = 0; tick < count && !stop(); ++tick) {
-    const double time = static_cast<double>(tick) * period;
-    clock_.sleepUntil(*link_.start() + time);
-    const double lateness = clock_.now() - (*link_.start() + time);
-    loop_.worst_lateness = std::max(loop_.worst_lateness, lateness);
-    loop_.late += lateness > 0.5 * period;
-    if (lateness > kMostBehind) {
-      link_.setStart(*link_.start() + lateness);
-      ++loop_.stalls;
-    }
-    poll();
-    world_->site().tick(time);
-    world_->stepHostUntil(time + period);
-    ++loop_.ticks;
-    coherency_sum_ += computeCoherency();
-    if (time >= next_report) {
+                  const std::function<void(const PeerReport&)>& report,
+                  const std::function<void(const std::string&)>& note) {
+  const double start = *link_.start();
+  {
+    const MeshThread network(mesh_, link_, queue_, mesh_mutex_);
+    HapticLoopSettings settings;
+    settings.begin = start;
+    settings.duration = duration();
+    HapticLoop loop(world_->site(), settings);
+    for (const std::string& line : loop.notes()) note(line);
+    double next_report = 0.0;
+    for (std::uint64_t step = 1; loop.isRunning() && !stop(); ++step) {
+      // A step comes when its time is over.
+      const double time = static_cast<double>(step) / scenario_.host_rate;
+      sleepUntil(start + time);
+      world_->stepHostUntil(time);
+      if (time < next_report) continue;
       report(makeReport(time));
       next_report += kReportPeriod;
     }
+    loop.stop();
+    loop_ = loop.report();
   }
-  fadeForce();
   leave(stop() ? ByeReason::kUserLeaves : ByeReason::kProgramEnds);
 }
 
-/// Nothing is rendered any more, but a hand may still be there.
-void PeerRun::fadeForce() noexcept {
-  SimulatedDevice& device = world_->device();
-  Vec3 force_W = world_->site().force();
-  const double period = 1.0 / scenario_.haptic_rate;
-  double time = static_cast<double>(loop_.ticks) * period;
-  while (force_W.norm() > 0.0) {
-    const double left = std::max(force_W.norm() - kFadeSlew * period, 0.0);
-    force_W = left > 0.0 ? Vec3(force_W * (left / force_W.norm())) : Vec3::Zero();
-    (void)device.read(time);
-    device.write(force_W);
-    clock_.sleepUntil(clock_.now() + period);
-    time += period;
-  }
-}
-
 void PeerRun::leave(ByeReason reason) noexcept {
-  const double until = clock_.now() + kFarewell;
-  mesh_.leave(clock_.now(), reason);
-  while (clock_.now() < until) {
+  const double until = readMonotonicClock() + kFarewell;
+  mesh_.leave(readMonotonicClock(), reason);
+  while (readMonotonicClock() < until) {
     poll();
     mesh_.wait(5e-3);
   }
@@ -216,14 +221,19 @@ double PeerRun::computeCoherency() const noexcept {
   return (site.object(0).p_W - received_W).norm();
 }
 
-PeerReport PeerRun::makeReport(double time) const {
+PeerReport PeerRun::makeReport(double time) {
   PeerReport report;
   report.time = time;
-  report.has_start = link_.start().has_value();
-  report.peer = mesh_.status(other_, clock_.now());
-  report.link = world_->site().linkState(0);
-  report.force = world_->site().force().norm();
-  report.coherency = computeCoherency();
+  {
+    const std::lock_guard lock(mesh_mutex_);
+    report.has_start = link_.start().has_value();
+    report.peer = peerStatus();
+  }
+  world_->site().betweenTicks([&] {
+    report.link = world_->site().linkState(0);
+    report.force = world_->site().force().norm();
+    report.coherency = computeCoherency();
+  });
   return report;
 }
 

@@ -2,13 +2,15 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
+#include "tandem/plugin/haptic_loop.h"
+#include "tandem/plugin/link_queue.h"
 #include "tandem/plugin/recording.h"
 #include "tandem/plugin/udp_mesh.h"
 
-#include "peer/live_clock.h"
 #include "peer/start_link.h"
 #include "scene.h"
 
@@ -24,16 +26,9 @@ struct PeerReport {
   double coherency = 0.0;  ///< own copy of the object against the other's as received [m]
 };
 
-/// Times of the loop.
-struct LoopCounts {
-  std::uint64_t ticks = 0;
-  std::uint64_t late = 0;       ///< began more than half a period after their moment
-  std::uint64_t stalls = 0;     ///< times the clock of the site was set back, being far behind
-  double worst_lateness = 0.0;  ///< [s]
-};
-
-/// One site of a scenario, live against the clock, in one thread: haptic ticks at their absolute
-/// moments, the socket before each, and the host's Bullet world as it comes due.
+/// One site of a scenario, live against the clock: a haptic thread ticks at its absolute moments,
+/// another has the socket, and the one that calls run() steps the host's Bullet world as it comes
+/// due. Until the start one thread does all.
 class PeerRun {
  public:
   /// `site` is 0 or 1. Throws as UdpMesh and SiteWorld do.
@@ -45,18 +40,21 @@ class PeerRun {
   bool waitForPeer(double patience, const std::function<bool()>& stop,
                    const std::function<void(const PeerReport&)>& report);
 
-  /// Ticks until the scenario's duration is over or `stop` asks to end; then the force fades and
-  /// the other site is told.
-  void run(const std::function<bool()>& stop, const std::function<void(const PeerReport&)>& report);
+  /// Runs until the scenario's duration is over or `stop` asks to end; then the force fades and the
+  /// other site is told. What the system does not grant the haptic thread is told to `note`, one
+  /// line each.
+  void run(const std::function<bool()>& stop, const std::function<void(const PeerReport&)>& report,
+           const std::function<void(const std::string&)>& note);
 
   [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
-  [[nodiscard]] const LoopCounts& loop() const noexcept { return loop_; }
+  [[nodiscard]] const LoopReport& loop() const noexcept { return loop_; }
   [[nodiscard]] const UdpMesh& mesh() const noexcept { return mesh_; }
   [[nodiscard]] SiteWorld& world() noexcept { return *world_; }
   [[nodiscard]] double duration() const noexcept;
   [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
-  [[nodiscard]] double receivedMean() const noexcept;
-  [[nodiscard]] PeerStatus peerStatus() const { return mesh_.status(other_, clock_.now()); }
+  /// Of the own copy's distance to the other's as received [m].
+  [[nodiscard]] double receivedMean() const;
+  [[nodiscard]] PeerStatus peerStatus() const;
 
  private:
   void makeWorld();
@@ -64,21 +62,20 @@ class PeerRun {
   void poll() noexcept;
   void checkAnswer(double waited, double patience) const;
   void leave(ByeReason reason) noexcept;
-  void fadeForce() noexcept;
-  [[nodiscard]] PeerReport makeReport(double time) const;
+  [[nodiscard]] PeerReport makeReport(double time);
   [[nodiscard]] double computeCoherency() const noexcept;
 
   Scenario scenario_;
   int index_;
   PeerId self_, other_;
-  LiveClock clock_;
   UdpMesh mesh_;
   StartLink link_;
+  std::mutex mesh_mutex_;  ///< while there is a MeshThread, who touches the two holds it
+  LinkQueue queue_;
   std::unique_ptr<SiteWorld> world_;
   std::unique_ptr<Recording> recording_;
   Vec3 object_start_W_ = Vec3::Zero();
-  LoopCounts loop_;
-  double coherency_sum_ = 0.0;
+  LoopReport loop_;
 };
 
 }  // namespace tandem::demos

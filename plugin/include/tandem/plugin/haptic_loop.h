@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tandem/plugin/duration_histogram.h"
+#include "tandem/plugin/monotonic_clock.h"
 #include "tandem/plugin/site.h"
 
 namespace tandem {
@@ -16,11 +18,14 @@ struct HapticLoopSettings {
   bool locks_memory = true;  ///< so that no tick waits for a page
   /// Moment of the first tick, of the monotonic clock [s]; nothing: at once.
   std::optional<double> begin;
+  /// After so long the thread ends by itself, as by stop() [s].
+  double duration = std::numeric_limits<double>::infinity();
 };
 
 /// How punctual a loop was. All may be read while it runs, from any thread.
 struct LoopReport {
   std::uint64_t ticks = 0;
+  std::uint64_t late = 0;     ///< of these, begun more than half a period after their moment
   std::uint64_t skipped = 0;  ///< ticks left out because their time had passed before they began
   double late_p50 = 0.0, late_p99 = 0.0,
          late_max = 0.0;  ///< beginning of a tick after its moment [s]
@@ -56,6 +61,9 @@ class HapticLoop {
   /// thread itself.
   void stop() noexcept;
 
+  /// False once the thread has let go of the force and the site.
+  [[nodiscard]] bool isRunning() const noexcept;
+
   /// What the system did not grant, one line each with the remedy.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept;
 
@@ -68,8 +76,5 @@ class HapticLoop {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Now, by the monotonic clock [s].
-[[nodiscard]] double readMonotonicClock() noexcept;
 
 }  // namespace tandem
