@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "tandem/falcon/falcon_emulator.h"
+
+namespace tandem {
+
+/// An emulated Falcon behind a pseudo terminal, served by a thread in real time: any program that
+/// opens a tty meets it. Pseudo terminals have no DTR, so the emulator does without. Linux.
+class EmulatedFalconPort {
+ public:
+  /// Throws tandem::Error without pseudo terminals, std::invalid_argument as FalconEmulator does.
+  explicit EmulatedFalconPort(FalconEmulatorSettings settings = {},
+                              std::unique_ptr<Hand> hand = nullptr);
+  ~EmulatedFalconPort();
+  EmulatedFalconPort(const EmulatedFalconPort&) = delete;
+  EmulatedFalconPort& operator=(const EmulatedFalconPort&) = delete;
+
+  /// What to open: a link that stays while what it leads to changes, as /dev/serial/by-id does.
+  [[nodiscard]] const std::string& path() const noexcept;
+
+  /// The line goes away as if the cable were pulled, and comes back. The device keeps its power.
+  void unplug();
+  void plugIn();
+
+  /// Looks at the emulator, or does something to it, at the emulator's time [s]; its thread waits.
+  void visit(const std::function<void(FalconEmulator&, double now)>& visitor);
+
+ private:
+  class Server;
+  std::unique_ptr<Server> server_;
+};
+
+/// A line to an emulator in this program, without pseudo terminal: for one thread, in which the
+/// emulator then runs in real time. The emulator must outlive it.
+[[nodiscard]] std::unique_ptr<ByteTransport> openEmulator(FalconEmulator& emulator);
+
+}  // namespace tandem

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tandem/falcon/falcon_frames.h"
+#include "tandem/falcon/firmware_image.h"
+#include "tandem/falcon/line_step.h"
+
+namespace tandem {
+
+/// Why a Falcon did not boot.
+enum class BootFault : std::uint8_t {
+  kNone,
+  kNoImage,    ///< it has no firmware, and none was given
+  kNoAnswer,   ///< the boot loader does not answer its call
+  kNoEcho,     ///< it does not echo, or stops to
+  kWrongEcho,  ///< it echoes something else than was sent
+  kNotRunning  ///< all was loaded, yet the firmware gives no reply
+};
+
+/// How patiently a Falcon is booted. Real ones often fail the first times.
+struct BootSettings {
+  int tries = 10;             ///< of the whole load, >= 1
+  double back_off = 0.1;      ///< after the first failed try [s], doubled each time...
+  double max_back_off = 2;    ///< ...up to this [s]
+  double probe_time = 0.15;   ///< how long to look for firmware that runs already [s]
+  double call_period = 0.05;  ///< between calls of the boot loader [s]
+  int calls = 20;             ///< of the boot loader, in one try
+  double echo_time = 0.5;     ///< for the echo of a piece [s]
+  double start_time = 1.0;    ///< for the firmware's first reply [s]
+};
+
+/// How a Falcon boots, as a machine without I/O and clock:
+///
+///     probe at 1.5 MBd ----> a reply: running
+///       | none
+///       v
+///     9600, DTR low, high -> 0A 43 0D <- 0A 44 2C 0D      (the loader's call, repeated)
+///     140000, DTR low -----> 41       <- 41               (it measures the speed)
+///     image, piece by piece; each byte comes back and is compared
+///     1.5 MBd -------------> a command frame <- a reply: running
+///
+/// Answers are searched for in the stream. Any failure ends the try; after a pause comes the next.
+class FalconBoot {
+ public:
+  enum class Phase : std::uint8_t {
+    kIdle,
+    kProbing,
+    kResetting,
+    kCalling,
+    kTiming,
+    kLoading,
+    kStarting,
+    kPausing,
+    kRunning,
+    kFailed
+  };
+
+  /// An empty image: it can only find that the firmware runs.
+  explicit FalconBoot(FirmwareImage image, const BootSettings& settings = {});
+
+  /// Begins anew, with the probe.
+  void start(double now) noexcept;
+  /// Bytes that have come.
+  void take(const std::uint8_t* bytes, std::size_t count, double now) noexcept;
+  /// What to do now; nothing once it is running or failed.
+  [[nodiscard]] LineStep advance(double now) noexcept;
+
+  [[nodiscard]] Phase phase() const noexcept { return phase_; }
+  /// Of the newest try that failed; of the whole if the phase is kFailed.
+  [[nodiscard]] BootFault fault() const noexcept { return fault_; }
+  [[nodiscard]] int tries() const noexcept { return tries_; }  ///< begun
+  /// Of the image, echoed right in this try [bytes].
+  [[nodiscard]] std::size_t loaded() const noexcept { return loaded_; }
+  [[nodiscard]] std::size_t size() const noexcept { return image_.bytes.size(); }
+
+ private:
+  void enter(Phase phase, double now) noexcept;
+  void fail(BootFault fault, double now) noexcept;
+  void takeByte(std::uint8_t byte, double now) noexcept;
+  void takeEcho(std::uint8_t byte, double now) noexcept;
+  void onTimeUp(double now) noexcept;
+  LineStep makeEntryStep(double now) noexcept;
+  LineStep makeStep(double now) noexcept;
+  void sendPiece(LineStep& step) noexcept;
+
+  FirmwareImage image_;
+  BootSettings settings_;
+  Phase phase_ = Phase::kIdle;
+  BootFault fault_ = BootFault::kNone;
+  int tries_ = 0, calls_ = 0;
+  bool has_entered_ = false;  ///< the line is set for the phase
+  double until_ = 0.0;        ///< the phase's, or the piece's, time is up [s]
+  double send_at_ = 0.0;      ///< the next call or frame [s]
+  std::size_t loaded_ = 0, sent_ = 0;
+  std::array<std::uint8_t, 4> last_{};  ///< bytes, the newest last
+  FalconFrameReader frames_;
+};
+
+}  // namespace tandem

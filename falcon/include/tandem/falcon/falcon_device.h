@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "tandem/falcon/byte_transport.h"
+#include "tandem/falcon/falcon_driver.h"
+#include "tandem/falcon/haptic_device.h"
+#include "tandem/falcon/latest_value.h"
+
+namespace tandem {
+
+/// Opens the line to a device, or throws; called again and again until it succeeds, from the
+/// device's thread. Must not block for long.
+using OpenTransport = std::function<std::unique_ptr<ByteTransport>()>;
+
+/// A Novint Falcon. A thread of its own runs the driver and owns the line: it opens it, boots the
+/// device, asks it a thousand times a second, and begins anew after a loss. The side that ticks
+/// meets that thread in two latest values: read() and write() are wait-free, without lock,
+/// allocation or system call.
+///
+/// Clocks are not mixed. read(now) gives the newest reading, valid as long as its number grows: one
+/// that is the newest for more than 20 ms of the caller's own time is not. Its position is older
+/// than the first read that sees it by one exchange with the device and one read at most. The
+/// force's age is told by the thread's clock from when a write is seen, within a millisecond.
+///
+/// W is the device's frame D (x right, y up, z to the user) moved to its centre.
+class FalconDevice final : public HapticDevice {
+ public:
+  /// Starts the thread; returns at once. Throws std::invalid_argument as FalconDriver does.
+  FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open);
+  /// Takes the force away, as the slew limit allows, puts the lights out and closes the line.
+  ~FalconDevice() override;
+  FalconDevice(const FalconDevice&) = delete;
+  FalconDevice& operator=(const FalconDevice&) = delete;
+
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
+    return capabilities_;
+  }
+  [[nodiscard]] DeviceSample read(double now) noexcept override;
+  void write(const Vec3& f_W) noexcept override;
+
+  /// How it does; for one thread, whichever it is. Wait-free.
+  [[nodiscard]] const FalconStatus& status() noexcept { return status_.read(); }
+
+ private:
+  struct Wish {
+    std::array<double, 3> f{};
+    std::uint64_t number = 0;
+  };
+
+  void run() noexcept;
+  void serve(ByteTransport& line) noexcept;
+  [[nodiscard]] std::unique_ptr<ByteTransport> tryOpen() noexcept;
+  [[nodiscard]] bool exchange(ByteTransport& line) noexcept;
+  void passOn() noexcept;
+
+  DeviceCapabilities capabilities_;
+  OpenTransport open_;
+
+  // The thread's.
+  FalconDriver driver_;
+  std::array<char, 160> open_error_{};
+  std::uint64_t seen_wish_ = 0;
+
+  // Between the threads.
+  LatestValue<FalconReading> reading_;
+  LatestValue<Wish> wish_;
+  LatestValue<FalconStatus> status_;
+  std::atomic<bool> stops_{false};
+
+  // The ticking side's.
+  std::uint64_t newest_ = 0, wishes_ = 0;
+  double newest_since_ = 0.0;
+
+  std::thread thread_;
+};
+
+}  // namespace tandem

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "tandem/falcon/falcon_boot.h"
+#include "tandem/falcon/falcon_force_gate.h"
+#include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/falcon_status.h"
+
+namespace tandem {
+
+struct FalconSettings {
+  FalconForceLimits force;
+  /// What the motors make of a torque [1/(N m)]. Not published: see kUsualMotorsPerTorque. Raising
+  /// it raises the force that is felt for a newton asked for.
+  double motors_per_torque = kUsualMotorsPerTorque;
+  Vec3 centre_D = Vec3(0.0, 0.0, 0.125);  ///< what is reported as the origin [m]
+  double frame_period = 0.001;            ///< [s]; USB does not allow less
+  double resend_time = 0.004;             ///< a frame without reply is given up after this [s]
+  double reply_time = 0.020;              ///< without a reply for so long: fault, no force [s]
+  double firmware_time = 0.2;             ///< without a reply for so long: boot again [s]
+  double recovery_time = 0.05;            ///< a fault is over after so long without trouble [s]
+  double reboot_pause = 2.0;              ///< after a boot that failed [s]
+  double fastest_hand = 3.0;              ///< a position that moved faster has jumped [m/s]
+  BootSettings boot;
+};
+
+/// A position with its number; plain values, to be copied between threads.
+struct FalconReading {
+  std::array<double, 3> p{}, v{};  ///< from the centre [m], [m/s], along the axes of D
+  bool is_valid = false;           ///< ready, and of the newest reply
+  std::uint64_t number = 0;        ///< grows with every reply
+};
+
+/// The Novint Falcon from bytes to newtons, without I/O, clock or thread: bytes and time come in,
+/// what to do with the line goes out. Same calls, same bits.
+///
+/// Every frame's force has passed the gate, whatever was asked for: no force unless the device is
+/// homed and its replies are fresh.
+class FalconDriver {
+ public:
+  /// Throws std::invalid_argument, naming the value, for settings out of range. `image` may be
+  /// empty: then it can use only a device whose firmware runs.
+  explicit FalconDriver(const FalconSettings& settings, FirmwareImage image = {});
+
+  /// The line has been opened, or is gone for a reason.
+  void connect(double now) noexcept;
+  void disconnect(FalconFault why, double now) noexcept;
+
+  /// Bytes that have come.
+  void take(const std::uint8_t* bytes, std::size_t count, double now) noexcept;
+  /// Force on the hand, asked for now [N].
+  void command(const Vec3& f_D, double now) noexcept;
+  /// What to do with the line now.
+  [[nodiscard]] LineStep advance(double now) noexcept;
+
+  /// From now on there is no force; frames go on, with the lights off.
+  void beginStop() noexcept { stops_ = true; }
+  /// Enough frames without force have been sent, or none can be.
+  [[nodiscard]] bool hasStopped() const noexcept;
+
+  [[nodiscard]] const FalconReading& reading() const noexcept { return reading_; }
+  [[nodiscard]] const FalconStatus& status() const noexcept { return status_; }
+
+ private:
+  [[nodiscard]] bool isConversing() const noexcept;
+  void enterFault(FalconFault fault, double now) noexcept;
+  void startBoot(double now) noexcept;
+  void startRun(double now) noexcept;
+  LineStep advanceBoot(double now) noexcept;
+  LineStep advanceRun(double now) noexcept;
+  void checkReplies(double now) noexcept;
+  void takeReply(const FalconReply& reply, double now) noexcept;
+  void noteReply(const FalconReply& reply, double now) noexcept;
+  void noteDropped(std::uint64_t dropped) noexcept;
+  bool takePosition(const FalconReply& reply, double now) noexcept;
+  void updateState(bool has_position, double now) noexcept;
+  void publish(bool is_valid) noexcept;
+  void sendFrame(LineStep& step, double now) noexcept;
+  [[nodiscard]] std::uint8_t chooseLights(const Vec3& f_D) const noexcept;
+
+  FalconSettings settings_;
+  FalconBoot boot_;
+  FalconKinematics kinematics_;
+  FalconForceGate gate_;
+  FalconFrameReader frames_;
+  FalconStatus status_;
+  FalconReading reading_;
+
+  bool boots_ = false, stops_ = false, awaits_reply_ = false;
+  int rest_frames_ = 0;                            ///< without force, since the stop began
+  std::optional<double> boot_at_;                  ///< again, after a boot that failed [s]
+  double due_ = 0.0, sent_at_ = 0.0;               ///< the next frame; the last one [s]
+  double replied_at_ = 0.0, positioned_at_ = 0.0;  ///< the last whole reply; a position of use [s]
+  double trouble_at_ = 0.0;                        ///< the last of a fault [s]
+  std::uint64_t dropped_ = 0;                      ///< of the reader, at the last reply
+
+  Vec3 wanted_D_ = Vec3::Zero();
+  double wanted_at_ = -1e9;
+  std::optional<FalconPose> pose_;   ///< the last one believed
+  std::optional<Vec3> doubted_p_D_;  ///< that jumped: believed if the next one is there too
+  Vec3 v_D_ = Vec3::Zero();
+};
+
+}  // namespace tandem

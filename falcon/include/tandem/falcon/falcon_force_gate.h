@@ -1,0 +1,41 @@
+#pragma once
+
+#include "tandem/coordination/types.h"
+
+namespace tandem {
+
+/// The last word on a Falcon's force, whoever asks for it.
+struct FalconForceLimits {
+  double max_force = 8.0;    ///< [N], norm; direction kept. The maker gives 8.9 N
+  double max_slew = 2000.0;  ///< [N/s]: fastest change, at most so much a millisecond
+  double ramp_in = 0.5;      ///< over which force comes in once it may [s]
+  double hold = 0.05;        ///< a force that is not renewed begins to fade after this [s]...
+  double fade = 0.04;        ///< ...and is zero after this [s]
+};
+
+/// Makes of the force that is asked for the one that is sent. Pure; real-time safe.
+class FalconForceGate {
+ public:
+  explicit FalconForceGate(const FalconForceLimits& limits) noexcept : limits_(limits) {}
+
+  /// `age`: since it was asked for [s]; `is_open`: whether there may be force at all. Anything not
+  /// finite asks for none. Never changes by more than the slew limit, on the way to zero neither:
+  /// that takes 4 ms from 8 N.
+  Vec3 advance(const Vec3& wanted, double age, bool is_open, double now) noexcept;
+
+  /// The ramp begins anew, after a position that jumped.
+  void restart(double now) noexcept { opened_at_ = now; }
+  [[nodiscard]] const Vec3& force() const noexcept { return force_; }
+  /// For a line that is gone: nothing is sent.
+  void clear() noexcept;
+
+ private:
+  [[nodiscard]] Vec3 limit(const Vec3& wanted, double age, double now) const noexcept;
+
+  FalconForceLimits limits_;
+  Vec3 force_ = Vec3::Zero();
+  bool was_open_ = false;
+  double opened_at_ = 0.0, last_ = 0.0;
+};
+
+}  // namespace tandem

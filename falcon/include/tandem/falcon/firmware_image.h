@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// \file
+/// The program that a Falcon is given at every power-up. It belongs to Novint; none comes with
+/// Tandem. It is a boot table of the C28x processor inside, in 16-bit words, low byte first:
+///
+///     0x08AA | 8 reserved | entry, high and low | size, high, low, data... | ... | size 0
+namespace tandem {
+
+/// Follows a boot table byte by byte: host and emulator share it.
+class BootTableReader {
+ public:
+  enum class State : std::uint8_t {
+    kReading,
+    kDone,          ///< the last word was the end of the table
+    kWrongKey,      ///< the first word is not 0x08AA
+    kWrongAddress,  ///< a block or the entry lies outside of 22-bit memory
+    kOverrun        ///< bytes after the end
+  };
+
+  /// Once wrong, it stays wrong.
+  State take(std::uint8_t byte) noexcept;
+  [[nodiscard]] State state() const noexcept { return state_; }
+  [[nodiscard]] bool isWrong() const noexcept {
+    return state_ != State::kReading && state_ != State::kDone;
+  }
+
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }  ///< taken so far
+  [[nodiscard]] std::uint32_t entry() const noexcept { return entry_; }
+  [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
+  [[nodiscard]] std::size_t words() const noexcept { return words_; }  ///< of data
+
+ private:
+  State takeWord(std::uint16_t word) noexcept;
+
+  enum class Part : std::uint8_t { kHead, kSize, kHigh, kLow, kData };
+  State state_ = State::kReading;
+  Part part_ = Part::kHead;
+  std::size_t bytes_ = 0, blocks_ = 0, words_ = 0;
+  std::uint32_t entry_ = 0, address_ = 0, left_ = 0;
+  std::uint8_t low_ = 0;
+};
+
+/// An image that has been looked through; empty: there is none.
+struct FirmwareImage {
+  std::vector<std::uint8_t> bytes;
+  [[nodiscard]] bool isEmpty() const noexcept { return bytes.empty(); }
+};
+
+inline constexpr std::size_t kMostFirmware = 256 * 1024;  ///< [bytes]; known images have 8 KiB
+
+/// What is wrong with `bytes` as an image, in words; nullptr if nothing is. Pure.
+[[nodiscard]] const char* findFaultOfFirmware(const std::uint8_t* bytes,
+                                              std::size_t count) noexcept;
+
+/// Reads and checks a file. Throws tandem::Error, one line with path and remedy.
+[[nodiscard]] FirmwareImage readFirmware(const std::string& path);
+
+/// An image that loads and does nothing, for the emulator and for tests: one block of `words`
+/// pseudo-random words. A real Falcon must never be given it.
+[[nodiscard]] FirmwareImage makeSyntheticFirmware(std::uint64_t seed, std::size_t words = 512);
+
+}  // namespace tandem

@@ -1,0 +1,134 @@
+#include "tandem/falcon/falcon_device.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace tandem {
+namespace {
+
+constexpr double kMostAge = 0.02;      // of a reading that is still used [s]
+constexpr double kOpenPeriod = 0.25;   // between tries to open the line [s]
+constexpr double kNap = 0.02;          // so long a stop may have to wait for the thread [s]
+constexpr double kStopTime = 0.1;      // for the last frames [s]
+constexpr double kWorkspace = 0.05;    // half extents [m]
+constexpr double kStiffness = 3000.0;  // that still feels calm [N/m]
+
+double readClock() noexcept {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void sleep(double time) noexcept {
+  std::this_thread::sleep_for(std::chrono::duration<double>(time));
+}
+
+}  // namespace
+
+FalconDevice::FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open)
+    : open_(std::move(open)), driver_(settings, std::move(image)) {
+  capabilities_.name = "Novint Falcon";
+  capabilities_.max_force = settings.force.max_force;
+  capabilities_.max_slew = settings.force.max_slew;
+  capabilities_.max_stiffness = kStiffness;
+  capabilities_.workspace = Vec3::Constant(kWorkspace);
+  thread_ = std::thread([this] { run(); });
+}
+
+FalconDevice::~FalconDevice() {
+  stops_.store(true, std::memory_order_relaxed);
+  thread_.join();
+}
+
+DeviceSample FalconDevice::read(double now) noexcept {
+  const FalconReading& reading = reading_.read();
+  if (reading.number != newest_) {
+    newest_ = reading.number;
+    newest_since_ = now;
+  }
+  // Also false for a time that is no number, or runs back.
+  const bool is_fresh = now >= newest_since_ && now - newest_since_ <= kMostAge;
+  DeviceSample sample;
+  sample.valid = reading.is_valid && is_fresh;
+  sample.hip.p_W = Vec3(reading.p[0], reading.p[1], reading.p[2]);
+  if (sample.valid) sample.hip.v_W = Vec3(reading.v[0], reading.v[1], reading.v[2]);
+  return sample;
+}
+
+void FalconDevice::write(const Vec3& f_W) noexcept {
+  wish_.write({{f_W.x(), f_W.y(), f_W.z()}, ++wishes_});
+}
+
+void FalconDevice::run() noexcept {
+  while (!stops_.load(std::memory_order_relaxed)) {
+    if (const std::unique_ptr<ByteTransport> line = tryOpen()) {
+      serve(*line);
+      continue;
+    }
+    for (double slept = 0.0; slept < kOpenPeriod && !stops_.load(std::memory_order_relaxed);
+         slept += kNap)
+      sleep(kNap);
+  }
+}
+
+std::unique_ptr<ByteTransport> FalconDevice::tryOpen() noexcept {
+  const double now = readClock();
+  try {
+    std::unique_ptr<ByteTransport> line = open_();
+    if (line) {
+      open_error_ = {};
+      driver_.connect(now);
+      passOn();
+      return line;
+    }
+  } catch (const std::exception& error) {
+    const std::string_view text = error.what();
+    open_error_ = {};
+    std::copy_n(text.begin(), std::min(text.size(), open_error_.size() - 1), open_error_.begin());
+  } catch (...) {  // whatever the caller's function threw, this thread goes on
+  }
+  driver_.disconnect(FalconFault::kCannotOpen, now);
+  passOn();
+  return nullptr;
+}
+
+/// Until the line is gone, or the device is stopped.
+void FalconDevice::serve(ByteTransport& line) noexcept {
+  double stopped_at = -1.0;
+  while (exchange(line)) {
+    passOn();
+    if (!stops_.load(std::memory_order_relaxed)) continue;
+    const double now = readClock();
+    if (stopped_at < 0.0) stopped_at = now;
+    driver_.beginStop();
+    if (driver_.hasStopped() || now - stopped_at > kStopTime) return;
+  }
+  if (!stops_.load(std::memory_order_relaxed))
+    driver_.disconnect(FalconFault::kUnplugged, readClock());
+  passOn();
+}
+
+bool FalconDevice::exchange(ByteTransport& line) noexcept {
+  const double now = readClock();
+  if (const Wish& wish = wish_.read(); wish.number != seen_wish_) {
+    seen_wish_ = wish.number;
+    driver_.command(Vec3(wish.f[0], wish.f[1], wish.f[2]), now);
+  }
+  const LineStep step = driver_.advance(now);
+  if (!perform(step, line)) return false;
+  std::array<std::uint8_t, 256> bytes;
+  const double wait = std::clamp(step.next - readClock(), 0.0, kNap);
+  const std::ptrdiff_t count = line.read(bytes.data(), bytes.size(), wait);
+  if (count > 0) driver_.take(bytes.data(), static_cast<std::size_t>(count), readClock());
+  return count >= 0;
+}
+
+void FalconDevice::passOn() noexcept {
+  reading_.write(driver_.reading());
+  FalconStatus status = driver_.status();
+  status.open_error = open_error_;
+  status_.write(status);
+}
+
+}  // namespace tandem

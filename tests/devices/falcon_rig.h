@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "tandem/falcon/falcon_driver.h"
+#include "tandem/falcon/falcon_emulator.h"
+
+namespace tandem::test {
+
+/// A hand that pulls the grip out and pushes it in again within 1.2 s: all legs pass their indices.
+inline std::unique_ptr<Hand> makeHomingHand() {
+  return makeMinimumJerkHand({{0.0, Vec3::Zero()},
+                              {0.6, Vec3(0.0, 0.0, 0.045)},
+                              {1.2, Vec3(0.0, 0.0, -0.02)},
+                              {1.4, Vec3::Zero()}},
+                             800.0, 8.0);
+}
+
+inline FalconEmulatorSettings readyDevice() {
+  FalconEmulatorSettings settings;
+  settings.runs = settings.is_homed = true;
+  return settings;
+}
+
+/// Driver and emulator back to back, in virtual time.
+class FalconRig {
+ public:
+  static constexpr double kLook = 0.00025;  ///< [s]
+
+  explicit FalconRig(const FalconEmulatorSettings& device, const FalconSettings& settings = {},
+                     std::unique_ptr<Hand> hand = nullptr)
+      : emulator(device, std::move(hand)), driver(settings, makeSyntheticFirmware(7)) {}
+
+  /// Runs on; `each` sees every look, before the driver does.
+  void run(double duration, const std::function<void(double)>& each = nullptr) {
+    const long looks = std::lround(duration / kLook);
+    for (long i = 0; i < looks; ++i) {
+      if (each) each(now());
+      look();
+      ++looks_;
+    }
+  }
+
+  /// Runs until the driver is in `state`; false if it is not within `longest`.
+  bool runUntil(FalconState state, double longest) {
+    for (const double end = now() + longest; now() < end; run(0.001))
+      if (driver.status().state == state) return true;
+    return driver.status().state == state;
+  }
+
+  [[nodiscard]] double now() const { return static_cast<double>(looks_) * kLook; }
+
+  FalconEmulator emulator;
+  FalconDriver driver;
+
+ private:
+  void look() {
+    if (emulator.isPluggedIn() != is_connected_) {
+      is_connected_ = emulator.isPluggedIn();
+      if (is_connected_)
+        driver.connect(now());
+      else
+        driver.disconnect(FalconFault::kUnplugged, now());
+    }
+    if (!is_connected_) return;
+    std::array<std::uint8_t, 256> bytes{};
+    const std::size_t come = emulator.collect(bytes.data(), bytes.size(), now());
+    driver.take(bytes.data(), come, now());
+    const LineStep step = driver.advance(now());
+    if (step.line) emulator.setLine(*step.line);
+    if (step.purges) emulator.purge();
+    if (step.count > 0) emulator.take(step.bytes.data(), step.count, now());
+  }
+
+  long looks_ = 0;
+  bool is_connected_ = false;
+};
+
+}  // namespace tandem::test
