@@ -4,50 +4,22 @@
 #include <cmath>
 #include <utility>
 
-#include "settings_check.h"
-
 namespace tandem {
 namespace {
 
-constexpr int kRestFrames = 5;            // without force before the line is left
-constexpr double kForceShown = 0.05;      // from which the light shows it [N]
-constexpr double kJumpSlack = 0.0005;     // the encoders' steps, and replies that come bunched [m]
-constexpr double kLongestReach = 0.005;   // after a longer gap a far position has jumped, too [s]
-constexpr double kShortestStep = 0.0002;  // velocity is not taken over less [s]
+constexpr int kRestFrames = 5;        // without force before the line is left
+constexpr double kForceShown = 0.05;  // from which the light shows it [N]
 
 std::array<double, 3> toArray(const Vec3& a) noexcept { return {a.x(), a.y(), a.z()}; }
-
-const FalconSettings& check(const FalconSettings& s) {
-  using falcon_detail::require;
-  const auto positive = [](double value, const char* name) {
-    require(std::isfinite(value) && value > 0.0, name, value, "above 0");
-  };
-  require(s.force.max_force >= 0.0 && s.force.max_force <= 8.9, "max_force", s.force.max_force,
-          "0 to 8.9 N");
-  positive(s.force.max_slew, "max_slew");
-  require(s.force.ramp_in >= 0.0 && std::isfinite(s.force.ramp_in), "ramp_in", s.force.ramp_in,
-          "0 or more");
-  positive(s.force.hold, "hold");
-  positive(s.force.fade, "fade");
-  require(s.motors_per_torque > 0.0 && s.motors_per_torque <= 20000.0, "motors_per_torque",
-          s.motors_per_torque, "above 0, to 20000");
-  require(s.centre_D.allFinite(), "centre_D", s.centre_D, "finite");
-  positive(s.frame_period, "frame_period");
-  positive(s.resend_time, "resend_time");
-  positive(s.reply_time, "reply_time");
-  require(s.firmware_time > s.reply_time, "firmware_time", s.firmware_time, "above reply_time");
-  positive(s.recovery_time, "recovery_time");
-  positive(s.reboot_pause, "reboot_pause");
-  positive(s.fastest_hand, "fastest_hand");
-  require(s.boot.tries >= 1, "boot.tries", s.boot.tries, "1 or more");
-  require(s.boot.calls >= 1, "boot.calls", s.boot.calls, "1 or more");
-  return s;
-}
 
 }  // namespace
 
 FalconDriver::FalconDriver(const FalconSettings& settings, FirmwareImage image)
-    : settings_(check(settings)), boot_(std::move(image), settings.boot), gate_(settings.force) {
+    : settings_(settings),
+      boot_(std::move(image), settings.boot),
+      tracker_(settings.fastest_hand),
+      gate_(settings.force) {
+  check(settings);
   status_.image = static_cast<std::uint32_t>(boot_.size());
 }
 
@@ -74,7 +46,7 @@ void FalconDriver::disconnect(FalconFault why, double now) noexcept {
   boots_ = false;
   boot_at_.reset();
   gate_.clear();
-  pose_.reset();
+  tracker_.forget(now);
   status_.force_D = {};
   status_.homed = 0;
   status_.state = FalconState::kClosed;
@@ -93,7 +65,7 @@ void FalconDriver::startBoot(double now) noexcept {
   boots_ = true;
   boot_at_.reset();
   gate_.clear();
-  pose_.reset();
+  tracker_.forget(now);
   status_.homed = 0;
   status_.force_D = {};
   status_.state = FalconState::kBoot;
@@ -105,10 +77,12 @@ void FalconDriver::startRun(double now) noexcept {
   boots_ = false;
   awaits_reply_ = false;
   ++status_.boots;
-  due_ = replied_at_ = positioned_at_ = now;
+  listens_until_.reset();
+  asked_at_.reset();
+  due_ = replied_at_ = heard_at_ = now;
+  tracker_.forget(now);
   frames_.clear();
   dropped_ = frames_.dropped();
-  doubted_p_D_.reset();
   status_.state = FalconState::kUnhomed;
 }
 
@@ -168,6 +142,8 @@ LineStep FalconDriver::advanceBoot(double now) noexcept {
 LineStep FalconDriver::advanceRun(double now) noexcept {
   checkReplies(now);
   if (boots_) return advanceBoot(now);
+  const bool is_quiet = listens_until_ && now >= *listens_until_ - settings_.quiet_time;
+  if (is_quiet || asked_at_) return listen(now);
   if (awaits_reply_ && now - sent_at_ >= settings_.resend_time) {
     awaits_reply_ = false;
     ++status_.missing;
@@ -181,20 +157,44 @@ LineStep FalconDriver::advanceRun(double now) noexcept {
   return step;
 }
 
+/// Replies to frames that were given up may yet come, and must not pass for new ones: nothing is
+/// said for a while, and then one frame whose reply has to come in time.
+LineStep FalconDriver::listen(double now) noexcept {
+  LineStep step;
+  if (now >= *listens_until_) {
+    step.purges = true;
+    frames_.clear();
+    sendFrame(step, now);
+    asked_at_ = now;
+    listens_until_ = now + settings_.quiet_time;
+  }
+  step.next = *listens_until_;
+  return step;
+}
+
 /// What is not said tells, too.
 void FalconDriver::checkReplies(double now) noexcept {
-  if (now - replied_at_ > settings_.firmware_time) {
+  if (now - heard_at_ > settings_.firmware_time) {
     enterFault(FalconFault::kFirmwareLost, now);
     startBoot(now);
   } else if (now - replied_at_ > settings_.reply_time) {
     const bool has_bytes = frames_.dropped() != dropped_;
     enterFault(has_bytes ? FalconFault::kDamagedReplies : FalconFault::kNoReply, now);
-  } else if (status_.homed == 7 && now - positioned_at_ > settings_.reply_time) {
+    // First the force is taken away, frame by frame.
+    if (!listens_until_) listens_until_ = now + settings_.reply_time + settings_.quiet_time;
+  } else if (status_.homed == 7 && now - tracker_.time() > settings_.reply_time) {
     enterFault(FalconFault::kOutOfReach, now);
   }
 }
 
 void FalconDriver::takeReply(const FalconReply& reply, double now) noexcept {
+  heard_at_ = now;
+  if (listens_until_) {
+    if (!asked_at_ || now - *asked_at_ > settings_.reply_time) return;
+    listens_until_.reset();
+    asked_at_.reset();
+    due_ = now;
+  }
   noteReply(reply, now);
   const bool was_ready = status_.state == FalconState::kReady;
   if (was_ready && !reply.isHomed()) enterFault(FalconFault::kHomingLost, now);
@@ -226,47 +226,23 @@ void FalconDriver::noteDropped(std::uint64_t dropped) noexcept {
   if (dropped < kFalconFrameSize) ++status_.short_replies;
 }
 
-/// Velocity is the first difference; a jump is none. False for a position that is not believed.
+/// False for a position that is not believed.
 bool FalconDriver::takePosition(const FalconReply& reply, double now) noexcept {
-  Vec3 angles;
-  for (std::size_t i = 0; i < 3; ++i)
-    angles[static_cast<Eigen::Index>(i)] = angleOfCounts(reply.counts[i]);
-  const auto pose = pose_ ? kinematics_.computePoseOfAngles(angles, pose_->p_D)
-                          : kinematics_.computePoseOfAngles(angles);
-  if (!pose) return false;
-  const double elapsed = now - positioned_at_;
-  const double reach =
-      settings_.fastest_hand * std::clamp(elapsed, settings_.frame_period, kLongestReach);
-  const auto isNear = [&](const Vec3& p_D) {
-    return (pose->p_D - p_D).norm() <= reach + kJumpSlack;
-  };
-  if (pose_ && isNear(pose_->p_D)) {
-    if (elapsed < kShortestStep) return true;  // bunched replies: the older one stays
-    v_D_ = (pose->p_D - pose_->p_D) / elapsed;
-  } else if (pose_ && !(doubted_p_D_ && isNear(*doubted_p_D_))) {
-    if (!doubted_p_D_) ++status_.jumps;
-    doubted_p_D_ = pose->p_D;
-    return false;
-  } else {
-    v_D_.setZero();
-    gate_.restart(now);
-  }
-  pose_ = pose;
-  doubted_p_D_.reset();
-  positioned_at_ = now;
-  return true;
+  const FalconTracker::Outcome outcome = tracker_.take(reply.counts, now);
+  if (outcome == FalconTracker::Outcome::kPlaced) gate_.restart(now);
+  status_.jumps = tracker_.jumps();
+  return outcome != FalconTracker::Outcome::kNone;
 }
 
 void FalconDriver::updateState(bool has_position, double now) noexcept {
   if (status_.state == FalconState::kFault && now - trouble_at_ < settings_.recovery_time) return;
   if (status_.homed != 7) {
     status_.state = FalconState::kUnhomed;
-    positioned_at_ = now;  // there is none to wait for
-    pose_.reset();
+    tracker_.forget(now);
   } else if (has_position && status_.state != FalconState::kReady) {
     status_.state = FalconState::kReady;
     status_.fault = FalconFault::kNone;
-    v_D_.setZero();
+    tracker_.stop();
   }
 }
 
@@ -274,8 +250,8 @@ void FalconDriver::publish(bool is_valid) noexcept {
   ++reading_.number;
   reading_.is_valid = is_valid;
   if (!is_valid) return;
-  reading_.p = toArray(pose_->p_D - settings_.centre_D);
-  reading_.v = toArray(v_D_);
+  reading_.p = toArray(tracker_.pose()->p_D - settings_.centre_D);
+  reading_.v = toArray(tracker_.velocity());
 }
 
 void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
@@ -284,7 +260,8 @@ void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
   // Force that is on its way out goes by the last position that was known.
   FalconCommand command;
   command.homes = true;
-  const auto torques = pose_ ? computeTorques(*pose_, f_D) : std::nullopt;
+  const auto& pose = tracker_.pose();
+  const auto torques = pose ? computeTorques(*pose, f_D) : std::nullopt;
   if (torques)
     command.motors = makeMotorCommands(*torques, settings_.motors_per_torque);
   else

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -49,6 +50,18 @@ class FalconRig {
     for (const double end = now() + longest; now() < end; run(0.001))
       if (driver.status().state == state) return true;
     return driver.status().state == state;
+  }
+
+  /// Moves the held grip there and back, slowly enough for no jump: 0.5 mm in a millisecond.
+  void pull(double out, const std::function<void(double)>& each = nullptr) {
+    const Vec3 from_D = emulator.plant().position();
+    const int steps = static_cast<int>(std::ceil(out / 0.0005));
+    for (int i = 1; i <= 2 * steps; ++i) {
+      const double share = 1.0 - std::abs(i - steps) / static_cast<double>(steps);
+      emulator.plant().hold(Vec3(from_D + share * Vec3(0.0, 0.0, out)));
+      run(0.001, each);
+    }
+    emulator.plant().hold(std::nullopt);
   }
 
   [[nodiscard]] double now() const { return static_cast<double>(looks_) * kLook; }

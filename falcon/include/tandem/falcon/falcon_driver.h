@@ -5,26 +5,11 @@
 
 #include "tandem/falcon/falcon_boot.h"
 #include "tandem/falcon/falcon_force_gate.h"
-#include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/falcon_settings.h"
 #include "tandem/falcon/falcon_status.h"
+#include "tandem/falcon/falcon_tracker.h"
 
 namespace tandem {
-
-struct FalconSettings {
-  FalconForceLimits force;
-  /// What the motors make of a torque [1/(N m)]. Not published: see kUsualMotorsPerTorque. Raising
-  /// it raises the force that is felt for a newton asked for.
-  double motors_per_torque = kUsualMotorsPerTorque;
-  Vec3 centre_D = Vec3(0.0, 0.0, 0.125);  ///< what is reported as the origin [m]
-  double frame_period = 0.001;            ///< [s]; USB does not allow less
-  double resend_time = 0.004;             ///< a frame without reply is given up after this [s]
-  double reply_time = 0.020;              ///< without a reply for so long: fault, no force [s]
-  double firmware_time = 0.2;             ///< without a reply for so long: boot again [s]
-  double recovery_time = 0.05;            ///< a fault is over after so long without trouble [s]
-  double reboot_pause = 2.0;              ///< after a boot that failed [s]
-  double fastest_hand = 3.0;              ///< a position that moved faster has jumped [m/s]
-  BootSettings boot;
-};
 
 /// A position with its number; plain values, to be copied between threads.
 struct FalconReading {
@@ -70,6 +55,7 @@ class FalconDriver {
   void startRun(double now) noexcept;
   LineStep advanceBoot(double now) noexcept;
   LineStep advanceRun(double now) noexcept;
+  LineStep listen(double now) noexcept;
   void checkReplies(double now) noexcept;
   void takeReply(const FalconReply& reply, double now) noexcept;
   void noteReply(const FalconReply& reply, double now) noexcept;
@@ -82,25 +68,24 @@ class FalconDriver {
 
   FalconSettings settings_;
   FalconBoot boot_;
-  FalconKinematics kinematics_;
+  FalconTracker tracker_;
   FalconForceGate gate_;
   FalconFrameReader frames_;
   FalconStatus status_;
   FalconReading reading_;
 
   bool boots_ = false, stops_ = false, awaits_reply_ = false;
-  int rest_frames_ = 0;                            ///< without force, since the stop began
-  std::optional<double> boot_at_;                  ///< again, after a boot that failed [s]
-  double due_ = 0.0, sent_at_ = 0.0;               ///< the next frame; the last one [s]
-  double replied_at_ = 0.0, positioned_at_ = 0.0;  ///< the last whole reply; a position of use [s]
-  double trouble_at_ = 0.0;                        ///< the last of a fault [s]
-  std::uint64_t dropped_ = 0;                      ///< of the reader, at the last reply
+  int rest_frames_ = 0;                             ///< without force, since the stop began
+  std::optional<double> boot_at_;                   ///< again, after a boot that failed [s]
+  double due_ = 0.0, sent_at_ = 0.0;                ///< the next frame; the last one [s]
+  double replied_at_ = 0.0;                         ///< the last whole reply of use [s]
+  double heard_at_ = 0.0;                           ///< ... of any [s]
+  std::optional<double> listens_until_, asked_at_;  ///< after replies went missing [s]
+  double trouble_at_ = 0.0;                         ///< the last of a fault [s]
+  std::uint64_t dropped_ = 0;                       ///< of the reader, at the last reply
 
   Vec3 wanted_D_ = Vec3::Zero();
   double wanted_at_ = -1e9;
-  std::optional<FalconPose> pose_;   ///< the last one believed
-  std::optional<Vec3> doubted_p_D_;  ///< that jumped: believed if the next one is there too
-  Vec3 v_D_ = Vec3::Zero();
 };
 
 }  // namespace tandem

@@ -1,0 +1,52 @@
+#include "tandem/falcon/falcon_tracker.h"
+
+#include <algorithm>
+
+namespace tandem {
+namespace {
+
+constexpr double kSlack = 0.0005;         // steps of the encoders, replies that come bunched [m]
+constexpr double kLongestReach = 0.005;   // after a longer gap a far position has jumped, too [s]
+constexpr double kShortestStep = 0.0005;  // velocity is not taken over less [s]
+
+Vec3 anglesOf(const std::array<std::int16_t, 3>& counts) noexcept {
+  return {angleOfCounts(counts[0]), angleOfCounts(counts[1]), angleOfCounts(counts[2])};
+}
+
+}  // namespace
+
+void FalconTracker::forget(double now) noexcept {
+  pose_.reset();
+  doubted_D_.reset();
+  v_D_.setZero();
+  at_ = now;
+}
+
+FalconTracker::Outcome FalconTracker::take(const std::array<std::int16_t, 3>& counts,
+                                           double now) noexcept {
+  const auto pose = pose_ ? kinematics_.computePoseOfAngles(anglesOf(counts), pose_->p_D)
+                          : kinematics_.computePoseOfAngles(anglesOf(counts));
+  if (!pose) return Outcome::kNone;
+  const double elapsed = now - at_;
+  const double reach = fastest_hand_ * std::min(elapsed, kLongestReach) + kSlack;
+  const auto isNear = [&](const Vec3& p_D) { return (pose->p_D - p_D).norm() <= reach; };
+
+  Outcome outcome = Outcome::kMoved;
+  if (pose_ && isNear(pose_->p_D)) {
+    if (elapsed < kShortestStep) return outcome;  // bunched replies: the older one stays
+    v_D_ = (pose->p_D - pose_->p_D) / elapsed;
+  } else if (pose_ && !(doubted_D_ && isNear(*doubted_D_))) {
+    if (!doubted_D_) ++jumps_;
+    doubted_D_ = pose->p_D;
+    return Outcome::kNone;
+  } else {
+    outcome = Outcome::kPlaced;
+    v_D_.setZero();
+  }
+  pose_ = pose;
+  doubted_D_.reset();
+  at_ = now;
+  return outcome;
+}
+
+}  // namespace tandem

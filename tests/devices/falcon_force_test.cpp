@@ -1,0 +1,224 @@
+// Force through all bytes: asked of the driver, felt at the emulator's grip, in virtual time.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tandem/falcon/falcon_force_gate.h"
+
+#include "devices/falcon_rig.h"
+#include "support/random.h"
+
+namespace tandem {
+namespace {
+
+using test::FalconRig;
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+const Vec3 kCentre_D(0.0, 0.0, 0.125);
+
+/// Asks for a force at every look until it stands.
+void press(FalconRig& rig, const Vec3& f_D, double duration) {
+  rig.run(duration, [&](double now) { rig.driver.command(f_D, now); });
+}
+
+double angleBetween(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+struct Worst {
+  double angle = 0.0, size = 0.0;
+};
+
+/// Forces of 5 N over a cube of 6 cm, as the emulated hand feels them.
+Worst findWorst(double device_motors_per_torque) {
+  FalconEmulatorSettings device = test::readyDevice();
+  device.plant.motors_per_torque = device_motors_per_torque;
+  FalconSettings settings;
+  settings.force.ramp_in = 0.0;
+  constexpr std::uint64_t kSeed = 80;
+  test::Random random(kSeed);
+  FalconRig rig(device, settings);
+  EXPECT_TRUE(rig.runUntil(FalconState::kReady, 1.0));
+  Worst worst;
+  for (int i = 0; i < 7 * 7 * 7; ++i) {
+    const Vec3 at = 0.01 * Vec3(i % 7 - 3, i / 7 % 7 - 3, i / 49 - 3);
+    EXPECT_TRUE(rig.emulator.plant().hold(Vec3(kCentre_D + at)));
+    const Vec3 f_D = 5.0 * random.direction();
+    press(rig, f_D, 0.02);
+    const Vec3 felt_D = rig.emulator.plant().force();
+    worst.angle = std::max(worst.angle, angleBetween(felt_D, f_D));
+    worst.size = std::max(worst.size, std::abs(felt_D.norm() / 5.0 - 1.0));
+  }
+  EXPECT_EQ(rig.driver.status().state, FalconState::kReady);
+  EXPECT_EQ(rig.emulator.refused(), 0U);
+  return worst;
+}
+
+TEST(FalconForce, IsFeltAsItIsAskedForInACubeOfSixCentimetres) {
+  const Worst worst = findWorst(kUsualMotorsPerTorque);
+  RecordProperty("worst_angle_degree", std::to_string(worst.angle / kDegree));
+  RecordProperty("worst_size_percent", std::to_string(worst.size * 100.0));
+  EXPECT_LT(worst.angle, 0.1 * kDegree);
+  EXPECT_LT(worst.size, 0.005);
+}
+
+// The constant of the motors scales the force and leaves the direction: so it shows, and so it can
+// be found with a spring balance.
+TEST(FalconForce, AWrongMotorConstantIsFelt) {
+  const Worst worst = findWorst(10000.0);
+  EXPECT_LT(worst.angle, 0.1 * kDegree);
+  EXPECT_NEAR(worst.size, 1.0 - kUsualMotorsPerTorque / 10000.0, 0.005);
+}
+
+TEST(FalconForce, NeverWrapsWhateverIsAskedFor) {
+  constexpr std::uint64_t kSeed = 81;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  for (const double motors_per_torque : {4200.0, 20000.0}) {
+    FalconSettings settings;
+    settings.motors_per_torque = motors_per_torque;
+    settings.force.ramp_in = 0.0;
+    FalconEmulatorSettings device = test::readyDevice();
+    device.plant.motors_per_torque = motors_per_torque;
+    FalconRig rig(device, settings);
+    ASSERT_TRUE(rig.runUntil(FalconState::kReady, 1.0));
+    const double inf = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 200; ++i) {
+      ASSERT_TRUE(rig.emulator.plant().hold(Vec3(kCentre_D + random.inCube(0.03))));
+      Vec3 f_D = random.direction() * random.logUniform(1e-3, 1e300);
+      press(rig, f_D, 0.02);
+      if (i % 10 == 0) {
+        for (const double bad : {inf, -inf, std::nan("")}) press(rig, Vec3(1.0, bad, 0.0), 0.01);
+        ASSERT_EQ(rig.emulator.command().motors, FalconMotors{});
+        continue;
+      }
+      const Vec3 felt_D = rig.emulator.plant().force();
+      ASSERT_GT(felt_D.dot(f_D.stableNormalized()), 0.0);
+      ASSERT_LT(felt_D.norm(), 8.0 * 1.001);
+    }
+    EXPECT_EQ(rig.emulator.refused(), 0U);
+  }
+}
+
+TEST(FalconForce, ComesInAfterHomingAndShowsItsLights) {
+  FalconRig rig({}, {}, test::makeHomingHand());
+  ASSERT_TRUE(rig.runUntil(FalconState::kUnhomed, 10.0));
+  press(rig, Vec3(4.0, 0.0, 0.0), 0.05);
+  EXPECT_EQ(rig.emulator.command().lights, kRedLight);
+  EXPECT_EQ(rig.emulator.felt().most_force, 0.0);
+  EXPECT_FALSE(rig.driver.reading().is_valid);
+
+  // The emulator's hand moves by its own clock, which went on during the boot: home by itself.
+  rig.emulator.plant().hold(Vec3(0, 0, 0.165));
+  press(rig, Vec3(4.0, 0.0, 0.0), 0.01);
+  EXPECT_EQ(rig.driver.status().state, FalconState::kReady);
+  rig.emulator.plant().hold(kCentre_D);
+  press(rig, Vec3(4.0, 0.0, 0.0), 0.25);
+  EXPECT_NEAR(rig.emulator.plant().force().norm(), 2.0, 0.05);  // half of the ramp
+  press(rig, Vec3(4.0, 0.0, 0.0), 0.3);
+  EXPECT_NEAR(rig.emulator.plant().force().norm(), 4.0, 0.01);
+  EXPECT_EQ(rig.emulator.command().lights, kGreenLight | kBlueLight);
+  press(rig, Vec3::Zero(), 0.1);
+  EXPECT_EQ(rig.emulator.command().lights, kGreenLight);
+}
+
+TEST(FalconForce, IsGoneATenthOfASecondAfterTheLastWrite) {
+  FalconRig rig(test::readyDevice());
+  ASSERT_TRUE(rig.runUntil(FalconState::kReady, 1.0));
+  press(rig, Vec3(0.0, 8.0, 0.0), 0.7);
+  EXPECT_NEAR(rig.emulator.plant().force().norm(), 8.0, 0.02);
+  const double last = rig.now();
+  rig.run(0.049);
+  EXPECT_NEAR(rig.emulator.plant().force().norm(), 8.0, 0.02);
+  rig.run(0.2);
+  EXPECT_LT(rig.emulator.felt().pushed_at, last + 0.1);
+  EXPECT_EQ(rig.emulator.command().motors, FalconMotors{});
+  EXPECT_LT(rig.emulator.felt().most_change, 2.0 * 1.02);
+}
+
+TEST(FalconForce, AStopTakesItAwayAndPutsTheLightsOut) {
+  FalconRig rig(test::readyDevice());
+  ASSERT_TRUE(rig.runUntil(FalconState::kReady, 1.0));
+  press(rig, Vec3(0.0, 8.0, 0.0), 0.7);
+  rig.driver.beginStop();
+  const std::uint64_t before = rig.emulator.commands();
+  for (int i = 0; i < 100 && !rig.driver.hasStopped(); ++i) press(rig, Vec3(0, 8.0, 0), 0.001);
+  EXPECT_TRUE(rig.driver.hasStopped());
+  EXPECT_EQ(rig.emulator.command().motors, FalconMotors{});
+  EXPECT_EQ(rig.emulator.command().lights, 0);
+  EXPECT_TRUE(rig.emulator.command().homes);  // the next program finds it homed
+  EXPECT_LE(rig.emulator.commands() - before, 20U);
+  EXPECT_LT(rig.emulator.felt().most_change, 2.0 * 1.02);
+}
+
+// A spring rendered at a grip in a moving hand: the whole loop, mechanism included.
+TEST(FalconForce, PositionsAndVelocitiesAreThoseOfTheGrip) {
+  auto hand = makeMinimumJerkHand(
+      {{0.3, Vec3::Zero()}, {1.0, Vec3(0.03, -0.02, 0.02)}, {1.7, Vec3(-0.02, 0.03, -0.01)}},
+      1500.0, 15.0);
+  FalconEmulatorSettings device = test::readyDevice();
+  FalconRig rig(device, {}, std::move(hand));
+  double worst_p = 0.0, fastest = 0.0, spread = 0.0;
+  int readings = 0;
+  rig.run(2.0, [&](double now) {
+    const FalconReading& reading = rig.driver.reading();
+    if (!reading.is_valid) return;
+    const Vec3 p(reading.p[0], reading.p[1], reading.p[2]),
+        v(reading.v[0], reading.v[1], reading.v[2]);
+    rig.driver.command(-100.0 * p, now);
+    worst_p = std::max(worst_p, (p + kCentre_D - rig.emulator.plant().position()).norm());
+    spread = std::max(spread, p.norm());
+    fastest = std::max(fastest, v.norm());
+    ++readings;
+  });
+  EXPECT_GT(readings, 7000);
+  EXPECT_GT(spread, 0.03);
+  // Half a count of each encoder, and the way of a millisecond at 0.15 m/s.
+  EXPECT_LT(worst_p, 0.0003);
+  // 0.15 m/s, and one count of difference in a millisecond is 0.04 m/s and more.
+  EXPECT_LT(fastest, 0.4);
+  EXPECT_EQ(rig.driver.status().jumps, 0U);
+}
+
+TEST(FalconForceGate, NoStepIsLargerThanTheSlewLimit) {
+  constexpr std::uint64_t kSeed = 82;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  const FalconForceLimits limits;
+  FalconForceGate gate(limits);
+  double now = 0.0, last = 0.0;
+  Vec3 before = Vec3::Zero();
+  for (int i = 0; i < 100000; ++i) {
+    now += random.logUniform(1e-5, 1e-1);
+    const Vec3 wanted = random.direction() * random.logUniform(1e-3, 1e300);
+    const Vec3 after = gate.advance(wanted, random.uniform(0.0, 0.12), random.below(20) != 0, now);
+    ASSERT_LE(after.norm(), limits.max_force * (1.0 + 1e-12));
+    ASSERT_LE((after - before).norm(), limits.max_slew * std::min(now - last, 0.001) + 1e-12);
+    before = after;
+    last = now;
+  }
+}
+
+TEST(FalconForce, SettingsOutOfRangeAreRefused) {
+  const auto refuses = [](void (*change)(FalconSettings&)) {
+    FalconSettings settings;
+    change(settings);
+    EXPECT_THROW((void)FalconDriver(settings), std::invalid_argument);
+  };
+  refuses([](FalconSettings& s) { s.force.max_force = 9.0; });
+  refuses([](FalconSettings& s) { s.force.max_force = std::nan(""); });
+  refuses([](FalconSettings& s) { s.force.max_slew = 0.0; });
+  refuses([](FalconSettings& s) { s.force.ramp_in = -1.0; });
+  refuses([](FalconSettings& s) { s.force.hold = 0.0; });
+  refuses([](FalconSettings& s) { s.force.fade = std::nan(""); });
+  refuses([](FalconSettings& s) { s.motors_per_torque = 0.0; });
+  refuses([](FalconSettings& s) { s.motors_per_torque = 30000.0; });
+  refuses([](FalconSettings& s) { s.centre_D.x() = std::nan(""); });
+  refuses([](FalconSettings& s) { s.firmware_time = 0.01; });
+  refuses([](FalconSettings& s) { s.boot.tries = 0; });
+}
+
+}  // namespace
+}  // namespace tandem
