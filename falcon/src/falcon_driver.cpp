@@ -79,7 +79,9 @@ void FalconDriver::startRun(double now) noexcept {
   ++status_.boots;
   listens_until_.reset();
   asked_at_.reset();
-  due_ = replied_at_ = heard_at_ = now;
+  silent_since_.reset();
+  astray_since_.reset();
+  due_ = heard_at_ = now;
   tracker_.forget(now);
   frames_.clear();
   dropped_ = frames_.dropped();
@@ -97,6 +99,7 @@ void FalconDriver::take(const std::uint8_t* bytes, std::size_t count, double now
     if (!frame) continue;
     if (const auto reply = decodeReply(*frame)) takeReply(*reply, now);
   }
+  status_.dropped_bytes = frames_.dropped();
 }
 
 void FalconDriver::command(const Vec3& f_D, double now) noexcept {
@@ -174,16 +177,15 @@ LineStep FalconDriver::listen(double now) noexcept {
 
 /// What is not said tells, too.
 void FalconDriver::checkReplies(double now) noexcept {
-  if (now - heard_at_ > settings_.firmware_time) {
+  if (!silent_since_) return;
+  if (now - std::max(heard_at_, *silent_since_) > settings_.firmware_time) {
     enterFault(FalconFault::kFirmwareLost, now);
     startBoot(now);
-  } else if (now - replied_at_ > settings_.reply_time) {
+  } else if (now - *silent_since_ > settings_.reply_time) {
     const bool has_bytes = frames_.dropped() != dropped_;
     enterFault(has_bytes ? FalconFault::kDamagedReplies : FalconFault::kNoReply, now);
     // First the force is taken away, frame by frame.
     if (!listens_until_) listens_until_ = now + settings_.reply_time + settings_.quiet_time;
-  } else if (status_.homed == 7 && now - tracker_.time() > settings_.reply_time) {
-    enterFault(FalconFault::kOutOfReach, now);
   }
 }
 
@@ -199,6 +201,12 @@ void FalconDriver::takeReply(const FalconReply& reply, double now) noexcept {
   const bool was_ready = status_.state == FalconState::kReady;
   if (was_ready && !reply.isHomed()) enterFault(FalconFault::kHomingLost, now);
   const bool has_position = reply.isHomed() && takePosition(reply, now);
+  if (has_position || !reply.isHomed())
+    astray_since_.reset();
+  else if (!astray_since_)
+    astray_since_ = now;
+  if (astray_since_ && now - *astray_since_ > settings_.reply_time)
+    enterFault(FalconFault::kOutOfReach, now);
   updateState(has_position, now);
   publish(has_position && status_.state == FalconState::kReady);
 }
@@ -211,10 +219,9 @@ void FalconDriver::noteReply(const FalconReply& reply, double now) noexcept {
     if (time > 2.0 * settings_.frame_period) ++status_.late;
   }
   awaits_reply_ = false;
-  replied_at_ = now;
+  silent_since_.reset();
   noteDropped(frames_.dropped() - dropped_);
   dropped_ = frames_.dropped();
-  status_.dropped_bytes = dropped_;
   status_.homed = reply.homed;
   status_.buttons = reply.buttons;
   status_.counts = reply.counts;
@@ -272,6 +279,7 @@ void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
   status_.force_D = toArray(f_D);
   if (stops_ && f_D.isZero(0.0)) ++rest_frames_;
   awaits_reply_ = true;
+  if (!silent_since_) silent_since_ = now;
   sent_at_ = now;
 }
 

@@ -9,6 +9,9 @@ constexpr double kSlack = 0.0005;         // steps of the encoders, replies that
 constexpr double kLongestReach = 0.005;   // after a longer gap a far position has jumped, too [s]
 constexpr double kShortestStep = 0.0005;  // velocity is not taken over less [s]
 
+// Arms turn from -0.6 to 1.45 rad where the grip goes; whole turns would look alike.
+constexpr double kLeastAngle = -1.2, kMostAngle = 2.2;
+
 Vec3 anglesOf(const std::array<std::int16_t, 3>& counts) noexcept {
   return {angleOfCounts(counts[0]), angleOfCounts(counts[1]), angleOfCounts(counts[2])};
 }
@@ -24,8 +27,10 @@ void FalconTracker::forget(double now) noexcept {
 
 FalconTracker::Outcome FalconTracker::take(const std::array<std::int16_t, 3>& counts,
                                            double now) noexcept {
-  const auto pose = pose_ ? kinematics_.computePoseOfAngles(anglesOf(counts), pose_->p_D)
-                          : kinematics_.computePoseOfAngles(anglesOf(counts));
+  const Vec3 angles = anglesOf(counts);
+  if (angles.minCoeff() < kLeastAngle || angles.maxCoeff() > kMostAngle) return Outcome::kNone;
+  const auto pose = pose_ ? kinematics_.computePoseOfAngles(angles, pose_->p_D)
+                          : kinematics_.computePoseOfAngles(angles);
   if (!pose) return Outcome::kNone;
   const double elapsed = now - at_;
   const double reach = fastest_hand_ * std::min(elapsed, kLongestReach) + kSlack;

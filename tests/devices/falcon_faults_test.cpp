@@ -155,6 +155,45 @@ TEST_F(FalconFaults, HomingThatIsLost) {
   expectRecovery();
 }
 
+// Turned by whole turns, some of them would be positions.
+TEST_F(FalconFaults, CountsThatNoGripCanHave) {
+  const auto reply = [](std::int16_t count) {
+    return encodeReply({{count, static_cast<std::int16_t>(-count), count}, 7, 0});
+  };
+  FalconDriver driver(FalconSettings{});
+  driver.connect(0.0);
+  double now = 0.0;
+  const auto answer = [&](const FalconFrame& frame, double duration) {
+    for (const double end = now + duration; now < end; now += 0.001) {
+      driver.command(kPush_D, now);
+      if (driver.advance(now).count > 0) driver.take(frame.data(), frame.size(), now + 0.0005);
+    }
+  };
+  answer(reply(0), 0.1);
+  ASSERT_EQ(driver.status().state, FalconState::kReady);
+  answer(reply(30000), 0.01);
+  EXPECT_EQ(driver.status().state, FalconState::kReady);
+  EXPECT_FALSE(driver.reading().is_valid);
+  answer(reply(30000), 0.1);
+  EXPECT_EQ(driver.status().state, FalconState::kFault);
+  EXPECT_EQ(driver.status().fault, FalconFault::kOutOfReach);
+  EXPECT_EQ(driver.status().force_D, (std::array<double, 3>{}));
+  answer(reply(0), 0.1);
+  EXPECT_EQ(driver.status().state, FalconState::kReady);
+}
+
+// The device cannot help it if the host was busy: no frame of the host, no reply to miss.
+TEST_F(FalconFaults, AHostThatStallsBlamesNobody) {
+  for (const double stall : {0.03, 0.3}) {
+    rig_.skip(stall);
+    press(0.1);
+    EXPECT_EQ(state(), FalconState::kReady);
+  }
+  EXPECT_EQ(rig_.driver.status().faults, 0U);
+  EXPECT_EQ(rig_.driver.status().boots, 1U);
+  expectLimits();
+}
+
 TEST_F(FalconFaults, PowerThatGoesAndComes) {
   rig_.emulator.switchOff(rig_.now());
   expectFault(FalconFault::kNoReply);
@@ -214,7 +253,7 @@ TEST(FalconFault, DrawnMishapsNeverBreakTheLimits) {
   constexpr std::uint64_t kSeed = 90;
   SCOPED_TRACE(kSeed);
   test::Random random(kSeed);
-  for (int run = 0; run < 60; ++run) {
+  for (int run = 0; run < 30; ++run) {
     SCOPED_TRACE(run);
     FalconEmulatorSettings device = test::readyDevice();
     device.seed = static_cast<std::uint64_t>(run);

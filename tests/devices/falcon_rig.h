@@ -52,6 +52,12 @@ class FalconRig {
     return driver.status().state == state;
   }
 
+  /// The host does nothing for a while, from when nothing is on its way.
+  void skip(double duration) {
+    run(kLook);  // takes the reply to the last frame; the next is not due
+    looks_ += std::lround(duration / kLook);
+  }
+
   /// Moves the held grip there and back, slowly enough for no jump: 0.5 mm in a millisecond.
   void pull(double out, const std::function<void(double)>& each = nullptr) {
     const Vec3 from_D = emulator.plant().position();

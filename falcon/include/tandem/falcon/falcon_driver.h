@@ -75,11 +75,12 @@ class FalconDriver {
   FalconReading reading_;
 
   bool boots_ = false, stops_ = false, awaits_reply_ = false;
-  int rest_frames_ = 0;                             ///< without force, since the stop began
-  std::optional<double> boot_at_;                   ///< again, after a boot that failed [s]
-  double due_ = 0.0, sent_at_ = 0.0;                ///< the next frame; the last one [s]
-  double replied_at_ = 0.0;                         ///< the last whole reply of use [s]
-  double heard_at_ = 0.0;                           ///< ... of any [s]
+  int rest_frames_ = 0;                 ///< without force, since the stop began
+  std::optional<double> boot_at_;       ///< again, after a boot that failed [s]
+  double due_ = 0.0, sent_at_ = 0.0;    ///< the next frame; the last one [s]
+  std::optional<double> silent_since_;  ///< the first frame without a reply of use, since one [s]
+  std::optional<double> astray_since_;  ///< replies of homed legs that are no position [s]
+  double heard_at_ = 0.0;               ///< the last whole reply, of use or not [s]
   std::optional<double> listens_until_, asked_at_;  ///< after replies went missing [s]
   double trouble_at_ = 0.0;                         ///< the last of a fault [s]
   std::uint64_t dropped_ = 0;                       ///< of the reader, at the last reply

@@ -30,7 +30,6 @@ class FalconTracker {
   /// The last one believed.
   [[nodiscard]] const std::optional<FalconPose>& pose() const noexcept { return pose_; }
   [[nodiscard]] const Vec3& velocity() const noexcept { return v_D_; }  ///< [m/s]
-  [[nodiscard]] double time() const noexcept { return at_; }            ///< of pose() [s]
   [[nodiscard]] std::uint64_t jumps() const noexcept { return jumps_; }
 
  private:
