@@ -62,10 +62,7 @@ void FalconDevice::write(const Vec3& f_W) noexcept {
 
 void FalconDevice::run() noexcept {
   while (!stops_.load(std::memory_order_relaxed)) {
-    if (const std::unique_ptr<ByteTransport> line = tryOpen()) {
-      serve(*line);
-      continue;
-    }
+    if (const std::unique_ptr<ByteTransport> line = tryOpen()) serve(*line);
     for (double slept = 0.0; slept < kOpenPeriod && !stops_.load(std::memory_order_relaxed);
          slept += kNap)
       sleep(kNap);

@@ -103,25 +103,28 @@ TEST(FalconForce, NeverWrapsWhateverIsAskedFor) {
 }
 
 TEST(FalconForce, ComesInAfterHomingAndShowsItsLights) {
-  FalconRig rig({}, {}, test::makeHomingHand());
-  ASSERT_TRUE(rig.runUntil(FalconState::kUnhomed, 10.0));
-  press(rig, Vec3(4.0, 0.0, 0.0), 0.05);
+  constexpr double kStart = 5.0;  // of the hand: booting is over by then [s]
+  const Vec3 f_D(4.0, 0.0, 0.0);
+  FalconRig rig({}, {}, test::makeHomingHand(kStart));
+  press(rig, f_D, kStart);
+  EXPECT_EQ(rig.driver.status().state, FalconState::kUnhomed);
   EXPECT_EQ(rig.emulator.command().lights, kRedLight);
-  EXPECT_EQ(rig.emulator.felt().most_force, 0.0);
   EXPECT_FALSE(rig.driver.reading().is_valid);
 
-  // The emulator's hand moves by its own clock, which went on during the boot: home by itself.
-  rig.emulator.plant().hold(Vec3(0, 0, 0.165));
-  press(rig, Vec3(4.0, 0.0, 0.0), 0.01);
-  EXPECT_EQ(rig.driver.status().state, FalconState::kReady);
-  rig.emulator.plant().hold(kCentre_D);
-  press(rig, Vec3(4.0, 0.0, 0.0), 0.25);
+  while (rig.driver.status().state == FalconState::kUnhomed && rig.now() < kStart + 2.0) {
+    EXPECT_EQ(rig.emulator.felt().most_force, 0.0);
+    press(rig, f_D, FalconRig::kLook);
+  }
+  ASSERT_EQ(rig.driver.status().state, FalconState::kReady);
+  EXPECT_EQ(rig.emulator.homed(), 7);
+  press(rig, f_D, 0.25);
   EXPECT_NEAR(rig.emulator.plant().force().norm(), 2.0, 0.05);  // half of the ramp
-  press(rig, Vec3(4.0, 0.0, 0.0), 0.3);
+  press(rig, f_D, 2.0);
   EXPECT_NEAR(rig.emulator.plant().force().norm(), 4.0, 0.01);
   EXPECT_EQ(rig.emulator.command().lights, kGreenLight | kBlueLight);
   press(rig, Vec3::Zero(), 0.1);
   EXPECT_EQ(rig.emulator.command().lights, kGreenLight);
+  EXPECT_EQ(rig.driver.status().jumps, 0U);
 }
 
 TEST(FalconForce, IsGoneATenthOfASecondAfterTheLastWrite) {

@@ -11,12 +11,12 @@
 
 namespace tandem::test {
 
-/// A hand that pulls the grip out and pushes it in again within 1.2 s: all legs pass their indices.
-inline std::unique_ptr<Hand> makeHomingHand() {
-  return makeMinimumJerkHand({{0.0, Vec3::Zero()},
-                              {0.6, Vec3(0.0, 0.0, 0.045)},
-                              {1.2, Vec3(0.0, 0.0, -0.02)},
-                              {1.4, Vec3::Zero()}},
+/// A hand that pulls the grip out and pushes it in again: all legs pass their indices.
+inline std::unique_ptr<Hand> makeHomingHand(double start) {
+  return makeMinimumJerkHand({{start, Vec3::Zero()},
+                              {start + 0.6, Vec3(0.0, 0.0, 0.045)},
+                              {start + 1.2, Vec3(0.0, 0.0, -0.02)},
+                              {start + 1.4, Vec3::Zero()}},
                              800.0, 8.0);
 }
 
