@@ -21,8 +21,13 @@ Vec3 anglesOf(const std::array<std::int16_t, 3>& counts) noexcept {
 void FalconTracker::forget(double now) noexcept {
   pose_.reset();
   doubted_D_.reset();
-  v_D_.setZero();
+  stop();
   at_ = now;
+}
+
+void FalconTracker::stop() noexcept {
+  count_rates_.clear();
+  v_D_.setZero();
 }
 
 FalconTracker::Outcome FalconTracker::take(const std::array<std::int16_t, 3>& counts,
@@ -39,15 +44,17 @@ FalconTracker::Outcome FalconTracker::take(const std::array<std::int16_t, 3>& co
   Outcome outcome = Outcome::kMoved;
   if (pose_ && isNear(pose_->p_D)) {
     if (elapsed < kShortestStep) return outcome;  // bunched replies: the older one stays
-    v_D_ = (pose->p_D - pose_->p_D) / elapsed;
   } else if (pose_ && !(doubted_D_ && isNear(*doubted_D_))) {
     if (!doubted_D_) ++jumps_;
     doubted_D_ = pose->p_D;
     return Outcome::kNone;
   } else {
     outcome = Outcome::kPlaced;
-    v_D_.setZero();
+    stop();
   }
+  const Vec3 counted(counts[0], counts[1], counts[2]);
+  const Vec3 angle_rates = angleRatesOfCounts(count_rates_.add(now, counted));
+  v_D_ = computeVelocity(*pose, angle_rates).value_or(Vec3(Vec3::Zero()));
   pose_ = pose;
   doubted_D_.reset();
   at_ = now;

@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/velocity_estimator.h"
 
 namespace tandem {
 
-/// Positions and velocities of the grip from the counts of its encoders. A position that is too far
-/// from the last one is believed only if the next one is there, too, and is no velocity. Pure;
-/// real-time safe.
+/// Positions and velocities of the grip from the counts of its encoders, the velocities by the
+/// usual estimator, leg by leg (docs/devices.md). A position that is too far from the last one is
+/// believed only if the next one is there, too, and is no velocity. Pure; real-time safe.
 class FalconTracker {
  public:
   /// A hand moves by `fastest_hand` [m/s] at most.
@@ -25,7 +26,8 @@ class FalconTracker {
 
   /// There are no positions now: the next one is the first.
   void forget(double now) noexcept;
-  void stop() noexcept { v_D_.setZero(); }
+  /// The grip counts as standing until it is seen moving.
+  void stop() noexcept;
 
   /// The last one believed.
   [[nodiscard]] const std::optional<FalconPose>& pose() const noexcept { return pose_; }
@@ -35,6 +37,7 @@ class FalconTracker {
  private:
   double fastest_hand_;
   FalconKinematics kinematics_;
+  AdaptiveWindow count_rates_ = makeUsualVelocityEstimator();
   std::optional<FalconPose> pose_;
   std::optional<Vec3> doubted_D_;  ///< where it jumped to
   Vec3 v_D_ = Vec3::Zero();
