@@ -1,0 +1,197 @@
+// From bytes to newtons, live: an emulated Falcon behind a pseudo terminal, its driver's thread, a
+// haptic thread and a host's. A hand leans against a wall of the host's world while things go
+// wrong; what the hand felt is told by the emulated device.
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tandem/falcon/emulated_falcon_port.h"
+#include "tandem/falcon/falcon_device.h"
+#include "tandem/falcon/guarded_device.h"
+#include "tandem/falcon/tty_transport.h"
+#include "tandem/plugin/haptic_loop.h"
+
+#include "bridge/bullet_rig.h"
+#include "support/fakes.h"
+
+namespace tandem {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kLean = 3.0;  ///< of the hand against the wall [N]
+/// What is asked, and what a grip that moves on while a command is on its way makes of it.
+constexpr double kMostForce = 8.0 * 1.06, kMostChange = 2.0 * 1.1;
+constexpr auto kPatience = 20s;  ///< of a busy machine
+
+FalconEmulatorSettings makeEmulated() {
+  FalconEmulatorSettings settings;
+  settings.runs = settings.is_homed = true;
+  settings.plant.viscous = 4.0;
+  settings.watchdog = 0.5;
+  return settings;
+}
+
+FalconSettings makePatient() {
+  FalconSettings settings;
+  settings.reply_time = 0.3;  // so that a busy machine is no fault of the device's
+  settings.quiet_time = 0.3;
+  settings.firmware_time = 1.0;
+  return settings;
+}
+
+/// Passes everything on, and hangs where it is told to.
+class HangingDevice final : public HapticDevice {
+ public:
+  explicit HangingDevice(HapticDevice& device) : device_(device) {}
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
+    return device_.capabilities();
+  }
+  [[nodiscard]] DeviceSample read(double now) noexcept override {
+    while (hangs.load(std::memory_order_relaxed)) std::this_thread::sleep_for(1ms);
+    return device_.read(now);
+  }
+  void write(const Vec3& f_W) noexcept override { device_.write(f_W); }
+
+  std::atomic<bool> hangs{false};
+
+ private:
+  HapticDevice& device_;
+};
+
+class LiveFalcon : public ::testing::Test {
+ protected:
+  LiveFalcon() : port(makeEmulated(), makeConstantHand(Vec3(0.0, kLean, 0.0))) {
+    auto& wall = rig.makeShape<btBoxShape>(btVector3(1, 0.5, 1));
+    rig.addBody(wall, 0.0, Vec3(0.0, 0.53, 0.0));
+    EXPECT_TRUE(waitUntil([&] { return guarded.read(0.0).valid; })) << "it was not ready";
+    SiteSettings settings;
+    settings.tick_source = TickSource::kCaller;
+    settings.contact = {600.0, 2.0};
+    site = std::make_unique<Site>(settings, rig.world, device);
+    site->connect(PeerId{2}, nobody, Vec3(0.0, -0.5, 0.0));
+    loop = std::make_unique<HapticLoop>(
+        *site,
+        HapticLoopSettings{.priority = 0, .locks_memory = false, .begin = {}, .duration = 1e9});
+    host = std::thread([this] {
+      while (!stops) {
+        std::this_thread::sleep_for(16ms);
+        if (!host_rests) rig.world.stepSimulation(btScalar(1.0 / 60.0), 0);
+      }
+    });
+    EXPECT_TRUE(waitUntil([&] { return lean() > 0.8 * kLean; })) << "the wall was not felt";
+    std::this_thread::sleep_for(500ms);  // until the impact has died away
+  }
+
+  ~LiveFalcon() override {
+    device.hangs = false;
+    stops = true;
+    host.join();
+    loop->stop();
+    EXPECT_EQ(guarded.status().force, Vec3(Vec3::Zero()));
+    port.visit([](FalconEmulator& emulator, double) {
+      EXPECT_LE(emulator.felt().most_force, kMostForce);
+      EXPECT_LE(emulator.felt().most_change, kMostChange);
+      EXPECT_GT(emulator.felt().most_force, 0.5 * kLean);
+    });
+  }
+
+  static bool waitUntil(const std::function<bool()>& holds) {
+    for (const auto end = std::chrono::steady_clock::now() + kPatience;
+         std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(2ms))
+      if (holds()) return true;
+    return holds();
+  }
+
+  /// What the device pushes back with [N].
+  double lean() {
+    double force = 0.0;
+    port.visit([&](FalconEmulator& emulator, double) { force = -emulator.plant().force().y(); });
+    return force;
+  }
+  bool isForceGone() {
+    return waitUntil([&] { return lean() == 0.0; });
+  }
+  bool isForceBack() {
+    return waitUntil([&] { return lean() > 0.8 * kLean; });
+  }
+
+  EmulatedFalconPort port;
+  GuardedDevice guarded{std::make_unique<FalconDevice>(makePatient(), makeSyntheticFirmware(7),
+                                                       [this] { return openTty(port.path()); })};
+  HangingDevice device{guarded};
+  test::BulletRig rig;
+  testing::FakeLink nobody;
+  std::unique_ptr<Site> site;
+  std::unique_ptr<HapticLoop> loop;
+  std::atomic<bool> stops{false}, host_rests{false};
+  std::thread host;
+};
+
+TEST_F(LiveFalcon, AWallIsFelt) { EXPECT_NEAR(lean(), kLean, 0.25 * kLean); }
+
+TEST_F(LiveFalcon, AHostThatRestsForTwoSecondsIsNotFelt) {
+  host_rests = true;
+  for (int i = 0; i < 20; ++i) {
+    std::this_thread::sleep_for(100ms);
+    EXPECT_GT(lean(), 0.5 * kLean) << "the wall is the island's: it stands without the host";
+  }
+  host_rests = false;
+  EXPECT_TRUE(isForceBack());
+}
+
+TEST_F(LiveFalcon, ACableThatIsPulledAndPluggedInAgain) {
+  port.unplug();
+  EXPECT_TRUE(isForceGone());  // by the emulated device's own watchdog: nobody else can
+  port.plugIn();
+  EXPECT_TRUE(isForceBack());
+}
+
+TEST_F(LiveFalcon, RepliesThatStayAway) {
+  port.visit([](FalconEmulator& emulator, double) {
+    emulator.mishaps.silent_replies = FalconMishaps::kAlways;
+  });
+  EXPECT_TRUE(isForceGone());
+  port.visit([](FalconEmulator& emulator, double) { emulator.mishaps.silent_replies = 0; });
+  EXPECT_TRUE(isForceBack());
+}
+
+TEST_F(LiveFalcon, HomingThatIsLostHasNoForce) {
+  port.visit([](FalconEmulator& emulator, double) { emulator.loseHoming(); });
+  EXPECT_TRUE(isForceGone());
+  bool was_invalid = false;
+  site->betweenTicks([&] { was_invalid = (site->status() & kDeviceInvalid) != 0; });
+  EXPECT_TRUE(was_invalid);
+}
+
+TEST_F(LiveFalcon, APowerCycleIsBootedAndWaitsToBeHomed) {
+  port.visit([](FalconEmulator& emulator, double now) {
+    emulator.switchOff(now);
+    emulator.switchOn(now);
+  });
+  EXPECT_TRUE(isForceGone());
+  EXPECT_TRUE(waitUntil([&] {
+    bool runs = false;
+    port.visit([&](FalconEmulator& emulator, double) {
+      runs = emulator.state() == FalconEmulator::State::kRunning;
+    });
+    return runs;
+  }));
+  EXPECT_EQ(lean(), 0.0);
+}
+
+TEST_F(LiveFalcon, AHapticThreadThatHangsIsCutByTheDriver) {
+  device.hangs = true;
+  EXPECT_TRUE(isForceGone());
+  device.hangs = false;
+  EXPECT_TRUE(isForceBack());
+  EXPECT_GT(loop->report().skipped, 0u);
+}
+
+}  // namespace
+}  // namespace tandem
