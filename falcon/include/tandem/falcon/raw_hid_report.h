@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/hid_port.h"
+
+/// \file
+/// Reports of a haptic device with the Falcon's legs and a controller of its own, over raw HID:
+/// 64 bytes each way, without identifiers, usage page FFAB, usage 0200; docs/hid.md is the format's
+/// document. The lower byte comes first.
+///
+///     byte       0         1      2 3    4 5  6 7  8 9     10       11        12..15      62 63
+///     state      1 (ver.)  'S'    number counts of legs    homed    buttons   time [us]   CRC
+///     command    1         'C'    number torques of legs   flags    0         0           CRC
+///
+/// All other bytes are 0. CRC-16/CCITT-FALSE of bytes 0 to 61. Never trusted. Pure, real-time safe.
+namespace tandem {
+
+inline constexpr std::size_t kRawHidSize = 64;
+inline constexpr double kRawHidTorque = 50e-6;  ///< unit of a torque, at the arm [N m]
+
+struct RawHidState {
+  std::uint16_t number = 0;              ///< one more in every report, wraps
+  std::array<std::int16_t, 3> counts{};  ///< of the legs' encoders, as angleOfCounts() has them
+  std::uint8_t homed = 0;                ///< bit i: leg i + 1 has found its index
+  std::uint8_t buttons = 0;
+  std::uint32_t time_us = 0;  ///< the device's clock when the counts were taken, wraps
+  [[nodiscard]] bool isHomed() const noexcept { return homed == 7; }
+};
+
+enum RawHidFlag : std::uint8_t {
+  kRawHidDrive = 0x01,  ///< motors on; without it torques are 0
+  kRawHidHome = 0x02    ///< look for the index marks
+};
+
+struct RawHidCommand {
+  std::uint16_t number = 0;               ///< one more in every report, wraps
+  std::array<std::int16_t, 3> torques{};  ///< at the legs' arms, in kRawHidTorque
+  std::uint8_t flags = 0;                 ///< of RawHidFlag
+};
+
+using RawHidBytes = std::array<std::uint8_t, kRawHidSize>;
+
+[[nodiscard]] RawHidBytes encodeRawState(const RawHidState& state) noexcept;
+[[nodiscard]] RawHidBytes encodeRawCommand(const RawHidCommand& command) noexcept;
+
+/// Nothing for another length, version, kind or CRC, a bit that has no meaning, or a command with
+/// torques but without kRawHidDrive.
+[[nodiscard]] std::optional<RawHidState> decodeRawState(const std::uint8_t* bytes,
+                                                        std::size_t size) noexcept;
+[[nodiscard]] std::optional<RawHidCommand> decodeRawCommand(const std::uint8_t* bytes,
+                                                            std::size_t size) noexcept;
+
+/// As hidraw takes it: with the 0 in front of a report without identifier.
+[[nodiscard]] HidReport toReport(const RawHidBytes& bytes) noexcept;
+
+/// Commands for torques [N m], all three scaled alike where one is out of range. Zero for torques
+/// that are not finite.
+[[nodiscard]] std::array<std::int16_t, 3> makeRawTorques(const Vec3& torques) noexcept;
+
+/// CRC-16/CCITT-FALSE: polynomial 1021, from FFFF, nothing reversed. "123456789" gives 29B1.
+[[nodiscard]] std::uint16_t computeCrc16(const std::uint8_t* bytes, std::size_t size) noexcept;
+
+/// The report descriptor that such a device has.
+[[nodiscard]] std::vector<std::uint8_t> makeRawHidDescriptor();
+
+}  // namespace tandem

@@ -1,0 +1,108 @@
+#include "tandem/falcon/raw_hid_device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "raw_hid_client.h"
+#include "settings_check.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kMostForce = 8.0;       // [N]
+constexpr double kMostSlew = 2000.0;     // [N/s]
+constexpr double kHalfWorkspace = 0.05;  // [m]
+constexpr double kLongestStep = 0.1;     // between two positions that make a velocity [s]
+
+RawHidSettings checked(RawHidSettings settings) {
+  using falcon_detail::require;
+  require(settings.max_force > 0.0 && settings.max_force <= kMostForce,
+          "max_force of the raw HID device", settings.max_force, "above 0, at most 8 [N]");
+  require(std::isfinite(settings.ramp_in) && settings.ramp_in >= 0.0,
+          "ramp_in of the raw HID device", settings.ramp_in, "finite and at least 0 [s]");
+  require(std::isfinite(settings.velocity_time) && settings.velocity_time > 0.0,
+          "velocity_time of the raw HID device", settings.velocity_time, "finite and above 0 [s]");
+  require(settings.origin_D.allFinite(), "origin_D of the raw HID device", settings.origin_D,
+          "finite [m]");
+  const double norm = settings.q_WD.norm();
+  require(std::abs(norm - 1.0) < 1e-3, "norm of q_WD of the raw HID device", norm, "1");
+  settings.q_WD.normalize();
+  const double period = settings.stream.write_period;
+  require(period > 0.0 && period <= 0.01, "write_period of the raw HID device", period,
+          "above 0, at most 0.01 [s]");
+  return settings;
+}
+
+}  // namespace
+
+RawHidDevice::RawHidDevice(HidOpener open, const RawHidSettings& settings)
+    : settings_(checked(settings)),
+      kinematics_(settings.geometry),
+      client_(std::make_unique<Client>()),
+      stream_(std::make_unique<HidStream>(std::move(open), *client_, settings_.stream)) {
+  capabilities_.name = "raw HID";
+  capabilities_.max_force = settings_.max_force;
+  capabilities_.max_slew = kMostSlew;
+  capabilities_.workspace = Vec3::Constant(kHalfWorkspace);
+}
+
+RawHidDevice::~RawHidDevice() = default;
+
+const DeviceCapabilities& RawHidDevice::capabilities() const noexcept { return capabilities_; }
+
+DeviceSample RawHidDevice::read(double now) noexcept {
+  const Client::Heard& heard = client_->newest();
+  now_ = now;
+  if (heard.count != heard_) {
+    heard_ = heard.count;
+    heard_at_ = now;
+    takeState(heard.state);
+  }
+  if (!heard.is_connected || !(now - heard_at_ <= kFresh)) pose_.reset();
+  if (!pose_) {
+    valid_since_.reset();
+    return {};
+  }
+  if (!valid_since_) valid_since_ = now;
+  const Quat& q_WD = settings_.q_WD;
+  return {{q_WD * (pose_->p_D - settings_.origin_D), q_WD * v_D_}, true};
+}
+
+void RawHidDevice::takeState(const RawHidState& state) noexcept {
+  const std::optional<FalconPose> last = pose_;
+  const double step = 1e-6 * static_cast<std::uint32_t>(state.time_us - time_us_);
+  time_us_ = state.time_us;
+  const FalconAngles angles(angleOfCounts(state.counts[0]), angleOfCounts(state.counts[1]),
+                            angleOfCounts(state.counts[2]));
+  pose_ = state.isHomed() ? kinematics_.computePoseOfAngles(angles) : std::nullopt;
+  if (!pose_ || !last || step <= 0.0 || step > kLongestStep) {
+    v_D_.setZero();
+    return;
+  }
+  const Vec3 difference_D = (pose_->p_D - last->p_D) / step;
+  v_D_ -= std::expm1(-step / settings_.velocity_time) * (difference_D - v_D_);
+}
+
+void RawHidDevice::write(const Vec3& f_W) noexcept {
+  std::optional<Vec3> torques;
+  if (pose_) torques = computeTorques(*pose_, settings_.q_WD.conjugate() * limit(f_W));
+  client_->command(makeRawTorques(torques.value_or(Vec3::Zero())));
+}
+
+Vec3 RawHidDevice::limit(const Vec3& f_W) const noexcept {
+  if (!f_W.allFinite() || !valid_since_) return Vec3::Zero();
+  const double age = now_ - *valid_since_;
+  const double ramp = age < settings_.ramp_in ? std::max(age, 0.0) / settings_.ramp_in : 1.0;
+  const double norm = f_W.stableNorm();
+  return norm > settings_.max_force ? Vec3(f_W * (ramp * settings_.max_force / norm))
+                                    : Vec3(ramp * f_W);
+}
+
+RawHidStatus RawHidDevice::status() {
+  const Client::Heard& heard = client_->newest();
+  return {heard.state,     heard.is_connected, client_->lost(),
+          stream_->name(), stream_->trouble(), stream_->counters()};
+}
+
+}  // namespace tandem

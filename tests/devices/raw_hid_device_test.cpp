@@ -1,0 +1,233 @@
+#include "tandem/falcon/raw_hid_device.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "devices/raw_hid_emulator.h"
+
+namespace tandem {
+namespace {
+
+using test::comesTrue;
+using test::FakeHidDevice;
+using test::RawHidEmulator;
+using Torques = std::array<std::int16_t, 3>;
+
+const Vec3 kCentre_D(0.0, 0.0, 0.125);
+
+class RawHidDeviceTest : public testing::Test {
+ protected:
+  RawHidDeviceTest() { emulator_.holdAt(kCentre_D); }
+
+  static RawHidSettings settings() {
+    RawHidSettings settings;
+    settings.ramp_in = 0.0;
+    settings.stream.first_retry = 0.001;
+    return settings;
+  }
+
+  /// Sends a state and waits until it has been taken.
+  void tell(RawHidDevice& device, const test::Bytes& report) {
+    fake_.send(report);
+    ++sent_;
+    ASSERT_TRUE(comesTrue([&] { return device.status().counters.reports == sent_; }));
+  }
+
+  [[nodiscard]] RawHidCommand last() const {
+    return RawHidEmulator::decode(fake_.outputs().back());
+  }
+
+  /// Keeps the device fresh and commands `f_W`, until `outcome` of a command that goes out.
+  template <typename Outcome>
+  bool driveUntil(RawHidDevice& device, const Vec3& f_W, Outcome outcome) {
+    return comesTrue([&] {
+      tell(device, emulator_.next());
+      (void)device.read(time_ += 1e-3);
+      device.write(f_W);
+      const auto outputs = fake_.outputs();
+      return !outputs.empty() && outcome(RawHidEmulator::decode(outputs.back()));
+    });
+  }
+
+  FakeHidDevice fake_;
+  RawHidEmulator emulator_;
+  std::uint64_t sent_ = 0;
+  double time_ = 0.0;
+};
+
+bool isDriven(const RawHidCommand& command) { return command.torques != Torques{}; }
+
+TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
+  RawHidSettings turned = settings();
+  turned.q_WD = Quat(Eigen::AngleAxisd(std::acos(0.0), Vec3::UnitX()));  // device's z is W's -y
+  RawHidDevice device(fake_.opener(), turned);
+  EXPECT_FALSE(device.read(0.0).valid) << "nothing has come";
+  emulator_.holdAt(kCentre_D + Vec3(0.01, 0.0, 0.02));
+  tell(device, emulator_.next());
+  const DeviceSample sample = device.read(0.001);
+  ASSERT_TRUE(sample.valid);
+  // One count of each of the three legs is 48 um at most.
+  EXPECT_LT((sample.hip.p_W - Vec3(0.01, -0.02, 0.0)).norm(), 50e-6);
+  EXPECT_EQ(sample.hip.v_W, Vec3(Vec3::Zero())) << "one position is no velocity";
+}
+
+TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
+  RawHidDevice device(fake_.opener(), settings());
+  DeviceSample sample;
+  for (int i = 0; i < 200; ++i) {
+    emulator_.holdAt(kCentre_D + Vec3(0.0, 1e-4 * (i - 100), 0.0));
+    tell(device, emulator_.next(2000));  // 0.05 m/s
+    sample = device.read(1e-3 * i);      // the site's clock runs at another speed
+  }
+  ASSERT_TRUE(sample.valid);
+  // Positions are off by up to 50 um, in 2 ms, and a 5 ms low pass leaves about a fifth of that.
+  EXPECT_LT((sample.hip.v_W - Vec3(0.0, 0.05, 0.0)).norm(), 0.02);
+}
+
+TEST_F(RawHidDeviceTest, AForceArrivesAsTheTorquesThatMakeIt) {
+  RawHidDevice device(fake_.opener(), settings());
+  ASSERT_TRUE(driveUntil(device, Vec3(1.0, -2.0, 3.0), &isDriven));
+  const auto pose = FalconKinematics().computePose(kCentre_D);
+  const Vec3 expected = *computeTorques(*pose, Vec3(1.0, -2.0, 3.0)) / kRawHidTorque;
+  for (int i = 0; i < 3; ++i)  // a count of the encoder turns the force by less than 1 %
+    EXPECT_NEAR(last().torques[static_cast<std::size_t>(i)], expected[i],
+                0.01 * expected.cwiseAbs().maxCoeff());
+  EXPECT_EQ(last().flags, kRawHidDrive);
+}
+
+TEST_F(RawHidDeviceTest, NoForceUntilItIsHomed) {
+  emulator_.setHomed(false);
+  RawHidDevice device(fake_.opener(), settings());
+  ASSERT_TRUE(
+      driveUntil(device, Vec3(5, 0, 0), [](const RawHidCommand& c) { return c.number > 20; }));
+  EXPECT_FALSE(device.read(time_).valid);
+  for (const test::Bytes& output : fake_.outputs()) {
+    EXPECT_EQ(RawHidEmulator::decode(output).torques, Torques{});
+    EXPECT_EQ(RawHidEmulator::decode(output).flags, kRawHidHome);
+  }
+  emulator_.setHomed(true);
+  EXPECT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+}
+
+TEST_F(RawHidDeviceTest, AnOldReplyIsNotValidInTheSitesTime) {
+  RawHidDevice device(fake_.opener(), settings());
+  const test::Bytes report = emulator_.next();
+  tell(device, report);
+  EXPECT_TRUE(device.read(0.0).valid);
+  EXPECT_TRUE(device.read(0.02).valid);
+  EXPECT_FALSE(device.read(0.0201).valid);
+  tell(device, report);
+  EXPECT_FALSE(device.read(0.021).valid) << "a device that repeats itself is not fresh";
+  tell(device, emulator_.next());
+  EXPECT_TRUE(device.read(0.022).valid);
+}
+
+TEST_F(RawHidDeviceTest, TheWriterGoesToZeroWhenRepliesOrTicksEnd) {
+  RawHidDevice device(fake_.opener(), settings());
+  const auto isZero = [](const RawHidCommand& c) { return !isDriven(c) && c.flags == 0; };
+  ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+  // Ticks go on, the device is silent; nothing looks at it but the thread that writes.
+  EXPECT_TRUE(comesTrue([&] {
+    device.write(Vec3(5, 0, 0));
+    return isZero(last());
+  }));
+  ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+  // The device goes on, the ticks have ended.
+  EXPECT_TRUE(comesTrue([&] {
+    fake_.send(emulator_.next());
+    return isZero(last());
+  }));
+}
+
+TEST_F(RawHidDeviceTest, AForceIsClampedAndNeverNotFinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  RawHidDevice device(fake_.opener(), settings());
+  EXPECT_EQ(device.capabilities().max_force, 8.0);
+  ASSERT_TRUE(driveUntil(device, Vec3(8, 0, 0), &isDriven));
+  const Torques full = last().torques;
+  ASSERT_TRUE(driveUntil(device, Vec3(1, 0, 0), [&](const auto& c) { return c.torques != full; }));
+  ASSERT_TRUE(
+      driveUntil(device, Vec3(1e300, 0, 0), [&](const auto& c) { return c.torques == full; }));
+  for (const Vec3& bad : {Vec3(kNan, 0, 0), Vec3(0, 0, std::numeric_limits<double>::infinity())}) {
+    EXPECT_TRUE(driveUntil(device, bad, [](const auto& c) { return c.torques == Torques{}; }));
+    ASSERT_TRUE(driveUntil(device, Vec3(1, 0, 0), &isDriven));
+  }
+}
+
+TEST_F(RawHidDeviceTest, FullForceComesAfterTheRamp) {
+  RawHidSettings slow = settings();
+  slow.ramp_in = 0.5;
+  RawHidDevice device(fake_.opener(), slow);
+  std::int16_t largest = 0;
+  const auto find = [&](double f) {
+    const auto torques =
+        makeRawTorques(*computeTorques(*FalconKinematics().computePose(kCentre_D), Vec3(0, 0, f)));
+    return torques[0];
+  };
+  const std::int16_t full = find(8.0);
+  ASSERT_TRUE(driveUntil(device, Vec3(0, 0, 8), [&](const RawHidCommand& c) {
+    // Of the time that has gone since the first tick, at most.
+    EXPECT_LE(std::abs(c.torques[0]), std::abs(full) * (time_ / 0.5) * 1.02 + 1);
+    largest = std::max<std::int16_t>(largest, static_cast<std::int16_t>(std::abs(c.torques[0])));
+    return std::abs(c.torques[0]) >= 0.98 * std::abs(full);
+  }));
+  EXPECT_GE(time_, 0.49);
+}
+
+TEST_F(RawHidDeviceTest, TheLastWordIsMotorsOff) {
+  {
+    RawHidDevice device(fake_.opener(), settings());
+    ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+  }
+  EXPECT_EQ(last().torques, Torques{});
+  EXPECT_EQ(last().flags, 0);
+}
+
+TEST_F(RawHidDeviceTest, UnpluggedItIsNotValidAndBeginsAnew) {
+  RawHidDevice device(fake_.opener(), settings());
+  ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+  fake_.setPluggedIn(false);
+  ASSERT_TRUE(comesTrue([&] { return device.status().trouble == "the fake is not plugged in"; }));
+  EXPECT_FALSE(device.read(time_).valid);
+  const std::size_t before = fake_.outputs().size();
+  fake_.setPluggedIn(true);
+  ASSERT_TRUE(comesTrue([&] { return fake_.outputs().size() > before; }));
+  EXPECT_EQ(RawHidEmulator::decode(fake_.outputs()[before]).torques, Torques{});
+  EXPECT_FALSE(device.read(time_).valid) << "the old state is forgotten";
+  sent_ = device.status().counters.reports;
+  EXPECT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+}
+
+TEST_F(RawHidDeviceTest, CountsReportsThatAreLostOrWrong) {
+  RawHidDevice device(fake_.opener(), settings());
+  tell(device, emulator_.next());
+  (void)emulator_.next();
+  (void)emulator_.next();
+  tell(device, emulator_.next());
+  test::Bytes wrong = emulator_.next();
+  wrong[5] ^= 1;
+  tell(device, wrong);
+  EXPECT_EQ(device.status().lost, 2U);
+  EXPECT_EQ(device.status().counters.refused, 1U);
+}
+
+TEST_F(RawHidDeviceTest, RefusesSettingsOutOfRange) {
+  const auto expectRefused = [&](auto spoil) {
+    RawHidSettings bad = settings();
+    spoil(bad);
+    EXPECT_THROW((void)RawHidDevice(fake_.opener(), bad), std::invalid_argument);
+  };
+  using S = RawHidSettings;
+  expectRefused([](S& s) { s.max_force = 8.1; });
+  expectRefused([](S& s) { s.max_force = 0.0; });
+  expectRefused([](S& s) { s.ramp_in = -1.0; });
+  expectRefused([](S& s) { s.velocity_time = 0.0; });
+  expectRefused([](S& s) { s.origin_D.x() = std::numeric_limits<double>::infinity(); });
+  expectRefused([](S& s) { s.q_WD = Quat(0, 0, 0, 0); });
+  expectRefused([](S& s) { s.stream.write_period = 0.0; });
+  expectRefused([](S& s) { s.stream.write_period = 0.02; });
+}
+
+}  // namespace
+}  // namespace tandem

@@ -1,0 +1,104 @@
+// Reports of HID devices. The first byte of the input says whose: a SpaceMouse's in a row, each
+// with its size in front; an FT260's; a raw HID device's, as it comes or with its CRC put right; a
+// switch's.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "tandem/falcon/ft260_reports.h"
+#include "tandem/falcon/hid_switch.h"
+#include "tandem/falcon/raw_hid_report.h"
+#include "tandem/falcon/space_mouse_report.h"
+
+namespace tandem {
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+/// Each report in memory of its own, so that reading beyond it is seen.
+using Report = std::vector<std::uint8_t>;
+
+void checkSpaceMouse(const Report& input) {
+  SpaceMouseState state;
+  for (std::size_t i = 0; i < input.size();) {
+    const std::size_t size = std::min<std::size_t>(input[i] % 66, input.size() - i - 1);
+    const auto first = input.begin() + static_cast<std::ptrdiff_t>(i + 1);
+    const Report report(first, first + static_cast<std::ptrdiff_t>(size));
+    const SpaceMouseState before = state;
+    const SpaceMouseNews news = takeSpaceMouseReport(report.data(), report.size(), state);
+    for (const double axis : state.axes) require(axis >= -1.0 && axis <= 1.0);
+    if (news == SpaceMouseNews::kRefused || news == SpaceMouseNews::kNothing)
+      require(state.axes == before.axes && state.buttons == before.buttons);
+    i += 1 + size;
+  }
+}
+
+void checkFt260(const Report& report) {
+  const auto content = decodeUartBytes(report.data(), report.size());
+  if (!content) return;
+  require(content->count >= 1 && content->count <= kMostUartBytes);
+  require(std::equal(content->bytes.begin(),
+                     content->bytes.begin() + static_cast<std::ptrdiff_t>(content->count),
+                     report.begin() + 2));
+  const HidReport again = encodeUartBytes(content->bytes.data(), content->count);
+  const auto same = decodeUartBytes(again.bytes.data(), again.size);
+  require(same && same->count == content->count && same->bytes == content->bytes);
+}
+
+void checkRawHid(const Report& report) {
+  const auto state = decodeRawState(report.data(), report.size());
+  const auto command = decodeRawCommand(report.data(), report.size());
+  require(!(state && command));
+  // What is taken has one form only.
+  const auto isSame = [&](const RawHidBytes& bytes) {
+    return std::equal(bytes.begin(), bytes.end(), report.begin(), report.end());
+  };
+  if (state) require(isSame(encodeRawState(*state)));
+  if (command) require(isSame(encodeRawCommand(*command)));
+}
+
+void checkSealed(Report report) {
+  if (report.size() == kRawHidSize) {
+    const std::uint16_t crc = computeCrc16(report.data(), kRawHidSize - 2);
+    report[62] = static_cast<std::uint8_t>(crc);
+    report[63] = static_cast<std::uint8_t>(crc >> 8);
+  }
+  checkRawHid(report);
+}
+
+void checkSwitch(const Report& input) {
+  if (input.size() < 4) return;
+  const HidSwitchMap map{static_cast<HidSwitchKind>(input[0] % 3), input[1] % 4, input[2] % 65U,
+                         static_cast<std::uint16_t>(input[3] + 1)};
+  const Report report(input.begin() + 4, input.end());
+  const auto is_pressed = readSwitch(map, report.data(), report.size());
+  require(!is_pressed || report.size() > map.byte);
+}
+
+void check(std::uint8_t kind, const Report& input) {
+  switch (kind % 5) {
+    case 0:
+      return checkSpaceMouse(input);
+    case 1:
+      return checkFt260(input);
+    case 2:
+      return checkRawHid(input);
+    case 3:
+      return checkSealed(input);
+    default:
+      return checkSwitch(input);
+  }
+}
+
+}  // namespace
+}  // namespace tandem
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 0) tandem::check(data[0], {data + 1, data + size});
+  return 0;
+}
