@@ -1,0 +1,91 @@
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "tandem/falcon/hid_switch.h"
+#include "tandem/falcon/raw_hid_device.h"
+#include "tandem/falcon/space_mouse_device.h"
+
+#include "devices/raw_hid_emulator.h"
+
+// The whole program's operator new counts for its thread; not in builds with a sanitizer, which has
+// the allocator to itself.
+
+namespace {
+
+thread_local std::uint64_t allocations = 0;
+
+void* allocate(std::size_t size) {
+  ++allocations;
+  if (void* const room = std::malloc(size)) return room;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* room) noexcept { std::free(room); }
+void operator delete[](void* room) noexcept { std::free(room); }
+void operator delete(void* room, std::size_t) noexcept { std::free(room); }
+void operator delete[](void* room, std::size_t) noexcept { std::free(room); }
+
+namespace tandem {
+namespace {
+
+using test::comesTrue;
+
+/// Allocations of this thread while it does 10,000 ticks.
+template <typename Tick>
+std::uint64_t countIn(Tick tick) {
+  const std::uint64_t before = allocations;
+  for (int i = 0; i < 10'000; ++i) tick(1e-3 * i);
+  return allocations - before;
+}
+
+TEST(HidAllocation, TheCounterSeesOne) {
+  static std::unique_ptr<double> kept;  // what nobody keeps a compiler may leave out
+  EXPECT_EQ(countIn([](double time) { kept = std::make_unique<double>(time); }), 10'000U);
+}
+
+TEST(HidAllocation, ATickOfASpaceMouseDoesNone) {
+  test::FakeHidDevice fake;
+  SpaceMouseDevice device(fake.opener());
+  fake.send({1, 0x5E, 0x01, 0, 0, 0, 0});
+  ASSERT_TRUE(comesTrue([&] { return device.status().counters.reports == 1; }));
+  bool is_valid = true;
+  EXPECT_EQ(countIn([&](double time) {
+              is_valid = device.read(time).valid && is_valid;
+              device.write(Vec3(1, 2, 3));
+            }),
+            0U);
+  EXPECT_TRUE(is_valid);
+}
+
+TEST(HidAllocation, ATickOfARawHidDeviceDoesNone) {
+  test::FakeHidDevice fake;
+  test::RawHidEmulator emulator;
+  emulator.holdAt(Vec3(0.0, 0.0, 0.125));
+  RawHidDevice device(fake.opener());
+  fake.send(emulator.next());
+  ASSERT_TRUE(comesTrue([&] { return device.status().counters.reports == 1; }));
+  bool is_valid = true;
+  EXPECT_EQ(countIn([&](double time) {
+              is_valid = device.read(1e-3 * time).valid && is_valid;  // within 20 ms
+              device.write(Vec3(1, 2, 3));
+            }),
+            0U);
+  EXPECT_TRUE(is_valid);
+}
+
+TEST(HidAllocation, ALookAtASwitchDoesNone) {
+  test::FakeHidDevice fake;
+  HidSwitch pedal(fake.opener(), {});
+  bool is_pressed = false;
+  EXPECT_EQ(countIn([&](double) { is_pressed = pedal.isPressed() || is_pressed; }), 0U);
+  EXPECT_FALSE(is_pressed);
+}
+
+}  // namespace
+}  // namespace tandem
