@@ -53,7 +53,13 @@ HidReport HidClient::giveLastReport() noexcept { return {}; }
 HidStream::HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings)
     : open_(std::move(open)), client_(client), settings_(checked(settings)) {
   connect();
-  reader_ = std::thread([this] { run(); });
+  try {
+    reader_ = std::thread([this] { run(); });
+  } catch (...) {
+    is_ending_ = true;
+    disconnect();
+    throw;
+  }
 }
 
 HidStream::~HidStream() {

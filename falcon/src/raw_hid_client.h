@@ -6,11 +6,11 @@
 #include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/raw_hid_device.h"
 
-namespace tandem {
+namespace tandem::falcon_detail {
 
 /// What lies between the haptic thread and the two that carry reports: the newest state, the newest
 /// torques, and the last look at both ages before torques go out.
-class RawHidDevice::Client final : public HidClient {
+class RawHidClient final : public HidClient {
  public:
   struct Heard {
     RawHidState state;
@@ -56,7 +56,8 @@ class RawHidDevice::Client final : public HidClient {
       commanded_at_ = now;
     }
     const bool is_homed = is_homed_;
-    const bool drives = is_homed && now - heard_at_ <= kFresh && now - commanded_at_ <= kCommand;
+    const bool drives = is_homed && now - heard_at_ <= RawHidDevice::kFresh &&
+                        now - commanded_at_ <= RawHidDevice::kCommand;
     return make(drives ? torques_ : Torques{}, static_cast<std::uint8_t>(!is_homed ? kRawHidHome
                                                                          : drives  ? kRawHidDrive
                                                                                    : 0));
@@ -82,4 +83,4 @@ class RawHidDevice::Client final : public HidClient {
   std::uint16_t number_ = 0;
 };
 
-}  // namespace tandem
+}  // namespace tandem::falcon_detail

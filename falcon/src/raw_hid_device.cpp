@@ -8,6 +8,9 @@
 #include "settings_check.h"
 
 namespace tandem {
+
+using falcon_detail::RawHidClient;
+
 namespace {
 
 constexpr double kMostForce = 8.0;       // [N]
@@ -39,7 +42,7 @@ RawHidSettings checked(RawHidSettings settings) {
 RawHidDevice::RawHidDevice(HidOpener open, const RawHidSettings& settings)
     : settings_(checked(settings)),
       kinematics_(settings.geometry),
-      client_(std::make_unique<Client>()),
+      client_(std::make_unique<RawHidClient>()),
       stream_(std::make_unique<HidStream>(std::move(open), *client_, settings_.stream)) {
   capabilities_.name = "raw HID";
   capabilities_.max_force = settings_.max_force;
@@ -52,7 +55,7 @@ RawHidDevice::~RawHidDevice() = default;
 const DeviceCapabilities& RawHidDevice::capabilities() const noexcept { return capabilities_; }
 
 DeviceSample RawHidDevice::read(double now) noexcept {
-  const Client::Heard& heard = client_->newest();
+  const RawHidClient::Heard& heard = client_->newest();
   now_ = now;
   if (heard.count != heard_) {
     heard_ = heard.count;
@@ -100,7 +103,7 @@ Vec3 RawHidDevice::limit(const Vec3& f_W) const noexcept {
 }
 
 RawHidStatus RawHidDevice::status() {
-  const Client::Heard& heard = client_->newest();
+  const RawHidClient::Heard& heard = client_->newest();
   return {heard.state,     heard.is_connected, client_->lost(),
           stream_->name(), stream_->trouble(), stream_->counters()};
 }

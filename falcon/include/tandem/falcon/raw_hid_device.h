@@ -10,6 +10,10 @@
 
 namespace tandem {
 
+namespace falcon_detail {
+class RawHidClient;
+}
+
 struct RawHidSettings {
   FalconGeometry geometry;
   double max_force = 8.0;  ///< [N], above 0, at most 8: what a Falcon's motors can do
@@ -56,8 +60,6 @@ class RawHidDevice final : public HapticDevice {
   [[nodiscard]] RawHidStatus status();
 
  private:
-  class Client;
-
   void takeState(const RawHidState& state) noexcept;
   [[nodiscard]] Vec3 limit(const Vec3& f_W) const noexcept;
 
@@ -72,7 +74,7 @@ class RawHidDevice final : public HapticDevice {
   double now_ = 0.0, heard_at_ = 0.0;  ///< by the clock that read() is told
   std::optional<double> valid_since_;
 
-  std::unique_ptr<Client> client_;  // outlives the stream
+  std::unique_ptr<falcon_detail::RawHidClient> client_;  // outlives the stream
   std::unique_ptr<HidStream> stream_;
 };
 
