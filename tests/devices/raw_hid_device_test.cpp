@@ -27,6 +27,13 @@ class RawHidDeviceTest : public testing::Test {
     return settings;
   }
 
+  /// The device's y is W's z, its z W's -y.
+  static RawHidSettings turned() {
+    RawHidSettings turned = settings();
+    turned.q_WD = Quat(Eigen::AngleAxisd(std::acos(0.0), Vec3::UnitX()));
+    return turned;
+  }
+
   /// Sends a state and waits until it has been taken.
   void tell(RawHidDevice& device, const test::Bytes& report) {
     fake_.send(report);
@@ -62,9 +69,7 @@ class RawHidDeviceTest : public testing::Test {
 bool isDriven(const RawHidCommand& command) { return command.torques != Torques{}; }
 
 TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
-  RawHidSettings turned = settings();
-  turned.q_WD = Quat(Eigen::AngleAxisd(std::acos(0.0), Vec3::UnitX()));  // device's z is W's -y
-  RawHidDevice device(fake_.opener(), turned);
+  RawHidDevice device(fake_.opener(), turned());
   EXPECT_FALSE(device.read(0.0).valid) << "nothing has come";
   emulator_.holdAt(kCentre_D + Vec3(0.01, 0.0, 0.02));
   tell(device, emulator_.next());
@@ -76,7 +81,7 @@ TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
 }
 
 TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
-  RawHidDevice device(fake_.opener(), settings());
+  RawHidDevice device(fake_.opener(), turned());
   DeviceSample sample;
   for (int i = 0; i < 200; ++i) {
     emulator_.holdAt(kCentre_D + Vec3(0.0, 1e-4 * (i - 100), 0.0));
@@ -85,14 +90,14 @@ TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
   }
   ASSERT_TRUE(sample.valid);
   // Positions are off by up to 50 um, in 2 ms, and a 5 ms low pass leaves about a fifth of that.
-  EXPECT_LT((sample.hip.v_W - Vec3(0.0, 0.05, 0.0)).norm(), 0.02);
+  EXPECT_LT((sample.hip.v_W - Vec3(0.0, 0.0, 0.05)).norm(), 0.02);
 }
 
 TEST_F(RawHidDeviceTest, AForceArrivesAsTheTorquesThatMakeIt) {
-  RawHidDevice device(fake_.opener(), settings());
+  RawHidDevice device(fake_.opener(), turned());
   ASSERT_TRUE(driveUntil(device, Vec3(1.0, -2.0, 3.0), &isDriven));
   const auto pose = FalconKinematics().computePose(kCentre_D);
-  const Vec3 expected = *computeTorques(*pose, Vec3(1.0, -2.0, 3.0)) / kRawHidTorque;
+  const Vec3 expected = *computeTorques(*pose, Vec3(1.0, 3.0, 2.0)) / kRawHidTorque;
   for (int i = 0; i < 3; ++i)  // a count of the encoder turns the force by less than 1 %
     EXPECT_NEAR(seen_.torques[static_cast<std::size_t>(i)], expected[i],
                 0.01 * expected.cwiseAbs().maxCoeff());
