@@ -16,7 +16,8 @@ selection=()
 case "$preset" in
   release|dev) ;;
   clang) groups+=(ci) ;;
-  tsan)  groups+=(ci); targets=(tandem_thread_tests); selection=(--tests-regex '^tandem_thread_tests\.') ;;
+  tsan)  groups+=(ci); targets=(tandem_thread_tests tandem_device_tests tandem_hid_tests)
+         selection=(--tests-regex '^tandem_(thread|device|hid)_tests\.') ;;
   fuzz)  groups+=(ci); targets=(tandem_fuzzers); selection=(--label-regex '^fuzz$') ;;
   -h|--help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
   *)     echo "test.sh: $preset: no such preset; allowed: release, dev, clang, tsan, fuzz" >&2; exit 2 ;;

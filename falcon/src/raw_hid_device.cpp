@@ -24,8 +24,6 @@ RawHidSettings checked(RawHidSettings settings) {
           "max_force of the raw HID device", settings.max_force, "above 0, at most 8 [N]");
   require(std::isfinite(settings.ramp_in) && settings.ramp_in >= 0.0,
           "ramp_in of the raw HID device", settings.ramp_in, "finite and at least 0 [s]");
-  require(std::isfinite(settings.velocity_time) && settings.velocity_time > 0.0,
-          "velocity_time of the raw HID device", settings.velocity_time, "finite and above 0 [s]");
   require(settings.origin_D.allFinite(), "origin_D of the raw HID device", settings.origin_D,
           "finite [m]");
   const double norm = settings.q_WD.norm();
@@ -79,12 +77,12 @@ void RawHidDevice::takeState(const RawHidState& state) noexcept {
   const FalconAngles angles(angleOfCounts(state.counts[0]), angleOfCounts(state.counts[1]),
                             angleOfCounts(state.counts[2]));
   pose_ = state.isHomed() ? kinematics_.computePoseOfAngles(angles) : std::nullopt;
-  if (!pose_ || !last || step <= 0.0 || step > kLongestStep) {
-    v_D_.setZero();
-    return;
-  }
-  const Vec3 difference_D = (pose_->p_D - last->p_D) / step;
-  v_D_ -= std::expm1(-step / settings_.velocity_time) * (difference_D - v_D_);
+  device_time_ += step;
+  if (!last || step <= 0.0 || step > kLongestStep) count_rates_.clear();
+  const Vec3 counts(state.counts[0], state.counts[1], state.counts[2]);
+  const Vec3 angle_rates = angleRatesOfCounts(count_rates_.add(device_time_, counts));
+  const auto v_D = pose_ ? computeVelocity(*pose_, angle_rates) : std::nullopt;
+  v_D_ = v_D.value_or(Vec3(Vec3::Zero()));
 }
 
 void RawHidDevice::write(const Vec3& f_W) noexcept {

@@ -34,7 +34,7 @@ TEST(LatestValue, IsTheNewestAndStays) {
 TEST(LatestValue, IsNeverTornAndNeverGoesBack) {
   constexpr std::uint64_t kLast = 200'000;
   LatestValue<Parts> value;
-  std::thread writer([&] {
+  const std::jthread writer([&] {
     for (std::uint64_t i = 1; i <= kLast; ++i) value.write({i, i, i});
   });
   std::uint64_t newest = 0;
@@ -45,7 +45,6 @@ TEST(LatestValue, IsNeverTornAndNeverGoesBack) {
     ASSERT_GE(parts.a, newest);
     newest = parts.a;
   }
-  writer.join();
 }
 
 }  // namespace

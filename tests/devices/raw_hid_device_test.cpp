@@ -89,7 +89,7 @@ TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
     sample = device.read(1e-3 * i);      // the site's clock runs at another speed
   }
   ASSERT_TRUE(sample.valid);
-  // Positions are off by up to 50 um, in 2 ms, and a 5 ms low pass leaves about a fifth of that.
+  // A count is 48 um at most: in windows of 8 ms the usual estimator is off by some mm/s.
   EXPECT_LT((sample.hip.v_W - Vec3(0.0, 0.0, 0.05)).norm(), 0.02);
 }
 
@@ -230,7 +230,6 @@ TEST_F(RawHidDeviceTest, RefusesSettingsOutOfRange) {
   expectRefused([](S& s) { s.max_force = 8.1; });
   expectRefused([](S& s) { s.max_force = 0.0; });
   expectRefused([](S& s) { s.ramp_in = -1.0; });
-  expectRefused([](S& s) { s.velocity_time = 0.0; });
   expectRefused([](S& s) { s.origin_D.x() = std::numeric_limits<double>::infinity(); });
   expectRefused([](S& s) { s.q_WD = Quat(0, 0, 0, 0); });
   expectRefused([](S& s) { s.stream.write_period = 0.0; });

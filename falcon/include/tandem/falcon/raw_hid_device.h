@@ -7,6 +7,7 @@
 #include "tandem/falcon/haptic_device.h"
 #include "tandem/falcon/hid_stream.h"
 #include "tandem/falcon/raw_hid_report.h"
+#include "tandem/falcon/velocity_estimator.h"
 
 namespace tandem {
 
@@ -18,8 +19,6 @@ struct RawHidSettings {
   FalconGeometry geometry;
   double max_force = 8.0;  ///< [N], above 0, at most 8: what a Falcon's motors can do
   double ramp_in = 0.5;    ///< until the full force is given after a start or a fault [s], >= 0
-  double velocity_time =
-      5e-3;  ///< time constant of the velocity [s], > 0; more is calmer and later
   Vec3 origin_D = Vec3(0.0, 0.0, 0.125);  ///< the place in the device that is W's origin [m]
   Quat q_WD = Quat(1.0, 0.0, 0.0, 0.0);   ///< from the device's frame to W
   HidStreamSettings stream{1e-3};         ///< write_period: above 0, at most 10 ms
@@ -68,7 +67,9 @@ class RawHidDevice final : public HapticDevice {
   FalconKinematics kinematics_;
 
   std::optional<FalconPose> pose_;  ///< of the newest report; nothing: unusable
+  AdaptiveWindow count_rates_ = makeUsualVelocityEstimator();
   Vec3 v_D_ = Vec3::Zero();
+  double device_time_ = 0.0;           ///< of the pose, by the device's clock, from some moment [s]
   std::uint32_t time_us_ = 0;          ///< of the pose, by the device's clock
   std::uint64_t heard_ = 0;            ///< reports seen
   double now_ = 0.0, heard_at_ = 0.0;  ///< by the clock that read() is told
