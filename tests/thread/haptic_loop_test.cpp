@@ -25,6 +25,11 @@ void expectSafe(const test::WatchedDevice& device) {
   EXPECT_EQ(device.last_W, Vec3(Vec3::Zero())) << "the hand was let go with a force on it";
 }
 
+/// How far the cube in Bullet is from where it is in the island [m].
+double distanceToBullet(const LiveSite& live) {
+  return (live.site->object(0).p_W - fromBullet(live.cube->getCenterOfMassPosition())).norm();
+}
+
 TEST(HapticLoop, TwoSitesPushACubeAmongBoxesWhileTheirHostsStep) {
   LiveSite one(1, Vec3(0.0, 2.0, 0.0)), two(2, Vec3(-1.0, 0.0, 0.0));
   {
@@ -55,10 +60,8 @@ TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
   loop.stop();
   // One more step of the host, without the thread: now nothing moves in between.
   live.rig.world.stepSimulation(static_cast<btScalar>(LiveSite::kHostPeriod), 0);
-  const Vec3 in_island = live.site->object(0).p_W;
-  const Vec3 in_bullet = fromBullet(live.cube->getCenterOfMassPosition());
   // The host is at most a step and a half behind, at less than 0.3 m/s.
-  EXPECT_LT((in_island - in_bullet).norm(), 0.3 * 1.5 * LiveSite::kHostPeriod + 1e-3);
+  EXPECT_LT(distanceToBullet(live), 0.3 * 1.5 * LiveSite::kHostPeriod + 1e-3);
 }
 
 TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFelt) {
@@ -71,6 +74,29 @@ TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFelt) {
   expectSafe(live.watched);
   EXPECT_GT(live.watched.largest, 0.0);
   EXPECT_EQ(live.site->status(), kTickOk);
+}
+
+TEST(HapticLoop, AHostTwiceAsFastAsTimeGetsWhatIsNow) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(3.0, 2.0);
+  loop.stop();
+  expectSafe(live.watched);
+  EXPECT_EQ(live.site->status(), kTickOk);
+  // At less than 0.3 m/s, a step behind and the last tick ahead.
+  EXPECT_LT(distanceToBullet(live), 0.01);
+}
+
+TEST(HapticLoop, AHostHalfAsFastAsTimeIsSetOn) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(2.0, 0.5);
+  loop.stop();
+  expectSafe(live.watched);
+  EXPECT_EQ(live.site->status(), kTickOk);
+  EXPECT_GT(live.site->counters().host_clock_set, 0u);
+  // It falls behind by a second in two, and is set on once a second of its own.
+  EXPECT_LT(distanceToBullet(live), 0.3 * 2.0);
 }
 
 TEST(HapticLoop, AnUnpluggedDeviceHasNoForceAndComesBack) {

@@ -82,12 +82,12 @@ struct LiveSite {
     return settings;
   }
 
-  /// The host, in this thread: `seconds` of its steps, in real time.
-  void host(double seconds) {
+  /// The host, in this thread: `seconds` of its steps, in real time or `speed` times as fast.
+  void host(double seconds, double speed = 1.0) {
     auto next = std::chrono::steady_clock::now();
     for (int step = 0; step < static_cast<int>(seconds / kHostPeriod); ++step) {
       next += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-          std::chrono::duration<double>(kHostPeriod));
+          std::chrono::duration<double>(kHostPeriod / speed));
       std::this_thread::sleep_until(next);
       rig.world.stepSimulation(static_cast<btScalar>(kHostPeriod), 0);
     }

@@ -1,0 +1,65 @@
+#include "island_desk.h"
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace tandem {
+namespace {
+
+TEST(IslandDesk, WithoutAThreadWorkIsDoneAtOnce) {
+  IslandDesk desk;
+  int done = 0;
+  desk.run([&] { ++done; });
+  EXPECT_EQ(done, 1);
+}
+
+TEST(IslandDesk, WorkIsDoneByTheThreadThatServes) {
+  IslandDesk desk;
+  desk.open();
+  std::atomic<bool> stops{false};
+  std::thread::id server_id;
+  std::thread server([&] {
+    server_id = std::this_thread::get_id();
+    while (!stops) desk.serve();
+  });
+  std::thread::id worked_in;
+  desk.run([&] { worked_in = std::this_thread::get_id(); });
+  stops = true;
+  server.join();
+  EXPECT_EQ(worked_in, server_id);
+}
+
+TEST(IslandDesk, ManyAskersAreServedOneByOneWhileTheDeskOpensAndCloses) {
+  constexpr int kAskers = 4, kOrders = 2000;
+  IslandDesk desk;
+  long island = 0;  // not atomic: whoever works has it alone
+  std::atomic<bool> stops{false};
+  std::thread server([&] {
+    while (!stops) {
+      // Closed, the island is the askers'; they are kept apart by the desk as well.
+      desk.open();
+      for (int i = 0; i < 100; ++i) {
+        desk.serve();
+        std::this_thread::yield();
+      }
+      desk.close();
+      desk.serve();
+      std::this_thread::yield();
+    }
+  });
+  std::vector<std::thread> askers;
+  for (int a = 0; a < kAskers; ++a)
+    askers.emplace_back([&] {
+      for (int i = 0; i < kOrders; ++i) desk.run([&] { ++island; });
+    });
+  for (std::thread& asker : askers) asker.join();
+  stops = true;
+  server.join();
+  EXPECT_EQ(island, static_cast<long>(kAskers) * kOrders);
+}
+
+}  // namespace
+}  // namespace tandem
