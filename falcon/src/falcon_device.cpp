@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "tandem/falcon/realtime_rights.h"
+
 namespace tandem {
 namespace {
 
@@ -27,7 +29,9 @@ void sleep(double time) noexcept {
 }  // namespace
 
 FalconDevice::FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open)
-    : open_(std::move(open)), driver_(settings, std::move(image)) {
+    : open_(std::move(open)),
+      priority_(settings.thread_priority),
+      driver_(settings, std::move(image)) {
   capabilities_.name = "Novint Falcon";
   capabilities_.max_force = settings.force.max_force;
   capabilities_.max_slew = settings.force.max_slew;
@@ -61,6 +65,8 @@ void FalconDevice::write(const Vec3& f_W) noexcept {
 }
 
 void FalconDevice::run() noexcept {
+  RealtimeRights rights;
+  rights.take(priority_, false);
   while (!stops_.load(std::memory_order_relaxed)) {
     if (const std::unique_ptr<ByteTransport> line = tryOpen()) serve(*line);
     for (double slept = 0.0; slept < kOpenPeriod && !stops_.load(std::memory_order_relaxed);

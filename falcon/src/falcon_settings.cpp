@@ -31,6 +31,8 @@ void check(const FalconSettings& s) {
   positive(s.recovery_time, "recovery_time");
   positive(s.reboot_pause, "reboot_pause");
   positive(s.fastest_hand, "fastest_hand");
+  require(s.thread_priority >= 0 && s.thread_priority <= 99, "thread_priority", s.thread_priority,
+          "0 to 99");
   require(s.boot.tries >= 1, "boot.tries", s.boot.tries, "1 or more");
   require(s.boot.calls >= 1, "boot.calls", s.boot.calls, "1 or more");
 }

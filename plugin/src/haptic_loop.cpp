@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "realtime.h"
+#include "tandem/falcon/realtime_rights.h"
+
 #include "site_impl.h"
 
 namespace tandem {

@@ -59,6 +59,7 @@ class FalconDevice final : public HapticDevice {
 
   DeviceCapabilities capabilities_;
   OpenTransport open_;
+  int priority_;
 
   // The thread's.
   FalconDriver driver_;

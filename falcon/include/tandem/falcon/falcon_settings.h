@@ -21,6 +21,10 @@ struct FalconSettings {
   double reboot_pause = 2.0;    ///< after a boot that failed [s]
   double fastest_hand = 3.0;    ///< a position that moved faster has jumped [m/s]
   BootSettings boot;
+  /// SCHED_FIFO of FalconDevice's thread, 1 to 99, where the system grants it; 0: as the process
+  /// has it, and a busy machine makes replies late. Above a HapticLoop's: it is short, and often
+  /// waits.
+  int thread_priority = 0;
 };
 
 /// Throws std::invalid_argument, naming the value and what is allowed, for one out of range.

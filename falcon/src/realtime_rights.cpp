@@ -1,4 +1,4 @@
-#include "realtime.h"
+#include "tandem/falcon/realtime_rights.h"
 
 #include <array>
 #include <cerrno>
