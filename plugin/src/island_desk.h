@@ -9,17 +9,18 @@ namespace tandem {
 
 /// Where other threads ask for the island.
 ///
-/// Without a haptic thread the island belongs to whoever calls, and what is asked is done at once.
-/// While there is one, it alone touches the island: it does what is asked between two of its ticks,
-/// and whoever asked waits for that, a period at the most. The haptic thread never waits: it looks
-/// at one word, and what it finds there is done or is not there.
+/// Before there is a haptic thread the island belongs to one thread, and what is asked is done at
+/// once. While there is one, it alone touches the island: it does what is asked between two of its
+/// ticks, and whoever asked waits for that, a period at the most. The haptic thread never waits: it
+/// looks at one word, and what it finds there is done or is not there.
 class IslandDesk {
  public:
   /// From any thread but the haptic one. `work` must not throw, wait or ask again.
   template <typename Work>
   void run(Work&& work) {
-    if (!is_open_.load(std::memory_order_acquire)) return work();
+    if (!was_ever_open_.load(std::memory_order_acquire)) return work();
     const std::lock_guard one_at_a_time(asking_);
+    if (!is_open_.load(std::memory_order_acquire)) return work();
     auto call = [&work] { work(); };
     Order order{[](void* it) { (*static_cast<decltype(call)*>(it))(); }, &call, {}};
     order_.store(&order, std::memory_order_release);
@@ -31,8 +32,12 @@ class IslandDesk {
 
   [[nodiscard]] bool isOpen() const noexcept { return is_open_.load(std::memory_order_acquire); }
 
-  /// Before the haptic thread begins.
-  void open() noexcept { is_open_.store(true, std::memory_order_release); }
+  /// Before the haptic thread begins; not by itself.
+  void open() {
+    was_ever_open_.store(true, std::memory_order_release);
+    const std::lock_guard one_at_a_time(asking_);
+    is_open_.store(true, std::memory_order_release);
+  }
   /// By the haptic thread, which does not touch the island any more.
   void close() noexcept { is_open_.store(false, std::memory_order_release); }
 
@@ -59,6 +64,7 @@ class IslandDesk {
   }
 
   std::atomic<bool> is_open_{false};
+  std::atomic<bool> was_ever_open_{false};  ///< since then several threads may ask
   std::atomic<Order*> order_{nullptr};
   std::mutex asking_;
 };

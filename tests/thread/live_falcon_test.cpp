@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -27,6 +28,7 @@ using namespace std::chrono_literals;
 constexpr double kLean = 3.0;  ///< of the hand against the wall [N]
 /// What is asked, and what a grip that moves on while a command is on its way makes of it.
 constexpr double kMostForce = 8.0 * 1.06, kMostChange = 2.0 * 1.1;
+constexpr double kRamp = 0.1;    ///< [s]
 constexpr auto kPatience = 20s;  ///< of a busy machine
 
 FalconEmulatorSettings makeEmulated() {
@@ -41,6 +43,7 @@ FalconSettings makePatient() {
   FalconSettings settings;
   settings.reply_time = 0.3;  // so that a busy machine is no fault of the device's
   settings.quiet_time = 0.3;
+  settings.force.ramp_in = kRamp;
   settings.firmware_time = 1.0;
   return settings;
 }
@@ -123,7 +126,8 @@ class LiveFalcon : public ::testing::Test {
 
   EmulatedFalconPort port;
   GuardedDevice guarded{std::make_unique<FalconDevice>(makePatient(), makeSyntheticFirmware(7),
-                                                       [this] { return openTty(port.path()); })};
+                                                       [this] { return openTty(port.path()); }),
+                        {.max_force = 8.0, .max_slew = 2000.0, .ramp = kRamp}};
   HangingDevice device{guarded};
   test::BulletRig rig;
   testing::FakeLink nobody;
@@ -133,7 +137,9 @@ class LiveFalcon : public ::testing::Test {
   std::thread host;
 };
 
-TEST_F(LiveFalcon, AWallIsFelt) { EXPECT_NEAR(lean(), kLean, 0.25 * kLean); }
+TEST_F(LiveFalcon, AWallIsFelt) {
+  EXPECT_TRUE(waitUntil([&] { return std::abs(lean() - kLean) < 0.1 * kLean; }));
+}
 
 TEST_F(LiveFalcon, AHostThatRestsForTwoSecondsIsNotFelt) {
   host_rests = true;
