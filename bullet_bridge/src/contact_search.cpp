@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
@@ -82,11 +83,11 @@ void ContactSearch::sortLinks() {
 }
 
 void ContactSearch::draw() {
-  if (!is_changed_) {
-    if (!is_drawn_) removed_.clear();
-    return;
-  }
+  if (!is_drawn_) going_.clear();
+  if (!is_changed_) return;
   is_changed_ = false;
+  std::move(removed_.begin(), removed_.end(), std::back_inserter(going_));
+  removed_.clear();
   sortLinks();
   fillDraft();
   is_drawn_ = true;

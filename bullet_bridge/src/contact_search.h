@@ -144,7 +144,8 @@ class ContactSearch {
 
   // The host's side.
   std::vector<std::unique_ptr<PrivateCopy>> bodies_, standing_;
-  std::vector<std::unique_ptr<PrivateCopy>> removed_;  ///< the book of now may still have them
+  std::vector<std::unique_ptr<PrivateCopy>> removed_;  ///< since the last draw()
+  std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< the book of now has them, the next not
   std::vector<Link> links_;
   Vec3 wanted_origin_W_ = Vec3::Zero();
   bool is_changed_ = false;  ///< since the last draw()

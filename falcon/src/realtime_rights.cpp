@@ -24,9 +24,9 @@ void touchStack() noexcept {
 void RealtimeRights::take(int priority, bool locks_memory) noexcept {
   touchStack();
   if (locks_memory) {
-    // On fault: what is never touched needs no memory.
-    has_locked_ = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
-    if (!has_locked_)
+    // On fault: what is never touched needs no memory. Not what comes later: a limit would be met
+    // there by whoever takes memory next.
+    if (mlockall(MCL_CURRENT | MCL_ONFAULT) != 0)
       notes_.push_back(std::string("memory is not locked (") + std::strerror(errno) +
                        "): a tick may wait for a page; raise ulimit -l");
   }
@@ -50,7 +50,6 @@ void RealtimeRights::take(int priority, bool locks_memory) noexcept {
 
 RealtimeRights::~RealtimeRights() {
   if (wakefulness_ >= 0) close(wakefulness_);
-  if (has_locked_) munlockall();
 }
 
 }  // namespace tandem

@@ -13,8 +13,8 @@
 namespace tandem {
 namespace {
 
-/// The fading force is gone after this many ticks in any case.
-constexpr int kMostFadingTicks = 100;
+/// A force that fades more slowly than this is taken away at once then [s].
+constexpr double kLongestFade = 1.0;
 
 /// For one writer.
 void raise(std::atomic<double>& most, double value) noexcept {
@@ -31,6 +31,7 @@ struct HapticLoop::Impl {
   Impl(Site::Impl& own, const HapticLoopSettings& wanted) : site(own), settings(wanted) {}
 
   void run() noexcept;
+  void waitForBegin() noexcept;
   std::uint64_t tickAt(std::uint64_t due) noexcept;
 
   Site::Impl& site;
@@ -41,8 +42,20 @@ struct HapticLoop::Impl {
   DurationHistogram lateness, tick_times;
   std::atomic<std::uint64_t> ticks{0}, skipped_ticks{0}, late_ticks{0};
   std::atomic<double> late_max{0.0}, tick_max{0.0}, longest_gap{0.0}, latest{0.0};
+  bool was_late = false;  ///< ticks were skipped before the last one
   std::thread thread;
 };
+
+/// The island may be asked for meanwhile.
+void HapticLoop::Impl::waitForBegin() noexcept {
+  const double first = latest.load(std::memory_order_relaxed);
+  while (!is_stopping.load(std::memory_order_acquire)) {
+    const double next = readMonotonicClock() + site.period();
+    if (next >= first) return;
+    sleepUntil(next);
+    site.desk.serve();
+  }
+}
 
 /// Makes the tick whose moment it is: `due`, unless that has passed. Returns the next one.
 std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
@@ -60,6 +73,9 @@ std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
     raise(longest_gap, start - latest.load(std::memory_order_relaxed));
   latest.store(start, std::memory_order_relaxed);
 
+  // One gap is made up for; who is late again and again has too much to do already.
+  site.makes_up = !was_late;
+  was_late = passed > 0;
   site.tick(static_cast<double>(due) * period);
 
   const double length = readMonotonicClock() - start;
@@ -80,13 +96,16 @@ void HapticLoop::Impl::run() noexcept {
   has_begun.store(true, std::memory_order_release);
   const double periods = std::min(settings.duration / site.period(), 1e18);
   const std::uint64_t end = due + static_cast<std::uint64_t>(std::llround(periods));
+  waitForBegin();
   while (due < end && !is_stopping.load(std::memory_order_acquire)) due = tickAt(due);
   site.lets_go = true;
-  for (int i = 0; i < kMostFadingTicks && site.force_W != Vec3::Zero(); ++i) due = tickAt(due);
+  const std::uint64_t last = due + static_cast<std::uint64_t>(kLongestFade / site.period());
+  while (due < last && site.force_W != Vec3::Zero()) due = tickAt(due);
   site.device.write(Vec3::Zero());
   site.lets_go = false;
-  site.desk.close();
+  // What is asked from here on is taken back by whoever asks.
   site.desk.serve();
+  site.desk.close();
   has_ended.store(true, std::memory_order_release);
 }
 
@@ -102,6 +121,8 @@ HapticLoop::HapticLoop(Site& site, const HapticLoopSettings& settings)
   if (own.desk.isOpen()) throw std::invalid_argument("the site has a haptic loop already");
   if (settings.priority < 0 || settings.priority > 99)
     throw std::invalid_argument("priority must be 0 to 99, 0 for none");
+  if (settings.begin && !std::isfinite(*settings.begin))
+    throw std::invalid_argument("begin must be a finite moment of the monotonic clock [s]");
   if (!(settings.duration >= 0.0))
     throw std::invalid_argument("duration must be a number of seconds, 0 or above");
   own.beginLive();

@@ -70,7 +70,13 @@ Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& host, Hapt
 // Proxies take the filters of their contacts along.
 Site::Impl::~Impl() { demoteAll(); }
 
+void Site::Impl::checkNotLive() const {
+  if (desk.isOpen())
+    throw Error("a site is set up before its HapticLoop begins; stop that, and begin another one");
+}
+
 ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
+  checkNotLive();
   if (objects.size() == kMaxSharedObjects)
     throw Error("a site shares at most " + std::to_string(kMaxSharedObjects) + " objects");
   const Shape shape = getShareableShape(rigid);
@@ -115,6 +121,7 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
 }
 
 void Site::Impl::connect(PeerId peer, Link& link, const Vec3& start_W) {
+  checkNotLive();
   if (peer == settings.self)
     throw std::invalid_argument("a site cannot be its own remote; give each peer its own id");
   Remote remote;
@@ -180,6 +187,7 @@ void Site::Impl::checkInjectionStable(const char* what, double stiffness, double
 }
 
 void Site::Impl::finishSetUp() {
+  may_skip = false;
   island.prepare();
   const auto count = static_cast<std::size_t>(island.bodyCount());
   snapshots.setBodyCount(count);
@@ -194,6 +202,8 @@ void Site::Impl::finishSetUp() {
     mark->clear();
   from_states.resize(count);
   to_states.resize(count);
+  asides.resize(count);
+  leaving.reserve(neighbours.size());
   object_records.resize(objects.size());
   proxy_records.resize(remotes.size());
   for (Neighbour& neighbour : neighbours) neighbour.body.given.reserve(kGivenImpulses);

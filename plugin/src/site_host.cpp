@@ -31,6 +31,8 @@ Vec3 dropRounding(const Vec3& momentum) noexcept {
 /// A host later than this, besides what it may, has dropped the time: its clock is set on [s].
 constexpr double kLostTime = 0.5;
 
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
 /// A live host's clock is set on by what it was late at least in so long [s].
 constexpr double kHostWatch = 1.0;
 
@@ -51,6 +53,12 @@ RigidState interpolate(const RigidState& a, double a_time, const RigidState& b, 
   state.q_WB = a.q_WB.slerp(s, b.q_WB);
   state.w_W = (1 - s) * a.w_W + s * b.w_W;
   return state;
+}
+
+/// Where a body was that goes steadily to `end` in dt.
+RigidState computeStart(RigidState end, double dt) noexcept {
+  end.p_W -= dt * end.v_W;
+  return end;
 }
 
 }  // namespace
@@ -122,7 +130,7 @@ void Site::Impl::afterHostStep(double dt) noexcept {
     });
     announceNextEnd(dt);
     if (is_behind) steerDriven();
-    makeRoomFor(dt);
+    if (!desk.isOpen()) makeRoomFor(dt);
     mirrorIsland();
   });
   if (isHandoff()) forEachBody([&](SiteBody& body) { parkIfItStood(body); });
@@ -156,7 +164,11 @@ void Site::Impl::receive(SiteBody& body) noexcept {
 /// The island stops at the end of the next step for a moment, even inside a tick.
 void Site::Impl::announceNextEnd(double dt) noexcept {
   handoff_due = host_time + dt;
-  while (handoff_due <= island_time) handoff_due += dt;
+  constexpr double kManySteps = 1000.0;
+  if (island_time - handoff_due > kManySteps * dt)
+    handoff_due += std::floor((island_time - handoff_due) / dt) * dt;
+  while (handoff_due <= island_time)
+    handoff_due = std::max(handoff_due + dt, std::nextafter(handoff_due, kForEver));
 }
 
 /// A host may be late and make up for it, step by step. One that has dropped time never will.
@@ -174,17 +186,20 @@ void Site::Impl::followHostClock(double dt) noexcept {
 }
 
 /// By a clock of its own a host is early or late for good. One that asks for what has not been yet
-/// gets what is now, and its clock is set back; one that was late all through a while is not going
-/// to make up for the least of it.
+/// gets what is now, and its clock is set back. One that asks for what is not kept any more has
+/// stood still: its clock is set on at once; and by the least that it was late all through a while,
+/// as it is not going to make up for that.
 void Site::Impl::followLiveHost(double late, double dt) noexcept {
-  if (late < 0.0) host_time += late;
-  least_late = std::min(least_late, std::max(late, 0.0));
+  const double kept = static_cast<double>(snapshots.room() - 2) * dt;
+  has_host_jumped = late > kept;
+  if (late < 0.0 || has_host_jumped) host_time += late;
+  least_late = has_host_jumped ? 0.0 : std::min(least_late, std::max(late, 0.0));
   watched_host += dt;
-  if (watched_host < kHostWatch) return;
-  if (least_late > period()) {
-    host_time += least_late;
-    ++counters.host_clock_set;
-  }
+  const bool is_over = watched_host >= kHostWatch;
+  const bool is_set_on = is_over && least_late > period();
+  if (is_set_on) host_time += least_late;
+  counters.host_clock_set += has_host_jumped || is_set_on;
+  if (!is_over) return;
   least_late = std::numeric_limits<double>::infinity();
   watched_host = 0.0;
 }
@@ -245,6 +260,7 @@ void Site::Impl::passHostChanges(double dt) noexcept {
   for (Neighbour& neighbour : neighbours)
     if (neighbour.bullet) followDamping(neighbour);
   host_force_end = window_end + dt;
+  has_host_forces = true;
 }
 
 void Site::Impl::give(SiteBody& body, const Vec3& impulse_W,
@@ -307,6 +323,7 @@ void Site::Impl::handOff(double dt) noexcept {
       if (body.stands) return;
       unpark(body);
     }
+    if (has_host_jumped) body.bullet->setState(computeStart(body.end, dt));
     body.bullet->handOff(body.end, dt);
     ++counters.bodies_handed_off;
   });
@@ -325,9 +342,7 @@ RigidState Site::Impl::stateAt(BodyIndex body, double time) noexcept {
   const RigidState& after = is_kept ? (*to.states)[place] : tick_start_state;
   const double end = is_kept ? to.time : tick_start;
   if (from.states) return interpolate((*from.states)[place], from.time, after, end, time);
-  RigidState state = after;
-  state.p_W -= (end - time) * after.v_W;
-  return state;
+  return computeStart(after, std::min(end - time, period()));
 }
 
 }  // namespace tandem

@@ -94,8 +94,13 @@ struct Neighbour {
   std::unique_ptr<DrivenBody> driven;                  ///< of a kinematic one
   double linear_damping = 0.0, angular_damping = 0.0;  ///< as Bullet understands it, seen last
   SiteBody body;
+  GivenImpulse owed;     ///< by which it goes back
   bool is_new = false;   ///< promoted, but not in the island yet
   bool is_held = false;  ///< dynamic, and the island has it
+
+  [[nodiscard]] bool isInWorld() const noexcept {
+    return bullet ? bullet->isInWorld() : driven->isInWorld();
+  }
 };
 
 struct Remote {
@@ -129,6 +134,7 @@ struct Site::Impl final : HostStepListener {
   ~Impl() override;
 
   // Set-up: site.cpp
+  void checkNotLive() const;
   ObjectId share(btRigidBody& body, double damping);
   void connect(PeerId peer, Link& link, const Vec3& start_W);
   void coordinate(SharedObject& object);
@@ -137,9 +143,11 @@ struct Site::Impl final : HostStepListener {
 
   // The tick: site_tick.cpp
   std::uint32_t tick(double now) noexcept;
-  void beginLive() noexcept;
+  void beginLive();
   void makeUp(double now) noexcept;
-  void readDevice(double now) noexcept;
+  void loseTime(double until) noexcept;
+  void placeHand() noexcept;
+  void endHostForces() noexcept;
   void computeForce() noexcept;
   void advance(double now, double end) noexcept;
   void advanceIsland(double until) noexcept;
@@ -229,7 +237,10 @@ struct Site::Impl final : HostStepListener {
   void promote(btRigidBody& rigid, Neighbour& neighbour);
   void hold(btRigidBody& rigid, Neighbour& neighbour);
   void takeNewcomers() noexcept;
-  void demote(Neighbour& neighbour);
+  void demoteLeaving();
+  void unfilter(Neighbour& neighbour);
+  void takeOut(Neighbour& neighbour) noexcept;
+  void giveBack(Neighbour& neighbour);
   [[nodiscard]] GivenImpulse computeOwed(const SiteBody& body) noexcept;
   void demoteAll();
   void lookAtDriven(double step_end) noexcept;
@@ -294,6 +305,7 @@ struct Site::Impl final : HostStepListener {
   Vec3 force_W = Vec3::Zero();        ///< as rendered [N]
 
   bool lets_go = false;  ///< the force fades to zero, and stays there
+  bool makes_up = true;  ///< ticks that were left out are moved over
 
   double island_time = 0.0;
   double tick_start = 0.0;
@@ -303,10 +315,12 @@ struct Site::Impl final : HostStepListener {
   double host_step = 0.0;             ///< its latest step; 0: not known
   double handoff_due = 0.0;           ///< next moment at which a host step ends
   double host_force_end = 0.0;        ///< without news from the host its forces end then
+  bool has_host_forces = false;       ///< they have not ended yet
   double host_force_settled = 0.0;    ///< island time up to which they are booked
   double host_lateness = 0.0;         ///< by which the host's forces come late
   double least_late = 1e300;          ///< of a live host, in the present watch [s]
   double watched_host = 0.0;          ///< length of that [s]
+  bool has_host_jumped = false;       ///< its clock was set on in the present step
   Snapshots snapshots;
   /// The island as the host's thread knows it.
   struct Mirror {
@@ -330,6 +344,7 @@ struct Site::Impl final : HostStepListener {
   std::vector<HapticBody*> quiet_bodies;
   std::vector<NeighbourSeed> seeds;
   std::vector<BodyIndex> newcomers;  ///< slots filled since they were caught up last
+  std::vector<Neighbour*> leaving;   ///< of the host's thread: to be demoted
   std::vector<BodyRecord> object_records, proxy_records;
 };
 

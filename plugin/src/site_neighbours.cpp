@@ -29,10 +29,10 @@ double computeDecay(double damping) {
 }  // namespace
 
 void Site::Impl::dropMissingNeighbours() {
+  leaving.clear();
   for (Neighbour& neighbour : neighbours)
-    if ((neighbour.bullet && !neighbour.bullet->isInWorld()) ||
-        (neighbour.driven && !neighbour.driven->isInWorld()))
-      demote(neighbour);
+    if (neighbour.rigid && !neighbour.isInWorld()) leaving.push_back(&neighbour);
+  demoteLeaving();
 }
 
 /// Not the island's before takeNewcomers().
@@ -95,11 +95,23 @@ void Site::Impl::takeNewcomers() noexcept {
   mirrorIsland();
 }
 
-void Site::Impl::demote(Neighbour& neighbour) {
-  ++counters.demoted;
-  const BodyIndex index = neighbour.body.index;
-  const bool is_present = neighbour.bullet ? neighbour.bullet->isInWorld()  //
-                                           : neighbour.driven->isInWorld();
+/// Those in `leaving` are the host's again.
+void Site::Impl::demoteLeaving() {
+  if (leaving.empty()) return;
+  may_skip = false;
+  for (Neighbour* neighbour : leaving) unfilter(*neighbour);
+  desk.run([&] {
+    obstacles.commit();
+    for (Neighbour* neighbour : leaving) takeOut(*neighbour);
+    mirrorIsland();
+  });
+  for (Neighbour* neighbour : leaving) giveBack(*neighbour);
+  leaving.clear();
+}
+
+/// Native contact is the host's again.
+void Site::Impl::unfilter(Neighbour& neighbour) {
+  const bool is_present = neighbour.isInWorld();
   for (Remote& remote : remotes) {
     if (!remote.proxy) continue;
     btRigidBody& proxy = remote.proxy->rigid();
@@ -109,19 +121,23 @@ void Site::Impl::demote(Neighbour& neighbour) {
       proxy.setIgnoreCollisionCheck(neighbour.rigid, false);
     }
   }
-  obstacles.removeBody(index);
-  GivenImpulse owed;
-  desk.run([&] {
-    obstacles.commit();
-    std::erase(newcomers, index);
-    if (neighbour.bullet) countNeighbour(neighbour, -1.0);
-    if (neighbour.bullet) owed = computeOwed(neighbour.body);
-    island.clear(index);
-    neighbour.is_held = false;
-    mirrorIsland();
-  });
-  if (neighbour.bullet && is_present)
-    neighbour.bullet->applyWrench(owed.impulse_W, owed.angular_impulse_W, 1.0);
+  obstacles.removeBody(neighbour.body.index);
+}
+
+void Site::Impl::takeOut(Neighbour& neighbour) noexcept {
+  const BodyIndex index = neighbour.body.index;
+  std::erase(newcomers, index);
+  if (neighbour.is_held) countNeighbour(neighbour, -1.0);
+  if (neighbour.is_held) neighbour.owed = computeOwed(neighbour.body);
+  island.clear(index);
+  neighbour.is_held = false;
+}
+
+void Site::Impl::giveBack(Neighbour& neighbour) {
+  ++counters.demoted;
+  const BodyIndex index = neighbour.body.index;
+  if (neighbour.bullet && neighbour.isInWorld())
+    neighbour.bullet->applyWrench(neighbour.owed.impulse_W, neighbour.owed.angular_impulse_W, 1.0);
   neighbour.bullet.reset();
   neighbour.driven.reset();
   neighbour.rigid = nullptr;
@@ -147,8 +163,10 @@ GivenImpulse Site::Impl::computeOwed(const SiteBody& body) noexcept {
 }
 
 void Site::Impl::demoteAll() {
+  leaving.clear();
   for (Neighbour& neighbour : neighbours)
-    if (neighbour.rigid) demote(neighbour);
+    if (neighbour.rigid) leaving.push_back(&neighbour);
+  demoteLeaving();
 }
 
 /// Where the host's step that ends at `step_end` has taken, or will take, kinematic bodies.

@@ -150,12 +150,14 @@ void Site::Impl::updateNeighbours(double horizon) {
   const std::vector<btRigidBody*>& near = neighbour_search.find(seeds, horizon);
   // Who is not found by a search around some of us may be near the others.
   const bool is_whole = seeds.size() == countHapticBodies();
+  leaving.clear();
   for (Neighbour& neighbour : neighbours) {
     if (!neighbour.rigid) continue;
     const bool is_near = std::find(near.begin(), near.end(), neighbour.rigid) != near.end();
     // One that the host has made another comes back as that, in the same breath.
-    if ((is_whole && !is_near) || hasChanged(neighbour)) demote(neighbour);
+    if ((is_whole && !is_near) || hasChanged(neighbour)) leaving.push_back(&neighbour);
   }
+  demoteLeaving();
   bool has_come = false;
   for (btRigidBody* rigid : near) {
     const auto holds = [&](const Neighbour& neighbour) { return neighbour.rigid == rigid; };
@@ -173,7 +175,7 @@ void Site::Impl::updateNeighbours(double horizon) {
 void Site::Impl::catchUp() {
   if (newcomers.empty()) return;
   double time = host_time;
-  asides.assign(from_states.size(), {});
+  std::fill(asides.begin(), asides.end(), Aside{});
   readStates(time, from_states);
   while (island_time - time > kSameTime) {
     // They stop where the host's next steps end: it will ask for their states there.
@@ -194,8 +196,9 @@ void Site::Impl::catchUp() {
   forEachBody([&](SiteBody& body) {
     const Aside& aside = asides[body.index];
     const RigidState& now = island.state(body.index);
-    give(body, body.bullet->mass() * aside.v_W,
-         now.q_WB * body.bullet->inertia().cwiseProduct(now.q_WB.conjugate() * aside.w_W));
+    const IslandBody& own = island.body(body.index);
+    give(body, own.mass * aside.v_W,
+         now.q_WB * own.inertia_B.cwiseProduct(now.q_WB.conjugate() * aside.w_W));
   });
 }
 

@@ -20,7 +20,12 @@ constexpr double kIdleAfter = 0.5;
 constexpr int kIdleNotices = 5;
 
 /// Of ticks that were left out, so much is moved over [s].
-constexpr double kMostMadeUp = 0.1;
+constexpr double kMostMadeUp = 0.05;
+
+/// A live host is expected to ask for nothing that is longer ago than this, besides its stalls [s],
+/// and to step no faster than this [Hz].
+constexpr double kLongestHorizon = 0.25, kFastestHost = 240.0;
+constexpr double kMostMoments = 2048.0;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -37,9 +42,10 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
     host_time += now;
   }
   status_now = (status_ever | status_of_host) & (kBodyMissing | kStateNotFinite);
+  sample = device.read(now);
   makeUp(now);
   tick_start = now;
-  readDevice(now);
+  placeHand();
   countHandWork();
   takeInUntil(now, now);
   followLinks(now);
@@ -55,27 +61,44 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
 }
 
 /// From now on a thread of its own ticks.
-void Site::Impl::beginLive() noexcept {
+void Site::Impl::beginLive() {
   forEachBody([](SiteBody& body) { body.seen = body.bullet->state(); });
+  // A live host's steps come as they like: room for all that it may ask for, made now.
+  const double moments = (kLongestHorizon + settings.host_stall) * kFastestHost;
+  snapshots.makeRoom(static_cast<std::size_t>(std::min(moments, kMostMoments)));
 }
 
 /// Ticks that the caller has left out: the island moves on over them, and does what was due, but
-/// nothing is felt. Longer silence is time that nobody has had.
+/// nothing is felt. The hand goes steadily to where it is now.
 void Site::Impl::makeUp(double now) noexcept {
   if (now - island_time <= kSameTime || !isHandoff() || hasStopped()) return;
-  if (now - island_time > kMostMadeUp) island_time = host_force_settled = now - kMostMadeUp;
+  const double most = makes_up ? kMostMadeUp : 0.0;
+  if (now - island_time > most + kSameTime) loseTime(now - most);
+  if (now - island_time > kSameTime && sample.valid && isFinite(sample.hip)) {
+    RigidState hand = island.state(hip);
+    hand.v_W = (sample.hip.p_W - hand.p_W) / (now - island_time);
+    island.setState(hip, hand);
+  }
   while (now - island_time > kSameTime) {
     tick_start = island_time;
     takeInUntil(tick_start, tick_start);
     followLinks(tick_start);
-    const double end = std::min(island_time + period(), now);
-    advance(tick_start, end);
+    advance(tick_start, std::min(island_time + period(), now));
     ++counters.ticks_made_up;
   }
 }
 
-void Site::Impl::readDevice(double now) noexcept {
-  sample = device.read(now);
+/// Time that nobody has had: nothing moves, nothing is sent, and no host's step ends in it.
+void Site::Impl::loseTime(double until) noexcept {
+  settleHostForces();
+  island_time = host_force_settled = until;
+  const double packets = std::ceil((until - start_time) * settings.packet_rate);
+  packets_due = std::max(packets_due, static_cast<std::uint64_t>(packets));
+  if (host_step > 0.0 && handoff_due < until)
+    handoff_due += std::ceil((until - handoff_due) / host_step) * host_step;
+}
+
+void Site::Impl::placeHand() noexcept {
   RigidState state = island.state(hip);
   if (!sample.valid || !isFinite(sample.hip)) {
     status_now |= kDeviceInvalid;
@@ -142,17 +165,20 @@ void Site::Impl::advanceIsland(double until) noexcept {
     island.advance(std::min(until - island_time, period()));
     island_time = until;
   }
-  if (std::abs(island_time - host_force_end) <= kSameTime) {
-    settleHostForces();
-    forEachBody([&](SiteBody& body) {
-      body.f_host_W = body.t_host_W = Vec3::Zero();
-      setWorldWrench(body.index, body.f_gravity_W, Vec3::Zero());
-    });
-  }
+  if (has_host_forces && island_time >= host_force_end - kSameTime) endHostForces();
   if (handoff_due <= island_time + kSameTime) {
     keepStates(handoff_due);
     handoff_due = host_step > 0.0 ? handoff_due + host_step : kNever;
   }
+}
+
+void Site::Impl::endHostForces() noexcept {
+  has_host_forces = false;
+  settleHostForces();
+  forEachBody([&](SiteBody& body) {
+    body.f_host_W = body.t_host_W = Vec3::Zero();
+    setWorldWrench(body.index, body.f_gravity_W, Vec3::Zero());
+  });
 }
 
 /// For the host's step that ends at `time`.

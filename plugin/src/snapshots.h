@@ -33,6 +33,9 @@ class Snapshots {
     newest_ = ring_.size() - 1;
   }
 
+  /// Moments that are kept.
+  [[nodiscard]] std::size_t room() const noexcept { return ring_.size(); }
+
   /// Room for the states at `time` [s]; overwrites the oldest.
   std::vector<RigidState>& add(double time) noexcept {
     Snapshot& s = next(time);

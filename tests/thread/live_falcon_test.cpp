@@ -44,6 +44,7 @@ FalconSettings makePatient() {
   settings.reply_time = 0.3;  // so that a busy machine is no fault of the device's
   settings.quiet_time = 0.3;
   settings.force.ramp_in = kRamp;
+  settings.thread_priority = 81;  // where it is granted
   settings.firmware_time = 1.0;
   return settings;
 }
@@ -80,7 +81,7 @@ class LiveFalcon : public ::testing::Test {
     site->connect(PeerId{2}, nobody, Vec3(0.0, -0.5, 0.0));
     loop = std::make_unique<HapticLoop>(
         *site,
-        HapticLoopSettings{.priority = 0, .locks_memory = false, .begin = {}, .duration = 1e9});
+        HapticLoopSettings{.priority = 80, .locks_memory = false, .begin = {}, .duration = 1e9});
     host = std::thread([this] {
       while (!stops) {
         std::this_thread::sleep_for(16ms);

@@ -5,8 +5,8 @@
 
 namespace tandem {
 
-/// What makes a thread punctual, as far as the system grants it; given back with the thread, the
-/// memory with this.
+/// What makes a thread punctual, as far as the system grants it; given back with the thread and
+/// with this, but for memory: what was locked stays so, it may be others' too.
 class RealtimeRights {
  public:
   RealtimeRights() = default;
@@ -23,7 +23,6 @@ class RealtimeRights {
 
  private:
   std::vector<std::string> notes_;
-  bool has_locked_ = false;
   int wakefulness_ = -1;
 };
 
