@@ -1,6 +1,11 @@
 #include "private_copies.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include "tandem/bullet_bridge/convert.h"
@@ -13,6 +18,30 @@ namespace {
 /// way of an inner step at rest, g h^2 = 6e-7, far below what a corner's place matters by.
 constexpr btScalar kBoxSkin = btScalar(5e-6);
 
+/// Of a shape that owns nothing: the same to the bit.
+template <typename ShapeType>
+std::unique_ptr<btCollisionShape> copyOf(const btCollisionShape& shape) {
+  return std::make_unique<ShapeType>(static_cast<const ShapeType&>(shape));
+}
+
+/// Each axis has a class of its own.
+std::unique_ptr<btCollisionShape> copyOfCylinder(const btCylinderShape& cylinder) {
+  if (cylinder.getUpAxis() == 0) return copyOf<btCylinderShapeX>(cylinder);
+  if (cylinder.getUpAxis() == 2) return copyOf<btCylinderShapeZ>(cylinder);
+  return copyOf<btCylinderShape>(cylinder);
+}
+
+std::unique_ptr<btCollisionShape> copyOfHull(const btConvexHullShape& hull) {
+  const auto* points = static_cast<const btScalar*>(hull.getUnscaledPoints()[0]);
+  auto copy = std::make_unique<btConvexHullShape>(points, hull.getNumPoints(), sizeof(btVector3));
+  copy->setMargin(hull.getMargin());
+  copy->setLocalScaling(hull.getLocalScaling());
+  if (hull.getConvexPolyhedron()) copy->initializePolyhedralFeatures();
+  return copy;
+}
+
+/// The host may delete a shape with its object while the haptic thread still searches the copy.
+/// What is too large to be copied, or too rare, is shared: meshes, height fields, compounds.
 std::unique_ptr<btCollisionShape> makeOwnShape(const btCollisionShape& shape) {
   if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
     const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
@@ -25,7 +54,20 @@ std::unique_ptr<btCollisionShape> makeOwnShape(const btCollisionShape& shape) {
     copy->setMargin(box.getMargin());
     return copy;
   }
-  return nullptr;
+  switch (shape.getShapeType()) {
+    case SPHERE_SHAPE_PROXYTYPE:
+      return copyOf<btSphereShape>(shape);
+    case CAPSULE_SHAPE_PROXYTYPE:
+      return copyOf<btCapsuleShape>(shape);
+    case CYLINDER_SHAPE_PROXYTYPE:
+      return copyOfCylinder(static_cast<const btCylinderShape&>(shape));
+    case CONE_SHAPE_PROXYTYPE:
+      return copyOf<btConeShape>(shape);
+    case CONVEX_HULL_SHAPE_PROXYTYPE:
+      return copyOfHull(static_cast<const btConvexHullShape&>(shape));
+    default:
+      return nullptr;
+  }
 }
 
 }  // namespace

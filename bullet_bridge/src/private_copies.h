@@ -37,7 +37,7 @@ struct PrivateCopy {
   btCollisionObject* original;         ///< the host may have deleted it: compare, do not read
   const btCollisionShape* host_shape;  ///< another one: another object at the same address
   BodyIndex index;
-  std::unique_ptr<btCollisionShape> own_shape;  ///< where the host's does not do
+  std::unique_ptr<btCollisionShape> own_shape;  ///< null: the host's is shared
   const btStaticPlaneShape* plane = nullptr;    ///< own_shape of a plane: through its origin
   btScalar skin = 0;  ///< by which own_shape is larger all round than the host's [m]
   btCollisionObject object;

@@ -369,6 +369,18 @@ TEST(SiteSleep, FallsWhenTheWorldGetsAnotherGravity) {
   EXPECT_NEAR(rig.object().v_W.y() - v_W.y(), 0.3, byWidth(1e-9, 1e-6));
 }
 
+TEST(SiteSleep, AQuietSiteWithANeighbourMayBeGivenAnotherObject) {
+  Rig rig;
+  rig.host.addCube(kMass, kHalf, Vec3(2.05 * kHalf, 0, kHalf));
+  btRigidBody& other = rig.host.addCube(kMass, kHalf, Vec3(0.5, 0, kHalf));
+  for (int i = 0; i < 2000 && rig.site->counters().host_steps_skipped == 0; ++i) rig.hostStep();
+  ASSERT_GT(rig.site->counters().host_steps_skipped, 0u);
+  ASSERT_GT(rig.site->neighbourCount(), 0);
+  rig.site->share(other);
+  for (int i = 0; i < 20; ++i) rig.hostStep();
+  EXPECT_EQ(rig.site->status(), kTickOk);
+}
+
 TEST(SiteSleep, BodyTakenOutIsNoticed) {
   Rig rig;
   rig.fallAsleep();

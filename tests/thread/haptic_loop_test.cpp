@@ -1,5 +1,6 @@
 #include "tandem/plugin/haptic_loop.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -54,7 +55,7 @@ TEST(HapticLoop, TwoSitesPushACubeAmongBoxesWhileTheirHostsStep) {
 }
 
 TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
-  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);
   HapticLoop loop(*live.site, kModest);
   live.host(1.0);
   loop.stop();
@@ -64,20 +65,29 @@ TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
   EXPECT_LT(distanceToBullet(live), 0.3 * 1.5 * LiveSite::kHostPeriod + 1e-3);
 }
 
-TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFelt) {
-  LiveSite live(1, Vec3(0.0, 2.0, 0.0));
+TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFeltAndPutsNothingWhereItNeverWas) {
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);  // no boxes: the cube keeps moving
   HapticLoop loop(*live.site, kModest);
   live.host(0.5);
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  live.host(0.5);
+  double farthest = 0.0, least = 0.0;
+  for (int step = 0; step < 60; ++step) {
+    live.host(LiveSite::kHostPeriod);
+    const double y = static_cast<double>(live.cube->getCenterOfMassPosition().y());
+    farthest = std::max(farthest, y);
+    least = std::min(least, y);
+  }
   loop.stop();
   expectSafe(live.watched);
   EXPECT_GT(live.watched.largest, 0.0);
   EXPECT_EQ(live.site->status(), kTickOk);
+  EXPECT_GT(farthest, 0.02) << "the cube was to move";
+  EXPECT_GT(least, -1e-3);
+  EXPECT_LT(farthest, live.site->object(0).p_W.y() + 1e-3);
 }
 
 TEST(HapticLoop, AHostTwiceAsFastAsTimeGetsWhatIsNow) {
-  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);
   HapticLoop loop(*live.site, kModest);
   live.host(3.0, 2.0);
   loop.stop();
@@ -88,7 +98,7 @@ TEST(HapticLoop, AHostTwiceAsFastAsTimeGetsWhatIsNow) {
 }
 
 TEST(HapticLoop, AHostHalfAsFastAsTimeIsSetOn) {
-  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);
   HapticLoop loop(*live.site, kModest);
   live.host(2.0, 0.5);
   loop.stop();
@@ -129,6 +139,55 @@ TEST(HapticLoop, SkipsTicksWhoseTimeHasPassedAndMovesOverThem) {
   EXPECT_LE(live.site->counters().ticks_made_up, report.skipped);
   EXPECT_EQ(live.site->tickCount(), report.ticks);
   expectSafe(live.watched);
+}
+
+TEST(HapticLoop, WhoIsLateAgainAndAgainMakesUpForNothing) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  live.watched.dawdles_every = 1;  // each tick lasts five periods
+  HapticLoop loop(*live.site, kModest);
+  live.host(1.0);
+  loop.stop();
+  // The first gap alone, and others after a tick that happened to be in time.
+  EXPECT_GT(loop.report().skipped, 100u);
+  EXPECT_LT(live.site->counters().ticks_made_up, loop.report().skipped / 4);
+  expectSafe(live.watched);
+}
+
+TEST(HapticLoop, IsSetUpBefore) {
+  LiveSite live(1, Vec3::Zero());
+  btRigidBody& other = live.rig.addCube(0.2, 0.02, Vec3(0.5, 0.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  EXPECT_THROW((void)live.site->share(other), Error);
+  loop.stop();
+  EXPECT_EQ(live.site->share(other), 1);
+}
+
+TEST(HapticLoop, ABeginningThatLiesAheadKeepsNobodyWaiting) {
+  LiveSite live(1, Vec3::Zero());
+  HapticLoopSettings later = kModest;
+  later.begin = readMonotonicClock() + 3600.0;
+  HapticLoop loop(*live.site, later);
+  live.host(0.1);
+  loop.stop();
+  EXPECT_EQ(loop.report().ticks, 0u);
+  later.begin = std::nan("");
+  EXPECT_THROW(HapticLoop(*live.site, later), std::invalid_argument);
+}
+
+TEST(HapticLoop, ABodyMayBeDeletedWithItsShape) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  auto shape = std::make_unique<btSphereShape>(btScalar(0.02));
+  auto& rigid = live.rig.addBody(*shape, 0.1, Vec3(0.045, 0.0, 0.0));
+  auto owned = std::move(live.rig.bodies.back());
+  live.rig.bodies.pop_back();
+  HapticLoop loop(*live.site, kModest);
+  live.host(0.2);
+  live.rig.world.removeRigidBody(&rigid);
+  owned.reset();
+  shape.reset();
+  live.host(0.2);
+  loop.stop();
+  EXPECT_EQ(live.site->status(), kTickOk);
 }
 
 TEST(HapticLoop, AnyThreadMayLookBetweenTicks) {

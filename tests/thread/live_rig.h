@@ -57,18 +57,19 @@ class WatchedDevice final : public HapticDevice {
 struct LiveSite {
   static constexpr double kHostPeriod = 1.0 / 60.0;
 
-  LiveSite(int self, const Vec3& hand_force)
+  LiveSite(int self, const Vec3& hand_force, int boxes = 3)
       : rig(Vec3(0.0, 0.0, -9.81)), device(makeSettings(self), makeConstantHand(hand_force)) {
     auto& floor = rig.makeShape<btBoxShape>(btVector3(2, 2, 0.5));
     rig.addBody(floor, 0.0, Vec3(0.0, 0.0, -0.52));
     auto& box = rig.makeShape<btBoxShape>(btVector3(0.02, 0.02, 0.02));
     cube = &rig.addBody(box, 0.2);
-    for (int i = 0; i < 3; ++i) rig.addBody(box, 0.2, Vec3(0.0, 0.045 + 0.041 * i, 0.0));
+    for (int i = 0; i < boxes; ++i) rig.addBody(box, 0.2, Vec3(0.0, 0.045 + 0.041 * i, 0.0));
 
     SiteSettings settings;
     settings.self = PeerId{static_cast<std::uint32_t>(self)};
     settings.tick_source = TickSource::kCaller;
     settings.contact = {2000.0, 1.0};
+    if (boxes == 0) settings.coordination = {0.0, 0.0};  // nothing holds the cube back
     site = std::make_unique<Site>(settings, rig.world, watched);
     site->share(*cube);
     site->connect(PeerId{static_cast<std::uint32_t>(3 - self)}, queue,

@@ -19,8 +19,10 @@ namespace tandem {
 /// The private origin is near the first body, so that a float Bullet resolves tens of nanometres
 /// anywhere. Friction, restitution and margins are those of the host's objects, as they were at the
 /// last update(); rolling friction
-/// and contact stiffness are not used. The host's btCollisionShapes are shared: they must not
-/// change while attached, and must live until the update() after their object has left the world.
+/// and contact stiffness are not used. Simple shapes are copied as they are when they come near;
+/// meshes, height fields, compounds and other shapes of the host's are shared: they must not change
+/// while attached, and must live until the commit() after their object has left the world - with a
+/// haptic thread until the end of the host's next step.
 /// Native contact between an island body and a candidate, and among island bodies, is filtered in
 /// the host's world meanwhile. Kinematic objects are no candidates: they can be bodies. Bullet's
 /// global contact callbacks see the copies, too; they carry their originals' user pointers.

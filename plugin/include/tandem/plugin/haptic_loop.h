@@ -38,14 +38,17 @@ struct LoopReport {
 /// the first.
 ///
 /// From start to stop the thread alone owns the site's island. The host goes on stepping its world
-/// from its own thread, at its own 60 to 240 Hz and in real time: its steps meet the island between
-/// two ticks, for which the host waits, three times a step and a period each at the most; the
-/// haptic thread waits for nothing but its next moment. It takes no lock, allocates nothing and
-/// makes no system call but to sleep, besides what the device and the links do. Everything else
-/// about the site is asked for by Site::betweenTicks().
+/// from its own thread, at its own 60 to 240 Hz and in real time: its steps ask for the island,
+/// which is given between two ticks, and wait for that: three times a step, five at the most, each
+/// a period at the most. The haptic thread waits for nothing but its next moment. It takes no lock,
+/// allocates nothing and makes no system call but to sleep, besides what the device and the links
+/// do. Everything else about the site is asked for by Site::betweenTicks().
 ///
 /// A tick that begins late is made at once; ticks whose whole period has passed are skipped and
-/// counted, and the next one moves the island over them, 0.1 s at the most.
+/// counted, and the next one moves the island over them, 50 ms at the most and not if that tick is
+/// the next to be late. A host that stands still is not felt; when it goes on, its bodies are put
+/// where they are. A body that the host takes out of its world and deletes is left alone from the
+/// next host step on; a mesh, height field or compound of its must live until then.
 class HapticLoop {
  public:
   /// Starts the thread. `site` must hand off (Injection::kHandoff), be ticked by its caller

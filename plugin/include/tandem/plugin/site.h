@@ -96,9 +96,10 @@ class Site {
   /// Real-time safe. Only with TickSource::kCaller.
   std::uint32_t tick(double now) noexcept;
 
-  /// Runs `work` while no tick runs: whatever may be called of this site may be called there. With
-  /// a HapticLoop that is its thread, and this waits for it, a period at the most; so `work` must
-  /// be short, not throw, and not call this. Any thread but the haptic one.
+  /// Runs `work` while no tick runs: what may be called of this site may be called there, but for
+  /// set-up. With a HapticLoop that is its thread, and this waits for it, a period at the most; so
+  /// `work` must be short, not throw, and not call this. For the thread that steps the world;
+  /// others may ask for what ticks make, but not for counts of the host's steps.
   void betweenTicks(const std::function<void()>& work);
 
   /// All status bits since the start.
