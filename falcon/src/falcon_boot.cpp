@@ -6,9 +6,10 @@
 namespace tandem {
 namespace {
 
+// 142857 Bd is 3 MHz / 21: chips that divide by eighths would make other speeds of 140000.
 constexpr SerialLine kReset{9600, 16, false, false};
 constexpr SerialLine kCall{9600, 16, true, false};
-constexpr SerialLine kLoad{140000, 16, false, false};
+constexpr SerialLine kLoad{142857, 16, false, false};
 constexpr SerialLine kRun{1500000, 1, false, false};
 
 constexpr std::array<std::uint8_t, 3> kCallBytes = {0x0A, 0x43, 0x0D};

@@ -34,6 +34,22 @@ TEST(FalconBoot, LoadsTheFirmware) {
   }
 }
 
+// Divided from 3 MHz without a rest: an FTDI chip of any kind then makes the same of it.
+TEST(FalconBoot, LoadsAtASpeedThatEveryChipCanMake) {
+  FalconBoot boot(makeSyntheticFirmware(1));
+  const std::array<std::uint8_t, 4> answer = {0x0A, 0x44, 0x2C, 0x0D};
+  boot.start(0.0);
+  double now = 0.0;
+  while (boot.phase() != FalconBoot::Phase::kCalling && now < 1.0) (void)boot.advance(now += 0.001);
+  (void)boot.advance(now);
+  boot.take(answer.data(), answer.size(), now);
+  ASSERT_EQ(boot.phase(), FalconBoot::Phase::kTiming);
+  const LineStep step = boot.advance(now);
+  ASSERT_TRUE(step.line);
+  EXPECT_EQ(step.line->baud, 3000000 / 21);
+  EXPECT_FALSE(step.line->dtr);
+}
+
 TEST(FalconBoot, FirmwareThatRunsIsLeftAlone) {
   FalconRig rig(test::readyDevice());
   EXPECT_TRUE(rig.runUntil(FalconState::kReady, 0.5));

@@ -37,7 +37,7 @@ struct BootSettings {
 ///       | none
 ///       v
 ///     9600, DTR low, high -> 0A 43 0D <- 0A 44 2C 0D      (the loader's call, repeated)
-///     140000, DTR low -----> 41       <- 41               (it measures the speed)
+///     142857, DTR low -----> 41       <- 41               (it measures the speed)
 ///     image, piece by piece; each byte comes back and is compared
 ///     1.5 MBd -------------> a command frame <- a reply: running
 ///
