@@ -7,7 +7,8 @@
 namespace tandem {
 namespace {
 
-constexpr int kRestFrames = 5;        // without force before the line is left
+constexpr int kRestFrames = 5;        // without force before the line is left, or quiet
+constexpr double kHeldUp = 0.005;     // so late the host has not been listening [s]
 constexpr double kForceShown = 0.05;  // from which the light shows it [N]
 
 std::array<double, 3> toArray(const Vec3& a) noexcept { return {a.x(), a.y(), a.z()}; }
@@ -27,12 +28,26 @@ bool FalconDriver::isConversing() const noexcept {
   return status_.state != FalconState::kClosed && !boots_ && !boot_at_;
 }
 
-bool FalconDriver::hasStopped() const noexcept {
-  return !isConversing() || rest_frames_ >= kRestFrames;
+bool FalconDriver::hasStopped() const noexcept { return !isConversing() || (stops_ && isAtRest()); }
+
+bool FalconDriver::isAtRest() const noexcept { return rest_frames_ >= kRestFrames; }
+
+/// Then frames follow each other whether they are answered or not.
+bool FalconDriver::isTakingForceAway() const noexcept {
+  return stops_ || (status_.state == FalconState::kFault && !isAtRest());
+}
+
+void FalconDriver::beginStop() noexcept {
+  if (stops_) return;
+  stops_ = true;
+  rest_frames_ = 0;  // the lights are yet to go out
+  listens_until_.reset();
+  asked_at_.reset();
 }
 
 void FalconDriver::connect(double now) noexcept {
   ++status_.opened;
+  stops_ = false;
   startBoot(now);
 }
 
@@ -81,7 +96,8 @@ void FalconDriver::startRun(double now) noexcept {
   asked_at_.reset();
   silent_since_.reset();
   astray_since_.reset();
-  due_ = heard_at_ = now;
+  due_ = heard_at_ = expected_at_ = now;
+  rest_frames_ = 0;
   tracker_.forget(now);
   frames_.clear();
   dropped_ = frames_.dropped();
@@ -143,11 +159,17 @@ LineStep FalconDriver::advanceBoot(double now) noexcept {
 }
 
 LineStep FalconDriver::advanceRun(double now) noexcept {
+  excuseHost(now);
   checkReplies(now);
   if (boots_) return advanceBoot(now);
-  const bool is_quiet = listens_until_ && now >= *listens_until_ - settings_.quiet_time;
-  if (is_quiet || asked_at_) return listen(now);
-  if (awaits_reply_ && now - sent_at_ >= settings_.resend_time) {
+  const LineStep step = listens_until_ && isAtRest() ? listen(now) : converse(now);
+  expected_at_ = step.next;
+  return step;
+}
+
+LineStep FalconDriver::converse(double now) noexcept {
+  const double patience = isTakingForceAway() ? settings_.frame_period : settings_.resend_time;
+  if (awaits_reply_ && now - sent_at_ >= patience) {
     awaits_reply_ = false;
     ++status_.missing;
   }
@@ -156,7 +178,7 @@ LineStep FalconDriver::advanceRun(double now) noexcept {
     sendFrame(step, now);
     due_ = std::max(due_, now - settings_.frame_period) + settings_.frame_period;
   }
-  step.next = awaits_reply_ ? sent_at_ + settings_.resend_time : due_;
+  step.next = awaits_reply_ ? std::max(due_, sent_at_ + patience) : due_;
   return step;
 }
 
@@ -175,18 +197,25 @@ LineStep FalconDriver::listen(double now) noexcept {
   return step;
 }
 
+/// A host that was held up has sent late and not listened: the device gets its time once more, yet
+/// only once without a reply.
+void FalconDriver::excuseHost(double now) noexcept {
+  if (!silent_since_ || is_excused_ || now - expected_at_ <= kHeldUp) return;
+  silent_since_ = sent_at_ = now;
+  is_excused_ = true;
+}
+
 /// What is not said tells, too.
 void FalconDriver::checkReplies(double now) noexcept {
-  if (!silent_since_) return;
-  if (now - std::max(heard_at_, *silent_since_) > settings_.firmware_time) {
-    enterFault(FalconFault::kFirmwareLost, now);
-    startBoot(now);
-  } else if (now - *silent_since_ > settings_.reply_time) {
-    const bool has_bytes = frames_.dropped() != dropped_;
-    enterFault(has_bytes ? FalconFault::kDamagedReplies : FalconFault::kNoReply, now);
-    // First the force is taken away, frame by frame.
-    if (!listens_until_) listens_until_ = now + settings_.reply_time + settings_.quiet_time;
-  }
+  if (!silent_since_ || stops_ || now - *silent_since_ <= settings_.reply_time) return;
+  const bool has_bytes = frames_.dropped() != dropped_;
+  enterFault(has_bytes ? FalconFault::kDamagedReplies : FalconFault::kNoReply, now);
+  // First the force is taken away, frame by frame; then it is quiet for a while.
+  if (!listens_until_ || !isAtRest()) listens_until_ = now + settings_.quiet_time;
+  const double unheard = now - std::max(heard_at_, *silent_since_);
+  if (!isAtRest() || unheard <= settings_.firmware_time) return;
+  enterFault(FalconFault::kFirmwareLost, now);
+  startBoot(now);
 }
 
 void FalconDriver::takeReply(const FalconReply& reply, double now) noexcept {
@@ -220,6 +249,7 @@ void FalconDriver::noteReply(const FalconReply& reply, double now) noexcept {
   }
   awaits_reply_ = false;
   silent_since_.reset();
+  is_excused_ = false;
   noteDropped(frames_.dropped() - dropped_);
   dropped_ = frames_.dropped();
   status_.homed = reply.homed;
@@ -242,7 +272,8 @@ bool FalconDriver::takePosition(const FalconReply& reply, double now) noexcept {
 }
 
 void FalconDriver::updateState(bool has_position, double now) noexcept {
-  if (status_.state == FalconState::kFault && now - trouble_at_ < settings_.recovery_time) return;
+  const bool is_over = isAtRest() && now - trouble_at_ >= settings_.recovery_time;
+  if (status_.state == FalconState::kFault && !is_over) return;
   if (status_.homed != 7) {
     status_.state = FalconState::kUnhomed;
     tracker_.forget(now);
@@ -277,7 +308,7 @@ void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
   step.send(encodeCommand(command).data(), kFalconFrameSize);
   ++status_.frames;
   status_.force_D = toArray(f_D);
-  if (stops_ && f_D.isZero(0.0)) ++rest_frames_;
+  rest_frames_ = f_D.isZero(0.0) ? std::min(rest_frames_ + 1, kRestFrames) : 0;
   awaits_reply_ = true;
   if (!silent_since_) silent_since_ = now;
   sent_at_ = now;

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 
+#include "force_limit.h"
+
 namespace tandem {
 namespace {
 
 /// Force does not catch up on time in which nothing was sent [s].
 constexpr double kLongestStep = 0.001;
 
-Vec3 shorten(const Vec3& f, double most) noexcept {
-  // Scaled before its norm is taken, which would overflow.
-  const double largest = f.cwiseAbs().maxCoeff();
-  if (!(largest > 0.0)) return Vec3::Zero();
-  const Vec3 scaled = f / largest;
-  const double norm = scaled.norm();
-  return norm * largest > most ? Vec3(scaled * (most / norm)) : f;
-}
+using falcon_detail::shorten;
 
 }  // namespace
 
@@ -35,10 +30,12 @@ Vec3 FalconForceGate::limit(const Vec3& wanted, double age, double now) const no
 Vec3 FalconForceGate::advance(const Vec3& wanted, double age, bool is_open, double now) noexcept {
   if (is_open && !was_open_) opened_at_ = now;
   was_open_ = is_open;
+  const bool must_go = !is_open || !(age <= limits_.hold) || !wanted.allFinite();
+  const double slowest = must_go ? limits_.max_force / kLongestForceFade : 0.0;
   const Vec3 target = is_open ? limit(wanted, age, now) : Vec3(Vec3::Zero());
   const double step = std::clamp(now - last_, 0.0, kLongestStep);
   last_ = now;
-  force_ += shorten(target - force_, limits_.max_slew * step);
+  force_ += shorten(target - force_, std::max(limits_.max_slew, slowest) * step);
   return force_;
 }
 

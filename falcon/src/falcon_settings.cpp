@@ -25,9 +25,9 @@ void check(const FalconSettings& s) {
   positive(s.resend_time, "resend_time");
   positive(s.reply_time, "reply_time");
   require(s.quiet_time >= s.reply_time, "quiet_time", s.quiet_time, "reply_time or more");
-  const double silence = s.reply_time + 2.0 * s.quiet_time;
+  const double silence = s.reply_time + kLongestForceFade + 2.0 * s.quiet_time;
   require(s.firmware_time > silence, "firmware_time", s.firmware_time,
-          "above reply_time and twice quiet_time");
+          "above reply_time, twice quiet_time and 0.03 s");
   positive(s.recovery_time, "recovery_time");
   positive(s.reboot_pause, "reboot_pause");
   positive(s.fastest_hand, "fastest_hand");
@@ -35,6 +35,12 @@ void check(const FalconSettings& s) {
           "0 to 99");
   require(s.boot.tries >= 1, "boot.tries", s.boot.tries, "1 or more");
   require(s.boot.calls >= 1, "boot.calls", s.boot.calls, "1 or more");
+  positive(s.boot.back_off, "boot.back_off");
+  positive(s.boot.max_back_off, "boot.max_back_off");
+  positive(s.boot.probe_time, "boot.probe_time");
+  positive(s.boot.call_period, "boot.call_period");
+  positive(s.boot.echo_time, "boot.echo_time");
+  positive(s.boot.start_time, "boot.start_time");
 }
 
 }  // namespace tandem

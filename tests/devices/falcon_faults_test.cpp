@@ -2,6 +2,7 @@
 // goes, stays within its limits all the while, and comes back when the device does.
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,8 @@ constexpr double kForce = 8.0;          // what comes of it [N]
 /// A device that pushes with kPush_D, against a hand that holds it.
 class FalconFaults : public ::testing::Test {
  protected:
-  FalconFaults() : rig_(test::readyDevice(), FalconSettings{}, makeHand()) {
+  explicit FalconFaults(const FalconSettings& settings = {}, double most_change = 2.0)
+      : rig_(test::readyDevice(), settings, makeHand()), most_change_(most_change) {
     press(0.8);
     EXPECT_EQ(state(), FalconState::kReady);
     EXPECT_NEAR(force(), kForce, 0.05);
@@ -64,14 +66,29 @@ class FalconFaults : public ::testing::Test {
 
   void expectLimits() {
     EXPECT_LT(rig_.emulator.felt().most_force, kForce * 1.01);
-    EXPECT_LT(rig_.emulator.felt().most_change, 2.0 * 1.02);
-    EXPECT_LT(rig_.emulator.felt().most_slew, 2000.0 * 1.02);
+    EXPECT_LT(rig_.emulator.felt().most_change, most_change_ * 1.02);
+    EXPECT_LT(rig_.emulator.felt().most_slew, most_change_ * 1000.0 * 1.02);
     EXPECT_EQ(rig_.emulator.refused(), 0U);
   }
 
   FalconMishaps& mishaps() { return rig_.emulator.mishaps; }
 
   FalconRig rig_;
+  double most_change_;  ///< of a frame [N]
+};
+
+/// One that may change its force by 0.05 N a frame only: a fault takes it away in 30 ms all the
+/// same, and is not over before.
+class SlowFalconFaults : public FalconFaults {
+ protected:
+  SlowFalconFaults() : FalconFaults(makeSettings(), kForce / 30.0) {}
+
+  static FalconSettings makeSettings() {
+    FalconSettings settings;
+    settings.force.max_slew = 50.0;
+    settings.recovery_time = 0.001;
+    return settings;
+  }
 };
 
 constexpr int kAlways = FalconMishaps::kAlways;
@@ -96,6 +113,44 @@ TEST_F(FalconFaults, LostBytes) {
   expectFault(FalconFault::kDamagedReplies);
   mishaps().lost_bytes = 0;
   expectRecovery();
+}
+
+TEST_F(SlowFalconFaults, RepliesThatDoNotCome) {
+  mishaps().silent_replies = kAlways;
+  expectFault(FalconFault::kNoReply);
+  mishaps().silent_replies = 0;
+  expectRecovery();
+}
+
+TEST_F(SlowFalconFaults, RepliesThatComeAgainAtOnce) {
+  mishaps().short_replies = kAlways;
+  pressUntil(FalconState::kFault, 0.1);
+  mishaps().short_replies = 0;
+  expectRecovery();
+}
+
+TEST_F(SlowFalconFaults, HomingThatIsLost) {
+  rig_.emulator.loseHoming();
+  expectFault(FalconFault::kHomingLost);
+  pressUntil(FalconState::kUnhomed, 0.1);
+  expectLimits();
+}
+
+TEST_F(SlowFalconFaults, AWriterThatDies) {
+  const double last = rig_.now();
+  rig_.run(0.2);
+  EXPECT_LT(rig_.emulator.felt().pushed_at, last + 0.1);
+  expectLimits();
+}
+
+TEST_F(SlowFalconFaults, AStopOfADeviceThatDoesNotAnswer) {
+  mishaps().silent_replies = kAlways;
+  rig_.driver.beginStop();
+  press(0.05);
+  EXPECT_TRUE(rig_.driver.hasStopped());
+  EXPECT_EQ(force(), 0.0);
+  EXPECT_EQ(rig_.driver.status().faults, 0U);
+  expectLimits();
 }
 
 TEST_F(FalconFaults, RepliesThatComeTooLate) {
@@ -194,6 +249,34 @@ TEST_F(FalconFaults, AHostThatStallsBlamesNobody) {
   expectLimits();
 }
 
+// Nor if it was busy between deciding on a frame and sending it, and the reply is yet to come.
+TEST_F(FalconFaults, AHostThatSendsLateBlamesNobody) {
+  mishaps().reply_delay = 0.001;
+  for (const double stall : {0.03, 0.3}) {
+    rig_.sendLate(stall);
+    press(0.1);
+    EXPECT_EQ(state(), FalconState::kReady);
+    EXPECT_NEAR(force(), kForce, 0.05);
+  }
+  EXPECT_EQ(rig_.driver.status().faults, 0U);
+  EXPECT_EQ(rig_.driver.status().boots, 1U);
+  expectLimits();
+}
+
+// Yet being late all the time is no excuse for going on without replies.
+TEST_F(FalconFaults, AHostThatIsAlwaysLateNoticesSilence) {
+  mishaps().silent_replies = kAlways;
+  const double began = rig_.now();
+  while (rig_.now() < began + 0.15) {
+    rig_.sendLate(0.01);
+    press(FalconRig::kLook);
+  }
+  EXPECT_EQ(fault(), FalconFault::kNoReply);
+  EXPECT_EQ(force(), 0.0);
+  EXPECT_LT(rig_.emulator.felt().pushed_at, began + 0.15);
+  expectLimits();
+}
+
 TEST_F(FalconFaults, PowerThatGoesAndComes) {
   rig_.emulator.switchOff(rig_.now());
   expectFault(FalconFault::kNoReply);
@@ -216,10 +299,22 @@ TEST_F(FalconFaults, ALineThatGoesAndComes) {
   EXPECT_EQ(fault(), FalconFault::kUnplugged);
   EXPECT_FALSE(rig_.driver.reading().is_valid);
   // The firmware kept its last command: only its power ends that for sure.
+  // Its first frame is one without force; then it ramps in again.
   rig_.emulator.plugIn(true);
+  press(FalconRig::kLook);
+  EXPECT_EQ(force(), 0.0);
   pressUntil(FalconState::kReady, 2.0);
-  press(0.6);
+  double before = force(), most_change = 0.0;
+  EXPECT_LT(before, 0.05);
+  rig_.run(0.25, [&](double now) {
+    rig_.driver.command(kPush_D, now);
+    most_change = std::max(most_change, force() - std::exchange(before, force()));
+  });
+  EXPECT_NEAR(force(), kForce / 2.0, 0.05);
+  EXPECT_LT(most_change, 0.05);  // 8 N in 500 frames
+  press(0.4);
   EXPECT_NEAR(force(), kForce, 0.05);
+  EXPECT_LT(rig_.emulator.felt().most_force, kForce * 1.01);
   EXPECT_EQ(rig_.driver.status().opened, 2U);
 }
 

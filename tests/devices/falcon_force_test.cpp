@@ -204,6 +204,33 @@ TEST(FalconForceGate, NoStepIsLargerThanTheSlewLimit) {
   }
 }
 
+// However slowly force may change: what must go is gone in 30 ms, evenly.
+TEST(FalconForceGate, WhatMustGoDoesNotWaitForASlowSlewLimit) {
+  const Vec3 push(0.0, 8.0, 0.0), bad(0.0, std::nan(""), 0.0);
+  const auto framesToZero = [&](double max_slew, const Vec3& wanted, double age, bool is_open) {
+    FalconForceLimits limits;
+    limits.max_slew = max_slew;
+    FalconForceGate gate(limits);
+    double now = 0.0;
+    while (gate.force() != push) gate.advance(push, 0.0, true, now += 0.001);
+    int frames = 0;
+    for (; gate.force() != Vec3::Zero() && frames < 1000; ++frames) {
+      const double before = gate.force().y();
+      gate.advance(wanted, age, is_open, now += 0.001);
+      EXPECT_LE(before - gate.force().y(), std::max(max_slew * 0.001, 8.0 / 30.0) + 1e-12);
+    }
+    return frames;
+  };
+  for (const double max_slew : {20.0, 50.0, 266.0}) {
+    EXPECT_NEAR(framesToZero(max_slew, push, 0.0, false), 30, 1);  // closed
+    EXPECT_NEAR(framesToZero(max_slew, push, 0.1, true), 30, 1);   // not renewed
+    EXPECT_NEAR(framesToZero(max_slew, bad, 0.0, true), 30, 1);
+    // A writer that asks for zero has chosen the limit.
+    EXPECT_NEAR(framesToZero(max_slew, Vec3::Zero(), 0.0, true), 8000.0 / max_slew, 1);
+  }
+  EXPECT_NEAR(framesToZero(2000.0, push, 0.0, false), 4, 1);
+}
+
 TEST(FalconForce, SettingsOutOfRangeAreRefused) {
   const auto refuses = [](void (*change)(FalconSettings&)) {
     FalconSettings settings;
@@ -220,7 +247,18 @@ TEST(FalconForce, SettingsOutOfRangeAreRefused) {
   refuses([](FalconSettings& s) { s.motors_per_torque = 30000.0; });
   refuses([](FalconSettings& s) { s.centre_D.x() = std::nan(""); });
   refuses([](FalconSettings& s) { s.firmware_time = 0.01; });
+  refuses([](FalconSettings& s) { s.firmware_time = s.reply_time + 2.0 * s.quiet_time + 0.02; });
   refuses([](FalconSettings& s) { s.boot.tries = 0; });
+  refuses([](FalconSettings& s) { s.boot.calls = 0; });
+  for (double BootSettings::*time :
+       {&BootSettings::back_off, &BootSettings::max_back_off, &BootSettings::probe_time,
+        &BootSettings::call_period, &BootSettings::echo_time, &BootSettings::start_time}) {
+    for (const double bad : {0.0, -1.0, std::nan("")}) {
+      FalconSettings settings;
+      settings.boot.*time = bad;
+      EXPECT_THROW((void)FalconDriver(settings), std::invalid_argument);
+    }
+  }
 }
 
 }  // namespace

@@ -58,6 +58,12 @@ class FalconRig {
     looks_ += std::lround(duration / kLook);
   }
 
+  /// The host decides on a frame, and sends it only after so long.
+  void sendLate(double duration) {
+    send_late_ = std::lround(duration / kLook);
+    while (send_late_ > 0) run(kLook);
+  }
+
   /// Moves the held grip there and back, slowly enough for no jump: 0.5 mm in a millisecond.
   void pull(double out, const std::function<void(double)>& each = nullptr) {
     const Vec3 from_D = emulator.plant().position();
@@ -89,12 +95,13 @@ class FalconRig {
     const std::size_t come = emulator.collect(bytes.data(), bytes.size(), now());
     driver.take(bytes.data(), come, now());
     const LineStep step = driver.advance(now());
+    if (step.count > 0) looks_ += std::exchange(send_late_, 0);
     if (step.line) emulator.setLine(*step.line);
     if (step.purges) emulator.purge();
     if (step.count > 0) emulator.take(step.bytes.data(), step.count, now());
   }
 
-  long looks_ = 0;
+  long looks_ = 0, send_late_ = 0;
   bool is_connected_ = false;
 };
 

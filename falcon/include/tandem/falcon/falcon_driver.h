@@ -40,8 +40,9 @@ class FalconDriver {
   /// What to do with the line now.
   [[nodiscard]] LineStep advance(double now) noexcept;
 
-  /// From now on there is no force; frames go on, with the lights off.
-  void beginStop() noexcept { stops_ = true; }
+  /// From now on, until connect(), there is no force: it goes frame by frame, whether they are
+  /// answered or not, and the lights go out.
+  void beginStop() noexcept;
   /// Enough frames without force have been sent, or none can be.
   [[nodiscard]] bool hasStopped() const noexcept;
 
@@ -50,12 +51,16 @@ class FalconDriver {
 
  private:
   [[nodiscard]] bool isConversing() const noexcept;
+  [[nodiscard]] bool isAtRest() const noexcept;
+  [[nodiscard]] bool isTakingForceAway() const noexcept;
   void enterFault(FalconFault fault, double now) noexcept;
   void startBoot(double now) noexcept;
   void startRun(double now) noexcept;
   LineStep advanceBoot(double now) noexcept;
   LineStep advanceRun(double now) noexcept;
+  LineStep converse(double now) noexcept;
   LineStep listen(double now) noexcept;
+  void excuseHost(double now) noexcept;
   void checkReplies(double now) noexcept;
   void takeReply(const FalconReply& reply, double now) noexcept;
   void noteReply(const FalconReply& reply, double now) noexcept;
@@ -74,10 +79,11 @@ class FalconDriver {
   FalconStatus status_;
   FalconReading reading_;
 
-  bool boots_ = false, stops_ = false, awaits_reply_ = false;
-  int rest_frames_ = 0;                 ///< without force, since the stop began
+  bool boots_ = false, stops_ = false, awaits_reply_ = false, is_excused_ = false;
+  int rest_frames_ = 0;                 ///< the newest ones, without force; enough is enough
   std::optional<double> boot_at_;       ///< again, after a boot that failed [s]
   double due_ = 0.0, sent_at_ = 0.0;    ///< the next frame; the last one [s]
+  double expected_at_ = 0.0;            ///< the next look of the host, at the latest [s]
   std::optional<double> silent_since_;  ///< the first frame without a reply of use, since one [s]
   std::optional<double> astray_since_;  ///< replies of homed legs that are no position [s]
   double heard_at_ = 0.0;               ///< the last whole reply, of use or not [s]

@@ -4,6 +4,9 @@
 
 namespace tandem {
 
+/// Force that must go is gone after so much time of frames, however slowly else it may change [s].
+constexpr double kLongestForceFade = 0.03;
+
 /// The last word on a Falcon's force, whoever asks for it.
 struct FalconForceLimits {
   double max_force = 8.0;    ///< [N], norm; direction kept. The maker gives 8.9 N
@@ -20,7 +23,8 @@ class FalconForceGate {
 
   /// `age`: since it was asked for [s]; `is_open`: whether there may be force at all. Anything not
   /// finite asks for none. Never changes by more than the slew limit, on the way to zero neither:
-  /// that takes 4 ms from 8 N.
+  /// that takes 4 ms from 8 N. Force that is not renewed, not finite or not allowed any more goes
+  /// within 30 ms even if the slew limit is lower. A call counts for 1 ms at most.
   Vec3 advance(const Vec3& wanted, double age, bool is_open, double now) noexcept;
 
   /// The ramp begins anew, after a position that jumped.
