@@ -12,9 +12,9 @@ namespace tandem {
 namespace {
 
 constexpr double kMostAge = 0.02;      // of a reading that is still used [s]
-constexpr double kOpenPeriod = 0.25;   // between tries to open the line [s]
+constexpr double kOpenPeriod = 0.25;   // from one try to open the line to the next [s]
 constexpr double kNap = 0.02;          // so long a stop may have to wait for the thread [s]
-constexpr double kStopTime = 0.1;      // for the last frames [s]
+constexpr double kStopTime = 0.2;      // for the last frames [s]
 constexpr double kWorkspace = 0.05;    // half extents [m]
 constexpr double kStiffness = 3000.0;  // that still feels calm [N/m]
 
@@ -68,9 +68,9 @@ void FalconDevice::run() noexcept {
   RealtimeRights rights;
   rights.take(priority_, false);
   while (!stops_.load(std::memory_order_relaxed)) {
+    const double tried_at = readClock();
     if (const std::unique_ptr<ByteTransport> line = tryOpen()) serve(*line);
-    for (double slept = 0.0; slept < kOpenPeriod && !stops_.load(std::memory_order_relaxed);
-         slept += kNap)
+    while (readClock() - tried_at < kOpenPeriod && !stops_.load(std::memory_order_relaxed))
       sleep(kNap);
   }
 }
@@ -81,6 +81,7 @@ std::unique_ptr<ByteTransport> FalconDevice::tryOpen() noexcept {
     std::unique_ptr<ByteTransport> line = open_();
     if (line) {
       open_error_ = {};
+      seen_wish_ = wish_.read().number;  // who asked for it may be gone by now
       driver_.connect(now);
       passOn();
       return line;
@@ -98,18 +99,27 @@ std::unique_ptr<ByteTransport> FalconDevice::tryOpen() noexcept {
 
 /// Until the line is gone, or the device is stopped.
 void FalconDevice::serve(ByteTransport& line) noexcept {
-  double stopped_at = -1.0;
-  while (exchange(line)) {
-    passOn();
-    if (!stops_.load(std::memory_order_relaxed)) continue;
-    const double now = readClock();
-    if (stopped_at < 0.0) stopped_at = now;
-    driver_.beginStop();
-    if (driver_.hasStopped() || now - stopped_at > kStopTime) return;
-  }
+  while (!stops_.load(std::memory_order_relaxed) && exchange(line)) passOn();
+  giveLastFrames(line);
   if (!stops_.load(std::memory_order_relaxed))
     driver_.disconnect(FalconFault::kUnplugged, readClock());
   passOn();
+}
+
+/// The device keeps the last force it was told, and a line that failed may yet take something:
+/// the force goes frame by frame, or at once if only one frame more can be sent.
+void FalconDevice::giveLastFrames(ByteTransport& line) noexcept {
+  driver_.beginStop();
+  const double until = readClock() + kStopTime;
+  for (double now = readClock(); !driver_.hasStopped() && now < until; now = readClock()) {
+    const LineStep step = driver_.advance(now);
+    if (!perform(step, line)) break;
+    sleep(std::max(step.next - now, 0.0));
+  }
+  if (driver_.hasStopped()) return;
+  LineStep rest;
+  rest.send(encodeCommand({{}, true, 0}).data(), kFalconFrameSize);
+  (void)perform(rest, line);
 }
 
 bool FalconDevice::exchange(ByteTransport& line) noexcept {

@@ -3,6 +3,7 @@
 
 #include "tandem/falcon/falcon_device.h"
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -58,7 +59,7 @@ class FalconOverTty : public ::testing::Test {
   bool tickUntil(const std::function<bool(const FalconStatus&)>& is_so) {
     for (const double end = readClock() + kLongest; readClock() < end; sleep(0.001)) {
       sample_ = device_->read(readClock());
-      device_->write(sample_.valid ? kPush : Vec3(Vec3::Zero()));
+      device_->write(sample_.valid ? push_ : Vec3(Vec3::Zero()));
       if (is_so(device_->status())) return true;
     }
     return false;
@@ -71,7 +72,7 @@ class FalconOverTty : public ::testing::Test {
   }
   /// The emulated grip is pushed as was asked for.
   bool tickUntilPushed() {
-    return tickUntil([this](const FalconStatus&) { return (force() - kPush).norm() < 0.05; });
+    return tickUntil([this](const FalconStatus&) { return (force() - push_).norm() < 0.05; });
   }
   bool tickUntilForceIsGone() {
     return tickUntil([this](const FalconStatus&) { return force().norm() == 0.0; });
@@ -94,7 +95,7 @@ class FalconOverTty : public ::testing::Test {
   }
   void expectLimits() {
     visit([](FalconEmulator& emulator) {
-      EXPECT_LT(emulator.felt().most_force, 8.0);
+      EXPECT_LT(emulator.felt().most_force, 8.0 * 1.01);
       EXPECT_LT(emulator.felt().most_change, 2.0 * 1.02);
       EXPECT_EQ(emulator.refused(), 0U);
     });
@@ -120,7 +121,7 @@ class FalconOverTty : public ::testing::Test {
     expectWork();
   }
 
-  const Vec3 kPush = Vec3(2.0, -4.0, 3.0);
+  Vec3 push_ = Vec3(2.0, -4.0, 3.0);
   std::unique_ptr<EmulatedFalconPort> port_;
   std::unique_ptr<FalconDevice> device_;
   DeviceSample sample_;
@@ -157,6 +158,14 @@ TEST_F(FalconOverTty, BootThatNeverSucceedsIsAStatedFault) {
   EXPECT_EQ(device_->status().fault, FalconFault::kWrongBootEcho);
   EXPECT_FALSE(sample_.valid);
   EXPECT_TRUE(tickUntil(FalconState::kUnhomed));  // the third one is right
+}
+
+TEST_F(FalconOverTty, PushesNoHarderThanItMay) {
+  start();
+  push_ = Vec3(10.0, -25.0, 15.0);
+  ASSERT_TRUE(tickUntil([this](const FalconStatus&) { return force().norm() > 8.0 * 0.99; }));
+  EXPECT_LT(force().stableNormalized().cross(push_.normalized()).norm(), 0.02);
+  expectLimits();
 }
 
 TEST_F(FalconOverTty, ShortReplies) {
@@ -267,6 +276,136 @@ TEST(FalconDevice, OneThatCannotBeOpenedSaysWhy) {
   EXPECT_FALSE(device.read(0.0).valid);
   EXPECT_EQ(device.capabilities().max_force, 8.0);
   EXPECT_EQ(device.capabilities().max_slew, 2000.0);
+}
+
+/// A line that can break: reads say that the device is gone, or writes do, a number of times.
+struct Breaks {
+  std::atomic<int> reads{0}, writes{0};
+  std::atomic<bool> may_open{true};
+};
+
+class BreakingLine final : public ByteTransport {
+ public:
+  BreakingLine(FalconEmulator& emulator, Breaks& breaks)
+      : line_(openEmulator(emulator)), breaks_(breaks) {}
+
+  [[nodiscard]] const std::string& name() const noexcept override { return line_->name(); }
+  [[nodiscard]] bool write(const std::uint8_t* bytes, std::size_t count) noexcept override {
+    return !use(breaks_.writes) && line_->write(bytes, count);
+  }
+  [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
+                                    double wait) noexcept override {
+    return use(breaks_.reads) ? -1 : line_->read(bytes, room, wait);
+  }
+  [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {
+    return line_->setLine(line);
+  }
+  void purge() noexcept override { line_->purge(); }
+
+ private:
+  static bool use(std::atomic<int>& count) noexcept { return count > 0 && count-- > 0; }
+
+  std::unique_ptr<ByteTransport> line_;
+  Breaks& breaks_;
+};
+
+/// A device at an emulator in its own thread, which may be looked at once the device is gone.
+class FalconAtALineThatBreaks : public ::testing::Test {
+ protected:
+  FalconAtALineThatBreaks() : emulator_(readyDevice(), makeHoldingHand()) {}
+
+  void start(double max_slew) {
+    FalconSettings settings = patientSettings();
+    settings.force.max_slew = max_slew;
+    device_ = std::make_unique<FalconDevice>(settings, FirmwareImage{}, [this] {
+      return breaks_.may_open ? std::make_unique<BreakingLine>(emulator_, breaks_) : nullptr;
+    });
+  }
+  [[nodiscard]] bool waitUntil(const std::function<bool(const FalconStatus&)>& is_so,
+                               const Vec3& push = Vec3(0.0, 25.0, 0.0)) {
+    for (const double end = readClock() + kLongest; readClock() < end; sleep(0.001)) {
+      device_->write(push);
+      if (is_so(device_->status())) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool waitUntilPushed() {
+    return waitUntil([](const FalconStatus& s) { return s.force_D[1] > 7.99; });
+  }
+  void expectRest(double most_change) {
+    device_.reset();
+    EXPECT_GT(emulator_.felt().most_force, 7.9);
+    EXPECT_LT(emulator_.felt().most_change, most_change * 1.02);
+    EXPECT_EQ(emulator_.command().motors, FalconMotors{});
+    EXPECT_TRUE(emulator_.command().homes);
+  }
+
+  Breaks breaks_;
+  FalconEmulator emulator_;
+  std::unique_ptr<FalconDevice> device_;
+};
+
+TEST_F(FalconAtALineThatBreaks, ReadsThatFailLeaveNoForceBehind) {
+  start(2000.0);
+  ASSERT_TRUE(waitUntilPushed());
+  breaks_.may_open = false;
+  breaks_.reads = 1000000;
+  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
+  expectRest(2.0);
+}
+
+TEST_F(FalconAtALineThatBreaks, AWriteThatFailsOnceLeavesNoForceBehind) {
+  start(2000.0);
+  ASSERT_TRUE(waitUntilPushed());
+  breaks_.may_open = false;
+  breaks_.writes = 1;
+  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
+  expectRest(2.0);
+}
+
+// As long as one frame goes through, it is one without force, if only in one step.
+TEST_F(FalconAtALineThatBreaks, TheLastFrameOfABadLineIsOneWithoutForce) {
+  start(2000.0);
+  ASSERT_TRUE(waitUntilPushed());
+  breaks_.may_open = false;
+  breaks_.writes = 2;
+  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
+  expectRest(8.0);
+}
+
+TEST_F(FalconAtALineThatBreaks, ItComesBack) {
+  start(2000.0);
+  for (const std::uint64_t times : {1U, 2U, 3U}) {
+    ASSERT_TRUE(waitUntilPushed());
+    EXPECT_EQ(device_->status().opened, times);
+    breaks_.reads = 1;
+    EXPECT_TRUE(waitUntil([times](const FalconStatus& s) { return s.opened > times; }));
+  }
+  expectRest(2.0);
+}
+
+TEST_F(FalconAtALineThatBreaks, ASlowStopIsAWholeOne) {
+  start(50.0);
+  ASSERT_TRUE(waitUntilPushed());
+  expectRest(8.0 / 30.0);
+  EXPECT_EQ(emulator_.command().lights, 0);
+}
+
+// Who asked for it before may not be there any more.
+TEST_F(FalconAtALineThatBreaks, AForceAskedForWhileItWasClosedIsNotRendered) {
+  breaks_.may_open = false;
+  start(2000.0);
+  device_->write(Vec3(0.0, 8.0, 0.0));
+  breaks_.may_open = true;
+  std::uint64_t ready_at = 0;
+  for (const double end = readClock() + kLongest; readClock() < end; sleep(0.001)) {
+    const FalconStatus& status = device_->status();
+    if (ready_at == 0 && status.state == FalconState::kReady) ready_at = status.frames;
+    if (ready_at > 0 && status.frames > ready_at + 200) break;
+  }
+  ASSERT_GT(ready_at, 0U);
+  device_.reset();
+  EXPECT_EQ(emulator_.felt().most_force, 0.0);
 }
 
 // What is read is no newer for being read again: it loses its value in the reader's own time.

@@ -17,7 +17,9 @@ namespace tandem {
 using OpenTransport = std::function<std::unique_ptr<ByteTransport>()>;
 
 /// A Novint Falcon. A thread of its own runs the driver and owns the line: it opens it, boots the
-/// device, asks it a thousand times a second, and begins anew after a loss. The side that ticks
+/// device, asks it a thousand times a second, and begins anew after a loss. Before it leaves a
+/// line, whyever, it tries to take the force away. A force asked for while there was no line does
+/// not count. The side that ticks
 /// meets that thread in two latest values: read() and write() are wait-free, without lock,
 /// allocation or system call.
 ///
@@ -31,7 +33,8 @@ class FalconDevice final : public HapticDevice {
  public:
   /// Starts the thread; returns at once. Throws std::invalid_argument as FalconDriver does.
   FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open);
-  /// Takes the force away, as the slew limit allows, puts the lights out and closes the line.
+  /// Takes the force away, frame by frame, puts the lights out and closes the line; 0.2 s at most,
+  /// and what the line's own calls take.
   ~FalconDevice() override;
   FalconDevice(const FalconDevice&) = delete;
   FalconDevice& operator=(const FalconDevice&) = delete;
@@ -53,6 +56,7 @@ class FalconDevice final : public HapticDevice {
 
   void run() noexcept;
   void serve(ByteTransport& line) noexcept;
+  void giveLastFrames(ByteTransport& line) noexcept;
   [[nodiscard]] std::unique_ptr<ByteTransport> tryOpen() noexcept;
   [[nodiscard]] bool exchange(ByteTransport& line) noexcept;
   void passOn() noexcept;
