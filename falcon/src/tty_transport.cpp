@@ -67,8 +67,8 @@ class TtyTransport final : public ByteTransport {
   }
 
   [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {
-    return setSpeed(line.baud) && setModemLine(TIOCM_DTR, line.dtr) &&
-           setModemLine(TIOCM_RTS, line.rts) && setLatency(line.latency_ms);
+    return setModemLine(TIOCM_DTR, line.dtr) && setModemLine(TIOCM_RTS, line.rts) &&
+           setSpeed(line.baud) && setLatency(line.latency_ms);
   }
 
   void purge() noexcept override { ::ioctl(fd_, TCFLSH, TCIOFLUSH); }

@@ -1,5 +1,6 @@
 #include "tandem/falcon/ftdi_transport.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -11,8 +12,11 @@ namespace tandem {
 namespace {
 
 constexpr unsigned kFirst = 0;
-/// USB transfers that last longer have failed [ms].
-constexpr int kTransferTime_ms = 100;
+/// USB transfers that last longer have failed [ms]. A chip that lives answers a read within its
+/// latency time, 16 ms at most.
+constexpr int kWriteTime_ms = 100, kReadTime_ms = 25;
+constexpr int kTimedOut = -7;  // of libusb, as ftdi_read_data gives it
+constexpr int kNotFound = -3, kNotOpened = -4, kNotClaimed = -5;  // of ftdi_usb_open_desc_index
 
 struct ContextDeleter {
   void operator()(ftdi_context* context) const noexcept { ftdi_free(context); }
@@ -22,7 +26,8 @@ using Context = std::unique_ptr<ftdi_context, ContextDeleter>;
 Context makeContext() {
   Context context(ftdi_new());
   if (!context) throw Error("libftdi1 does not start: is there memory, is /dev/bus/usb there?");
-  context->usb_read_timeout = context->usb_write_timeout = kTransferTime_ms;
+  context->usb_read_timeout = kReadTime_ms;
+  context->usb_write_timeout = kWriteTime_ms;
   return context;
 }
 
@@ -51,23 +56,32 @@ class FtdiTransport final : public ByteTransport {
     const auto until = Clock::now() + std::chrono::duration<double>(wait);
     // The chip answers at the latest after its latency time, with nothing if it has nothing.
     for (;;) {
-      const int count = ftdi_read_data(context_.get(), bytes, static_cast<int>(room));
+      const int count = readOnce(bytes, static_cast<int>(room));
       if (count != 0 || Clock::now() >= until) return count;
     }
   }
 
   [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {
     ftdi_context* ftdi = context_.get();
-    return ftdi_set_baudrate(ftdi, line.baud) == 0 &&
+    return ftdi_setrts(ftdi, line.rts) == 0 && ftdi_setdtr(ftdi, line.dtr) == 0 &&
+           ftdi_set_baudrate(ftdi, line.baud) == 0 &&
            ftdi_set_line_property(ftdi, BITS_8, STOP_BIT_1, NONE) == 0 &&
            ftdi_setflowctrl(ftdi, SIO_DISABLE_FLOW_CTRL) == 0 &&
-           ftdi_set_latency_timer(ftdi, static_cast<unsigned char>(line.latency_ms)) == 0 &&
-           ftdi_setrts(ftdi, line.rts) == 0 && ftdi_setdtr(ftdi, line.dtr) == 0;
+           ftdi_set_latency_timer(ftdi, static_cast<unsigned char>(line.latency_ms)) == 0;
   }
 
   void purge() noexcept override { ftdi_tcioflush(context_.get()); }
 
  private:
+  /// What one transfer brings, or is left of it. The library goes on until it has all it is asked
+  /// for: a second transfer would wait for the latency time.
+  int readOnce(std::uint8_t* bytes, int room) noexcept {
+    const int first = ftdi_read_data(context_.get(), bytes, std::min(room, 1));
+    if (first <= 0) return first == kTimedOut ? 0 : first;
+    const int left = static_cast<int>(context_->readbuffer_remaining);
+    return first + ftdi_read_data(context_.get(), bytes + first, std::min(room - first, left));
+  }
+
   Context context_;
   std::string name_;
 };
@@ -97,10 +111,15 @@ std::unique_ptr<ByteTransport> openFtdi(const FtdiAddress& address) {
   const char* serial = address.serial.empty() ? nullptr : address.serial.c_str();
   const int result = ftdi_usb_open_desc_index(context.get(), address.vendor, address.product,
                                               nullptr, serial, kFirst);
-  if (result == -3) throw Error(nameOf(address) + " is not plugged in; see tandem device list");
-  if (result < 0)
+  if (result == kNotFound)
+    throw Error(nameOf(address) + " is not plugged in; see tandem device list");
+  if (result < 0) {
+    const char* remedy = "plug it in again";
+    if (result == kNotOpened) remedy = "install the udev rule of Tandem and plug it in again";
+    if (result == kNotClaimed) remedy = "end the other program that uses it";
     throw Error(nameOf(address) + " cannot be opened (" + ftdi_get_error_string(context.get()) +
-                "); install the udev rule of Tandem and plug it in again");
+                "); " + remedy);
+  }
   return std::make_unique<FtdiTransport>(std::move(context), address);
 }
 

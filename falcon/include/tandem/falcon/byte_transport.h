@@ -27,11 +27,12 @@ class ByteTransport {
   [[nodiscard]] virtual bool write(const std::uint8_t* bytes, std::size_t count) noexcept = 0;
 
   /// What has come, up to `room` bytes, after waiting for the first of it up to `wait` [s]. 0:
-  /// nothing has; negative: the device is gone.
+  /// nothing has; negative: the device is gone. One on USB may take a little longer: openFtdi.
   [[nodiscard]] virtual std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
                                             double wait) noexcept = 0;
 
-  /// False: the line cannot be set so; lines that have no such wire leave it out.
+  /// DTR and RTS first, then the speed. False: the line cannot be set so; lines that have no such
+  /// wire leave it out.
   [[nodiscard]] virtual bool setLine(const SerialLine& line) noexcept = 0;
 
   /// Forgets what has come, and what is not sent yet.

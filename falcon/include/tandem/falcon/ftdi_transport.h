@@ -18,7 +18,9 @@ struct FtdiAddress {
 [[nodiscard]] std::vector<FtdiAddress> findFtdi(const FtdiAddress& like = {});
 
 /// Opens it through libftdi1, in user space: no kernel driver, but the right to open the USB
-/// device. Throws tandem::Error with the remedy if it is not there or may not be opened.
+/// device. A tty that ftdi_sio made for it goes away. Reads take one transfer of USB at least,
+/// which ends at the latest after the line's latency time, also without a wait. Throws
+/// tandem::Error with the remedy if it is not there or cannot be opened.
 [[nodiscard]] std::unique_ptr<ByteTransport> openFtdi(const FtdiAddress& address = {});
 
 }  // namespace tandem
