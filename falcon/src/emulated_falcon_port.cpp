@@ -2,14 +2,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
-
-#include <unistd.h>
 
 #include "tandem/coordination/types.h"
 
@@ -30,12 +29,43 @@ void sleep(double time) noexcept {
   std::this_thread::sleep_for(std::chrono::duration<double>(time));
 }
 
-std::string makeLinkPath() {
-  static std::atomic<int> count{0};
-  const std::string name =
-      "tandem-falcon-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-  return (std::filesystem::temp_directory_path() / name).string();
-}
+/// A link in a folder of its own, where nobody else can put another; both go with this.
+class Link {
+ public:
+  Link() {
+    std::error_code error;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::string folder = (parent / "tandem-falcon-XXXXXX").string();
+    if (error || ::mkdtemp(folder.data()) == nullptr)
+      throw Error(
+          "no folder can be made for the line of an emulated Falcon; set TMPDIR to "
+          "one that may be written to");
+    folder_ = folder;
+    path_ = folder + "/tty";
+  }
+  ~Link() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  void leadTo(const std::string& target) {
+    std::error_code error;
+    std::filesystem::remove(path_, error);
+    std::filesystem::create_symlink(target, path_, error);
+    if (error) throw Error(path_ + ": cannot be made (" + error.message() + "); is the disk full?");
+  }
+  void remove() noexcept {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::string path_;
+};
 
 FalconEmulatorSettings withoutModemLines(FalconEmulatorSettings settings) {
   settings.has_modem_lines = false;
@@ -47,7 +77,7 @@ FalconEmulatorSettings withoutModemLines(FalconEmulatorSettings settings) {
 class EmulatedFalconPort::Server {
  public:
   Server(const FalconEmulatorSettings& settings, std::unique_ptr<Hand> hand)
-      : emulator_(withoutModemLines(settings), std::move(hand)), path_(makeLinkPath()) {
+      : emulator_(withoutModemLines(settings), std::move(hand)) {
     plugIn();
     thread_ = std::thread([this] { run(); });
   }
@@ -55,14 +85,12 @@ class EmulatedFalconPort::Server {
   ~Server() {
     stops_.store(true, std::memory_order_relaxed);
     thread_.join();
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
   }
 
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const std::string& path() const noexcept { return link_.path(); }
 
   void plugIn() {
     ++visitors_;
@@ -70,15 +98,14 @@ class EmulatedFalconPort::Server {
     --visitors_;
     terminal_.emplace();
     emulator_.plugIn(true);
-    std::filesystem::remove(path_);
-    std::filesystem::create_symlink(terminal_->path(), path_);
+    link_.leadTo(terminal_->path());
   }
 
   void unplug() {
     ++visitors_;
     const std::lock_guard lock(mutex_);
     --visitors_;
-    std::filesystem::remove(path_);
+    link_.remove();
     terminal_.reset();
     emulator_.plugIn(false);
     line_.baud = 0;
@@ -120,7 +147,7 @@ class EmulatedFalconPort::Server {
 
   std::mutex mutex_;
   FalconEmulator emulator_;
-  std::string path_;
+  Link link_;
   std::optional<falcon_detail::PseudoTerminal> terminal_;
   SerialLine line_;
   std::atomic<bool> stops_{false};

@@ -6,11 +6,14 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/types.h"
 #include "tandem/falcon/emulated_falcon_port.h"
 #include "tandem/falcon/tty_transport.h"
 
@@ -264,6 +267,52 @@ TEST_F(FalconOverTty, ClosingTakesTheForceAwayAndPutsTheLightsOut) {
   device_ = std::make_unique<FalconDevice>(patientSettings(), FirmwareImage{},
                                            [path = port_->path()] { return openTty(path); });
   expectWork();
+}
+
+/// The folder of temporary files is another one while it lives.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& path) {
+    if (const char* before = std::getenv("TMPDIR")) before_ = before;
+    ::setenv("TMPDIR", path.c_str(), 1);
+  }
+  ~TemporaryFolder() {
+    if (before_.empty())
+      ::unsetenv("TMPDIR");
+    else
+      ::setenv("TMPDIR", before_.c_str(), 1);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+ private:
+  std::string before_;
+};
+
+TEST(EmulatedFalconPort, WithoutAFolderForItsLinkItSaysSo) {
+  const TemporaryFolder none("/no-such-folder");
+  EXPECT_THROW((void)EmulatedFalconPort(), Error);
+}
+
+TEST(EmulatedFalconPort, LeavesNothingBehind) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(::testing::TempDir()) / "tandem_falcon_port_test";
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  {
+    const TemporaryFolder temporary(folder.string());
+    EmulatedFalconPort one, other;
+    EXPECT_NE(one.path(), other.path());
+    EXPECT_TRUE(fs::is_symlink(one.path()));
+    // Nobody else may put a link in its place.
+    EXPECT_EQ(fs::status(fs::path(one.path()).parent_path()).permissions(), fs::perms::owner_all);
+    one.unplug();
+    EXPECT_FALSE(fs::is_symlink(one.path()));
+    one.plugIn();
+    EXPECT_TRUE(fs::is_symlink(one.path()));
+  }
+  EXPECT_TRUE(fs::is_empty(folder));
+  fs::remove_all(folder);
 }
 
 TEST(FalconDevice, OneThatCannotBeOpenedSaysWhy) {

@@ -12,7 +12,8 @@ namespace tandem {
 /// opens a tty meets it. Pseudo terminals have no DTR, so the emulator does without. Linux.
 class EmulatedFalconPort {
  public:
-  /// Throws tandem::Error without pseudo terminals, std::invalid_argument as FalconEmulator does.
+  /// Throws tandem::Error without pseudo terminals or a folder for temporary files,
+  /// std::invalid_argument as FalconEmulator does.
   explicit EmulatedFalconPort(FalconEmulatorSettings settings = {},
                               std::unique_ptr<Hand> hand = nullptr);
   ~EmulatedFalconPort();
@@ -22,7 +23,8 @@ class EmulatedFalconPort {
   /// What to open: a link that stays while what it leads to changes, as /dev/serial/by-id does.
   [[nodiscard]] const std::string& path() const noexcept;
 
-  /// The line goes away as if the cable were pulled, and comes back. The device keeps its power.
+  /// The line goes away as if the cable were pulled, and comes back, or throws as above. The device
+  /// keeps its power.
   void unplug();
   void plugIn();
 
