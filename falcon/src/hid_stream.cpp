@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "tandem/coordination/types.h"
+
 #include "settings_check.h"
 
 //   constructor     reader's thread                                          writer's thread
@@ -21,6 +23,10 @@ namespace tandem {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Enough for a force of 8 N to fade by 2 N each, and for one that fails.
+constexpr int kLastReports = 6;
+constexpr std::chrono::milliseconds kLastPeriod{1};
 
 /// So long a reader without reports does not see that the stream ends [s].
 constexpr double kReadWait = 0.02;
@@ -48,7 +54,12 @@ HidStreamSettings checked(const HidStreamSettings& settings) {
 }  // namespace
 
 HidReport HidClient::giveReport(double) noexcept { return {}; }
-HidReport HidClient::giveLastReport() noexcept { return {}; }
+HidReport HidClient::giveLastReport(double) noexcept { return {}; }
+
+HidStreamSettings withoutWriting(HidStreamSettings settings) noexcept {
+  settings.write_period = 0.0;
+  return settings;
+}
 
 HidStream::HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings)
     : open_(std::move(open)), client_(client), settings_(checked(settings)) {
@@ -87,27 +98,41 @@ std::string HidStream::trouble() const {
 
 void HidStream::connect() {
   port_ = open_();
+  if (!port_) throw Error("the HID device's opener gave no port");
   is_gone_ = false;
   {
     const std::lock_guard held(mutex_);
     name_ = port_->name();
     trouble_.clear();
   }
-  if (settings_.write_period > 0.0) writer_ = std::thread([this] { writeUntilGone(); });
   client_.setConnected(true);
+  startWriter();
   is_connected_ = true;
 }
 
+void HidStream::startWriter() {
+  if (settings_.write_period <= 0.0) return;
+  try {
+    writer_ = std::thread([this] { writeUntilGone(); });
+  } catch (...) {
+    client_.setConnected(false);
+    throw;
+  }
+}
+
 bool HidStream::reconnect() noexcept {
+  std::string trouble = "the HID device's opener threw what is no std::exception";
   try {
     connect();
     return true;
   } catch (const std::exception& error) {
-    port_.reset();
-    const std::lock_guard held(mutex_);
-    trouble_ = error.what();
-    return false;
+    trouble = error.what();
+  } catch (...) {  // whatever the caller's function threw, this thread goes on
   }
+  port_.reset();
+  const std::lock_guard held(mutex_);
+  trouble_ = trouble;
+  return false;
 }
 
 void HidStream::disconnect() noexcept {
@@ -144,13 +169,6 @@ void HidStream::readUntilGone() noexcept {
 void HidStream::writeUntilGone() noexcept {
   const Clock::duration period = toDuration(settings_.write_period);
   Clock::time_point next = Clock::now();
-  const auto send = [this](const HidReport& report) {
-    if (report.size == 0) return;
-    if (port_->write(report.bytes.data(), report.size))
-      ++written_;
-    else
-      is_gone_ = true;
-  };
   while (!is_ending_ && !is_gone_) {
     send(client_.giveReport(toSeconds(Clock::now())));
     next += period;
@@ -162,7 +180,23 @@ void HidStream::writeUntilGone() noexcept {
     }
     std::this_thread::sleep_until(next);
   }
-  if (is_ending_) send(client_.giveLastReport());
+  sayLastWords();
+}
+
+/// Also to a device that seems to be gone: it may have missed one report only.
+void HidStream::sayLastWords() noexcept {
+  for (int i = 0; i < kLastReports; ++i) {
+    send(client_.giveLastReport(toSeconds(Clock::now())));
+    std::this_thread::sleep_for(kLastPeriod);
+  }
+}
+
+void HidStream::send(const HidReport& report) noexcept {
+  if (report.size == 0) return;
+  if (port_->write(report.bytes.data(), report.size))
+    ++written_;
+  else
+    is_gone_ = true;
 }
 
 bool HidStream::sleep(double time) noexcept {

@@ -27,11 +27,6 @@ bool isOf(const HidSwitchMap& map, const std::uint8_t* report, std::size_t size)
   return size > 0 && (map.report == 0 || report[0] == map.report);
 }
 
-HidStreamSettings withoutWriting(HidStreamSettings settings) {
-  settings.write_period = 0.0;
-  return settings;
-}
-
 }  // namespace
 
 std::optional<bool> readSwitch(const HidSwitchMap& map, const std::uint8_t* report,

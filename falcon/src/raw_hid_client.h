@@ -62,7 +62,7 @@ class RawHidClient final : public HidClient {
                                                                          : drives  ? kRawHidDrive
                                                                                    : 0));
   }
-  [[nodiscard]] HidReport giveLastReport() noexcept override { return make({}, 0); }
+  [[nodiscard]] HidReport giveLastReport(double) noexcept override { return make({}, 0); }
 
  private:
   [[nodiscard]] HidReport make(const Torques& torques, std::uint8_t flags) noexcept {

@@ -16,11 +16,6 @@ double checkedSilence(double silence) {
   return silence;
 }
 
-HidStreamSettings withoutWriting(HidStreamSettings settings) {
-  settings.write_period = 0.0;
-  return settings;
-}
-
 /// From the device's axes (y towards the user, z down) to the user's (y up, z towards the user).
 Vec3 toUser(const std::array<double, 6>& axes) noexcept { return {axes[0], -axes[2], axes[1]}; }
 

@@ -45,6 +45,11 @@ class FakeHidDevice {
     if (!is_plugged_in) inputs_.clear();
     changed_.notify_all();
   }
+  /// The next so many output reports are not taken, though the device is there.
+  void refuseWrites(int count) {
+    const std::lock_guard held(mutex_);
+    refused_writes_ = count;
+  }
   [[nodiscard]] std::vector<Bytes> outputs() const {
     const std::lock_guard held(mutex_);
     return outputs_;
@@ -89,7 +94,8 @@ class FakeHidDevice {
       const Bytes bytes(report, report + size);
       {
         const std::lock_guard held(device_.mutex_);
-        if (!device_.is_plugged_in_) return false;
+        if (!device_.is_plugged_in_ || device_.refused_writes_-- > 0) return false;
+        device_.refused_writes_ = 0;
         device_.outputs_.push_back(bytes);
       }
       if (device_.on_output) device_.on_output(bytes);
@@ -116,6 +122,7 @@ class FakeHidDevice {
   std::condition_variable changed_;
   std::deque<Bytes> inputs_;
   std::vector<Bytes> outputs_, features_;
+  int refused_writes_ = 0;
   bool is_plugged_in_ = true;
 };
 

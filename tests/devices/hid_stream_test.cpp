@@ -1,5 +1,6 @@
 #include "tandem/falcon/hid_stream.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ class Client final : public HidClient {
   [[nodiscard]] HidReport giveReport(double) noexcept override {
     return test::makeReport({0, ++given_});
   }
-  [[nodiscard]] HidReport giveLastReport() noexcept override {
+  [[nodiscard]] HidReport giveLastReport(double) noexcept override {
     return test::makeReport({0, 0xFF, 0xFF});
   }
   void setConnected(bool is_connected) noexcept override { is_connected ? ++comings : ++goings; }
@@ -91,6 +92,19 @@ TEST(HidStream, WritesInItsPeriodAndSaysTheLastWords) {
   EXPECT_EQ(client.goings, 1);
 }
 
+// The device is there and its motors may be on: it hears of the end also after a bad report.
+TEST(HidStream, AWriteThatFailsIsFollowedByTheLastWords) {
+  FakeHidDevice fake;
+  Client client;
+  HidStream stream(fake.opener(), client, makeQuick(0.001));
+  ASSERT_TRUE(comesTrue([&] { return stream.counters().written >= 3; }));
+  fake.refuseWrites(2);  // the first of the last words, too
+  ASSERT_TRUE(comesTrue([&] { return client.goings == 1; }));
+  ASSERT_TRUE(comesTrue([&] { return stream.isConnected(); }));
+  const std::vector<Bytes> outputs = fake.outputs();
+  EXPECT_NE(std::find(outputs.begin(), outputs.end(), Bytes{0, 0xFF, 0xFF}), outputs.end());
+}
+
 TEST(HidStream, ASlowWriteHoldsUpNoReading) {
   FakeHidDevice fake;
   std::atomic<bool> may_go_on{false};
@@ -123,6 +137,26 @@ TEST(HidStream, ComesBackAfterEveryUnplugging) {
         comesTrue([&] { return client.heard().size() == static_cast<std::size_t>(round); }));
   }
   EXPECT_EQ(stream.name(), "HID fake");
+}
+
+TEST(HidStream, AnOpenerMayThrowAnythingAndGiveNothing) {
+  FakeHidDevice fake;
+  Client client;
+  std::atomic<int> opened{0};
+  const HidOpener open = [&]() -> std::unique_ptr<HidPort> {
+    if (++opened == 2) throw 42;
+    if (opened == 3) return nullptr;
+    return fake.opener()();
+  };
+  HidStream stream(open, client, makeQuick(0.001));
+  fake.setPluggedIn(false);
+  ASSERT_TRUE(comesTrue([&] { return opened >= 4; }));
+  fake.setPluggedIn(true);
+  EXPECT_TRUE(comesTrue([&] { return stream.isConnected(); }));
+  EXPECT_EQ(stream.trouble(), "");
+
+  const HidOpener give_nothing = [] { return std::unique_ptr<HidPort>(); };
+  EXPECT_THROW((void)HidStream(give_nothing, client), Error);
 }
 
 TEST(HidStream, EndsWhileItLooksForTheDevice) {

@@ -100,7 +100,8 @@ TEST_F(RawHidClientTest, CommandsAreNumberedAndTheLastIsOff) {
   EXPECT_EQ(give(0.001).number, first + 1);
   ASSERT_TRUE(hear(0.0));
   client_.command(kTorques);
-  const RawHidCommand last = test::RawHidEmulator::decode(test::bytesOf(client_.giveLastReport()));
+  const RawHidCommand last =
+      test::RawHidEmulator::decode(test::bytesOf(client_.giveLastReport(0.001)));
   EXPECT_EQ(last.number, first + 2);
   EXPECT_EQ(last.flags, 0);
   EXPECT_EQ(last.torques, Torques{});

@@ -27,10 +27,12 @@ class HidClient {
   /// On the writer's thread, once in a write period: what to send now; size 0: nothing.
   [[nodiscard]] virtual HidReport giveReport(double now) noexcept;
 
-  /// The last words to a device that is there, before its port is closed: motors off.
-  [[nodiscard]] virtual HidReport giveLastReport() noexcept;
+  /// On the writer's thread, six times at least a millisecond apart before the port is closed,
+  /// whether the device is still there or not: the way to motors off. Size 0: nothing.
+  [[nodiscard]] virtual HidReport giveLastReport(double now) noexcept;
 
-  /// The device has come, or has gone; never together with takeReport().
+  /// The device has come, or has gone. Never together with takeReport(); there is no writer's
+  /// thread while it comes, while it goes there is.
   virtual void setConnected(bool is_connected) noexcept = 0;
 };
 
@@ -39,6 +41,9 @@ struct HidStreamSettings {
   double first_retry = 0.1;    ///< until an unplugged device is looked for again [s], > 0
   double longest_retry = 2.0;  ///< each try waits twice as long as the last, up to this [s]
 };
+
+/// The same for a device that is only read.
+[[nodiscard]] HidStreamSettings withoutWriting(HidStreamSettings settings) noexcept;
 
 struct HidStreamCounters {
   std::uint64_t reports = 0;       ///< that came
@@ -53,8 +58,8 @@ struct HidStreamCounters {
 /// the device again by itself after it was unplugged.
 class HidStream {
  public:
-  /// Opens the device, or throws what `open` throws. Throws std::invalid_argument for settings out
-  /// of range. The client must outlive the stream.
+  /// Opens the device, or throws what `open` throws, tandem::Error if it gives none. Throws
+  /// std::invalid_argument for settings out of range. The client must outlive the stream.
   HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings = {});
   /// Says the last words, waits for both threads.
   ~HidStream();
@@ -72,11 +77,14 @@ class HidStream {
 
  private:
   void connect();
+  void startWriter();
   [[nodiscard]] bool reconnect() noexcept;
   void disconnect() noexcept;
   void run() noexcept;
   void readUntilGone() noexcept;
   void writeUntilGone() noexcept;
+  void sayLastWords() noexcept;
+  void send(const HidReport& report) noexcept;
   /// False if the stream ends meanwhile.
   [[nodiscard]] bool sleep(double time) noexcept;
 
