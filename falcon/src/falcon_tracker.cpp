@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
+#include "arm_range.h"
+
 namespace tandem {
 namespace {
 
 constexpr double kSlack = 0.0005;         // steps of the encoders, replies that come bunched [m]
 constexpr double kLongestReach = 0.005;   // after a longer gap a far position has jumped, too [s]
 constexpr double kShortestStep = 0.0005;  // velocity is not taken over less [s]
-
-// Arms turn from -0.6 to 1.45 rad where the grip goes; whole turns would look alike.
-constexpr double kLeastAngle = -1.2, kMostAngle = 2.2;
 
 Vec3 anglesOf(const std::array<std::int16_t, 3>& counts) noexcept {
   return {angleOfCounts(counts[0]), angleOfCounts(counts[1]), angleOfCounts(counts[2])};
@@ -33,7 +32,7 @@ void FalconTracker::stop() noexcept {
 FalconTracker::Outcome FalconTracker::take(const std::array<std::int16_t, 3>& counts,
                                            double now) noexcept {
   const Vec3 angles = anglesOf(counts);
-  if (angles.minCoeff() < kLeastAngle || angles.maxCoeff() > kMostAngle) return Outcome::kNone;
+  if (!falcon_detail::areInRange(angles)) return Outcome::kNone;
   const auto pose = pose_ ? kinematics_.computePoseOfAngles(angles, pose_->p_D)
                           : kinematics_.computePoseOfAngles(angles);
   if (!pose) return Outcome::kNone;

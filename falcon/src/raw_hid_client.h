@@ -3,13 +3,25 @@
 #include <atomic>
 #include <limits>
 
+#include "tandem/falcon/falcon_force_gate.h"
 #include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/raw_hid_device.h"
 
 namespace tandem::falcon_detail {
 
+/// What the haptic thread asks for; plain numbers, as they go from thread to thread.
+struct RawHidWish {
+  std::array<double, 3> f_D{};  ///< [N]
+  /// Torques at the arms by force [m], column by column, where the grip is or was last.
+  std::array<double, 9> torques_by_force{};
+  std::uint64_t closures = 0;  ///< that were known when it was made
+  bool is_usable = false;      ///< there is a position, and the force is a number
+};
+
 /// What lies between the haptic thread and the two that carry reports: the newest state, the newest
-/// torques, and the last look at both ages before torques go out.
+/// wish, and the gate that has the last word on the force. The gate is the writer's and goes by its
+/// clock, so that each fault ends in a force that fades and comes back by the ramp, whichever
+/// thread has seen the fault.
 class RawHidClient final : public HidClient {
  public:
   struct Heard {
@@ -17,12 +29,19 @@ class RawHidClient final : public HidClient {
     std::uint64_t count = 0;  ///< reports with a new number
     bool is_connected = false;
   };
-  using Torques = std::array<std::int16_t, 3>;
+
+  explicit RawHidClient(const FalconForceLimits& limits) noexcept : gate_(limits) {}
 
   // The haptic thread's.
   [[nodiscard]] const Heard& newest() noexcept { return heard_.read(); }
-  void command(const Torques& torques) noexcept { commanded_.write(torques); }
+  /// The last one, to be changed and passed on.
+  [[nodiscard]] RawHidWish& nextWish() noexcept { return next_wish_; }
+  void passWishOn() noexcept { wishes_.write(next_wish_); }
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+  /// How often there was a reason to take the force away, also for one report only. Newer than
+  /// newest() if read after it.
+  [[nodiscard]] std::uint64_t closures() const noexcept { return closures_; }
+  void close() noexcept { ++closures_; }
 
   // The reader's.
   [[nodiscard]] bool takeReport(const std::uint8_t* report, std::size_t size,
@@ -34,6 +53,8 @@ class RawHidClient final : public HidClient {
     was_heard_ = true;
     if (!is_first && step == 0) return true;  // a device that repeats itself tells nothing
     if (!is_first) lost_ += step - 1U;
+    const bool was_late = !is_first && now - heard_at_ > RawHidDevice::kFresh;
+    if (was_late || (is_homed_ && !state->isHomed())) close();
     last_.state = *state;
     ++last_.count;
     heard_at_ = now;
@@ -42,6 +63,10 @@ class RawHidClient final : public HidClient {
     return true;
   }
   void setConnected(bool is_connected) noexcept override {
+    if (is_connected)
+      gate_.clear();  // a device that comes has no force that could fade
+    else
+      close();
     was_heard_ = false;
     is_homed_ = false;
     last_.state = {};
@@ -51,35 +76,52 @@ class RawHidClient final : public HidClient {
 
   // The writer's.
   [[nodiscard]] HidReport giveReport(double now) noexcept override {
-    if (commanded_.isNew()) {
-      torques_ = commanded_.read();
-      commanded_at_ = now;
+    if (wishes_.isNew()) {
+      wish_ = wishes_.read();
+      wished_at_ = now;
     }
-    const bool is_homed = is_homed_;
-    const bool drives = is_homed && now - heard_at_ <= RawHidDevice::kFresh &&
-                        now - commanded_at_ <= RawHidDevice::kCommand;
-    return make(drives ? torques_ : Torques{}, static_cast<std::uint8_t>(!is_homed ? kRawHidHome
-                                                                         : drives  ? kRawHidDrive
-                                                                                   : 0));
+    const bool may_drive = mayDrive(now);
+    return make(may_drive, is_homed_ ? std::uint8_t{0} : std::uint8_t{kRawHidHome}, now);
   }
-  [[nodiscard]] HidReport giveLastReport(double) noexcept override { return make({}, 0); }
+  [[nodiscard]] HidReport giveLastReport(double now) noexcept override {
+    return make(false, 0, now);
+  }
 
  private:
-  [[nodiscard]] HidReport make(const Torques& torques, std::uint8_t flags) noexcept {
+  [[nodiscard]] bool mayDrive(double now) noexcept {
+    const std::uint64_t closures = closures_;
+    const bool was_closed = closures != closures_seen_;
+    closures_seen_ = closures;
+    return !was_closed && wish_.is_usable && wish_.closures == closures && is_homed_ &&
+           now - heard_at_ <= RawHidDevice::kFresh && now - wished_at_ <= RawHidDevice::kCommand;
+  }
+
+  /// Without leave to drive the force fades with the motors on; then `idle_flags` are sent.
+  [[nodiscard]] HidReport make(bool may_drive, std::uint8_t idle_flags, double now) noexcept {
+    const Vec3 f_D =
+        gate_.advance(Eigen::Map<const Vec3>(wish_.f_D.data()), now - wished_at_, may_drive, now);
+    const auto torques =
+        makeRawTorques(Eigen::Map<const Eigen::Matrix3d>(wish_.torques_by_force.data()) * f_D);
+    const bool drives = may_drive || torques != std::array<std::int16_t, 3>{};
+    const std::uint8_t flags = drives ? std::uint8_t{kRawHidDrive} : idle_flags;
     return toReport(encodeRawCommand({number_++, torques, flags}));
   }
 
   LatestValue<Heard> heard_;
-  LatestValue<Torques> commanded_;
-  std::atomic<std::uint64_t> lost_{0};
+  LatestValue<RawHidWish> wishes_;
+  std::atomic<std::uint64_t> lost_{0}, closures_{0};
+
+  RawHidWish next_wish_;  // the haptic thread's
 
   Heard last_;  // the reader's
   bool was_heard_ = false;
   std::atomic<bool> is_homed_{false};  // from the reader to the writer, with the time
   std::atomic<double> heard_at_{-std::numeric_limits<double>::infinity()};
 
-  Torques torques_{};  // the writer's
-  double commanded_at_ = -std::numeric_limits<double>::infinity();
+  FalconForceGate gate_;  // the writer's
+  RawHidWish wish_;
+  double wished_at_ = -std::numeric_limits<double>::infinity();
+  std::uint64_t closures_seen_ = 0;
   std::uint16_t number_ = 0;
 };
 

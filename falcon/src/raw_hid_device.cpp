@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "arm_range.h"
 #include "raw_hid_client.h"
 #include "settings_check.h"
 
@@ -35,12 +36,27 @@ RawHidSettings checked(RawHidSettings settings) {
   return settings;
 }
 
+FalconForceLimits makeLimits(const RawHidSettings& settings) noexcept {
+  FalconForceLimits limits;
+  limits.max_force = settings.max_force;
+  limits.max_slew = kMostSlew;
+  limits.ramp_in = settings.ramp_in;
+  limits.hold = RawHidDevice::kCommand;
+  limits.fade = 0.0;  // it is closed then: by the slew
+  return limits;
+}
+
+/// Torques of a force of 1 N along each axis. Not finite where the legs are stretched.
+Eigen::Matrix3d computeTorquesByForce(const FalconPose& pose) noexcept {
+  return pose.dangles_dp.transpose().inverse();
+}
+
 }  // namespace
 
 RawHidDevice::RawHidDevice(HidOpener open, const RawHidSettings& settings)
     : settings_(checked(settings)),
       kinematics_(settings.geometry),
-      client_(std::make_unique<RawHidClient>()),
+      client_(std::make_unique<RawHidClient>(makeLimits(settings_))),
       stream_(std::make_unique<HidStream>(std::move(open), *client_, settings_.stream)) {
   capabilities_.name = "raw HID";
   capabilities_.max_force = settings_.max_force;
@@ -54,18 +70,20 @@ const DeviceCapabilities& RawHidDevice::capabilities() const noexcept { return c
 
 DeviceSample RawHidDevice::read(double now) noexcept {
   const RawHidClient::Heard& heard = client_->newest();
-  now_ = now;
+  const std::uint64_t closures = client_->closures();
+  const bool was_closed = closures != closures_;
+  closures_ = closures;
+  if (was_closed) pose_.reset();  // what comes now is no motion of the grip
   if (heard.count != heard_) {
     heard_ = heard.count;
     heard_at_ = now;
     takeState(heard.state);
   }
   if (!heard.is_connected || !(now - heard_at_ <= kFresh)) pose_.reset();
-  if (!pose_) {
-    valid_since_.reset();
-    return {};
-  }
-  if (!valid_since_) valid_since_ = now;
+  const bool was_usable = is_usable_;
+  is_usable_ = pose_ && !was_closed;
+  if (was_usable && !is_usable_ && !was_closed) client_->close();
+  if (!is_usable_) return {};
   const Quat& q_WD = settings_.q_WD;
   return {{q_WD * (pose_->p_D - settings_.origin_D), q_WD * v_D_}, true};
 }
@@ -76,7 +94,10 @@ void RawHidDevice::takeState(const RawHidState& state) noexcept {
   time_us_ = state.time_us;
   const FalconAngles angles(angleOfCounts(state.counts[0]), angleOfCounts(state.counts[1]),
                             angleOfCounts(state.counts[2]));
-  pose_ = state.isHomed() ? kinematics_.computePoseOfAngles(angles) : std::nullopt;
+  pose_ = state.isHomed() && falcon_detail::areInRange(angles)
+              ? kinematics_.computePoseOfAngles(angles)
+              : std::nullopt;
+  if (pose_ && !computeTorquesByForce(*pose_).allFinite()) pose_.reset();
   device_time_ += step;
   if (!last || step <= 0.0 || step > kLongestStep) count_rates_.clear();
   const Vec3 counts(state.counts[0], state.counts[1], state.counts[2]);
@@ -86,18 +107,14 @@ void RawHidDevice::takeState(const RawHidState& state) noexcept {
 }
 
 void RawHidDevice::write(const Vec3& f_W) noexcept {
-  std::optional<Vec3> torques;
-  if (pose_) torques = computeTorques(*pose_, settings_.q_WD.conjugate() * limit(f_W));
-  client_->command(makeRawTorques(torques.value_or(Vec3::Zero())));
-}
-
-Vec3 RawHidDevice::limit(const Vec3& f_W) const noexcept {
-  if (!f_W.allFinite() || !valid_since_) return Vec3::Zero();
-  const double age = now_ - *valid_since_;
-  const double ramp = age < settings_.ramp_in ? std::max(age, 0.0) / settings_.ramp_in : 1.0;
-  const double norm = f_W.stableNorm();
-  return norm > settings_.max_force ? Vec3(f_W * (ramp * settings_.max_force / norm))
-                                    : Vec3(ramp * f_W);
+  falcon_detail::RawHidWish& wish = client_->nextWish();
+  wish.is_usable = is_usable_ && f_W.allFinite();
+  wish.closures = closures_;
+  if (wish.is_usable) {  // else the force fades where the grip was last
+    Eigen::Map<Vec3>(wish.f_D.data()) = settings_.q_WD.conjugate() * f_W;
+    Eigen::Map<Eigen::Matrix3d>(wish.torques_by_force.data()) = computeTorquesByForce(*pose_);
+  }
+  client_->passWishOn();
 }
 
 RawHidStatus RawHidDevice::status() {

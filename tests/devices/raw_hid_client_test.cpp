@@ -3,88 +3,173 @@
 #include <gtest/gtest.h>
 
 #include "devices/raw_hid_emulator.h"
+#include "support/random.h"
 
-// Both ages to the microsecond, in a time that is told; raw_hid_device_test.cpp has the threads.
+// Ages, fades and ramps to the microsecond, in a time that is told; raw_hid_device_test.cpp has the
+// threads. The arms are 50 mm long and along the axes: 1000 of a torque are 1 N. In all tests no
+// report goes beyond 8 N or changes the force by more than 2 N.
 
 namespace tandem {
 namespace {
 
-using Torques = falcon_detail::RawHidClient::Torques;
+constexpr double kArm = 0.05;  // [m]
+constexpr double kCount = kRawHidTorque / kArm;
+const Vec3 kFull(8.0, 0.0, 0.0);
 
-constexpr Torques kTorques{100, -200, 300};
+struct Given {
+  Vec3 f_D;
+  int flags;
+  std::uint16_t number;
+};
 
 class RawHidClientTest : public testing::Test {
  protected:
-  RawHidClientTest() { client_.setConnected(true); }
+  explicit RawHidClientTest(double ramp_in = 0.0)
+      : client_({8.0, 2000.0, ramp_in, RawHidDevice::kCommand, 0.0}) {
+    client_.setConnected(true);
+  }
 
   [[nodiscard]] bool hear(double now) {
     const test::Bytes report = emulator_.next();
     return client_.takeReport(report.data(), report.size(), now);
   }
-  [[nodiscard]] RawHidCommand give(double now) {
-    return test::RawHidEmulator::decode(test::bytesOf(client_.giveReport(now)));
+  void wish(const Vec3& f_D, bool is_usable = true) {
+    falcon_detail::RawHidWish& wish = client_.nextWish();
+    Eigen::Map<Vec3>(wish.f_D.data()) = f_D;
+    Eigen::Map<Eigen::Matrix3d>(wish.torques_by_force.data()) = kArm * Eigen::Matrix3d::Identity();
+    wish.closures = client_.closures();
+    wish.is_usable = is_usable;
+    client_.passWishOn();
   }
-  [[nodiscard]] bool drives(double now) {
-    const RawHidCommand command = give(now);
-    EXPECT_EQ(command.torques, command.flags == kRawHidDrive ? kTorques : Torques{});
-    return command.flags == kRawHidDrive;
+  Given take(const HidReport& report) {
+    const RawHidCommand command = test::RawHidEmulator::decode(test::bytesOf(report));
+    const auto& torques = command.torques;
+    const Vec3 f_D = kCount * Vec3(torques[0], torques[1], torques[2]);
+    EXPECT_LE(f_D.norm(), 8.0 + 2 * kCount);
+    EXPECT_LE((f_D - f_D_).norm(), 2.0 + 4 * kCount);
+    f_D_ = f_D;
+    return {f_D, command.flags, command.number};
+  }
+  Given give(double now) { return take(client_.giveReport(now)); }
+  Given giveLast(double now) { return take(client_.giveLastReport(now)); }
+
+  /// Each millisecond a report, a wish for the full force, a command; the last one.
+  Given run(double from, double to) {
+    Given given{};
+    for (double now = from; now < to - 1e-9; now += 1e-3) {
+      EXPECT_TRUE(hear(now));
+      wish(kFull);
+      given = give(now);
+    }
+    return given;
+  }
+  /// After `now` nothing more comes: four reports on the way to zero, then `flags`.
+  void expectFadeFrom(double now, int flags) {
+    for (int i = 1; i <= 3; ++i) {
+      const Given given = give(now + i * 1e-3);
+      EXPECT_EQ(given.flags, kRawHidDrive) << i;
+      EXPECT_GT(given.f_D.x(), 0.0) << i;
+    }
+    const Given off = give(now + 4e-3);
+    EXPECT_EQ(off.f_D, Vec3(Vec3::Zero()));
+    EXPECT_EQ(off.flags, flags);
   }
 
   falcon_detail::RawHidClient client_;
   test::RawHidEmulator emulator_;
+  Vec3 f_D_ = Vec3::Zero();  ///< of the last report
+};
+
+class RawHidRampTest : public RawHidClientTest {
+ protected:
+  RawHidRampTest() : RawHidClientTest(0.5) {}
+
+  /// From `now` on all is well: the force is gone at once, and comes back by the ramp.
+  void expectRampFrom(double now) {
+    for (int i = 0; i <= 500; ++i) {
+      const double f = run(now + i * 1e-3, now + (i + 1) * 1e-3).f_D.x();
+      if (i >= 5) {
+        EXPECT_NEAR(f, 8.0 * i / 500.0, 0.05) << i << " ms";
+      }
+    }
+  }
 };
 
 TEST_F(RawHidClientTest, DrivesForTwentyMillisecondsAfterAReport) {
-  ASSERT_TRUE(hear(0.0));
-  client_.command(kTorques);
-  EXPECT_TRUE(drives(0.0));
-  EXPECT_TRUE(drives(0.020));
-  EXPECT_FALSE(drives(0.020001));
-  ASSERT_TRUE(hear(0.021));
-  EXPECT_TRUE(drives(0.022));
+  EXPECT_EQ(run(0.0, 0.005).f_D, kFull);  // the last report at 4 ms
+  wish(kFull);
+  EXPECT_EQ(give(0.023999).f_D, kFull);
+  EXPECT_LT(give(0.024002).f_D.x(), 8.0);
+  expectFadeFrom(0.024002, 0);
+  ASSERT_TRUE(hear(0.030));
+  wish(kFull);
+  (void)give(0.030);  // it is known that there was a gap
+  EXPECT_GT(give(0.031).f_D.x(), 0.0);
 }
 
 TEST_F(RawHidClientTest, DrivesForFiftyMillisecondsAfterACommand) {
-  client_.command(kTorques);
-  ASSERT_TRUE(hear(0.0));
-  EXPECT_TRUE(drives(0.0));
-  ASSERT_TRUE(hear(0.045));
-  EXPECT_TRUE(drives(0.050));
-  EXPECT_FALSE(drives(0.050001));
-  client_.command(kTorques);
-  EXPECT_TRUE(drives(0.060)) << "the same torques again are a command, too";
+  (void)run(0.0, 0.005);
+  for (int i = 1; i <= 5; ++i) ASSERT_TRUE(hear(0.004 + 0.01 * i));
+  EXPECT_EQ(give(0.053999).f_D, kFull);
+  EXPECT_LT(give(0.054002).f_D.x(), 8.0);
+  expectFadeFrom(0.054002, 0);
+  wish(kFull);
+  (void)give(0.060);
+  EXPECT_GT(give(0.061).f_D.x(), 0.0) << "the same force again is a command, too";
 }
 
 TEST_F(RawHidClientTest, ADeviceThatRepeatsItselfGrowsOld) {
+  (void)run(0.0, 0.004);
   const test::Bytes report = emulator_.next();
-  client_.command(kTorques);
-  EXPECT_TRUE(client_.takeReport(report.data(), report.size(), 0.0));
+  EXPECT_TRUE(client_.takeReport(report.data(), report.size(), 0.004));
   EXPECT_TRUE(client_.takeReport(report.data(), report.size(), 0.015));
-  EXPECT_TRUE(drives(0.020));
-  EXPECT_FALSE(drives(0.021));
+  EXPECT_EQ(give(0.023).f_D, kFull);
+  expectFadeFrom(0.0245, 0);
+}
+
+TEST_F(RawHidClientTest, AForceTurnsRoundByTwoNewtonsAReport) {
+  (void)run(0.0, 0.01);
+  for (int i = 1; i <= 8; ++i) {
+    ASSERT_TRUE(hear(0.01 + i * 1e-3));
+    wish(-kFull);
+    EXPECT_NEAR(give(0.01 + i * 1e-3).f_D.x(), 10.0 - 2.0 * i, 2.0 + kCount);
+  }
+  EXPECT_NEAR(f_D_.x(), -6.0, 2.0);
+}
+
+TEST_F(RawHidClientTest, WithoutAPositionTheForceFades) {
+  (void)run(0.0, 0.01);
+  wish(kFull, false);
+  expectFadeFrom(0.0091, 0);
 }
 
 TEST_F(RawHidClientTest, LooksForTheIndexMarksUntilHomed) {
   EXPECT_EQ(give(0.0).flags, kRawHidHome) << "nothing is known";
   emulator_.setHomed(false);
   ASSERT_TRUE(hear(0.0));
-  client_.command(kTorques);
-  EXPECT_EQ(give(0.001).flags, kRawHidHome);
-  EXPECT_EQ(give(0.001).torques, Torques{});
+  wish(kFull);
+  const Given unhomed = give(0.001);
+  EXPECT_EQ(unhomed.flags, kRawHidHome);
+  EXPECT_EQ(unhomed.f_D, Vec3(Vec3::Zero()));
   emulator_.setHomed(true);
   ASSERT_TRUE(hear(0.002));
-  EXPECT_TRUE(drives(0.003));
+  EXPECT_EQ(give(0.003).flags, kRawHidDrive);
+  (void)run(0.004, 0.014);
+  emulator_.setHomed(false);
+  ASSERT_TRUE(hear(0.014));
+  expectFadeFrom(0.0131, kRawHidHome);
 }
 
 TEST_F(RawHidClientTest, UnpluggedItForgets) {
-  ASSERT_TRUE(hear(0.0));
-  client_.command(kTorques);
-  ASSERT_TRUE(drives(0.0));
+  EXPECT_EQ(run(0.0, 0.005).f_D, kFull);
   client_.setConnected(false);
-  EXPECT_FALSE(drives(0.001));
+  EXPECT_LT(give(0.005).f_D.x(), 8.0);
+  f_D_.setZero();  // who is plugged in has no force
   client_.setConnected(true);
-  EXPECT_FALSE(drives(0.002));
-  EXPECT_FALSE(client_.newest().state.isHomed());
+  EXPECT_EQ(give(0.006).f_D, Vec3(Vec3::Zero()));
+  ASSERT_TRUE(hear(0.006));
+  EXPECT_EQ(give(0.007).f_D, Vec3(Vec3::Zero())) << "the wish is from before";
+  EXPECT_GT(run(0.008, 0.010).f_D.x(), 0.0);
 }
 
 TEST_F(RawHidClientTest, CountsNumbersThatAreMissingAlsoWhereTheyWrap) {
@@ -95,16 +180,73 @@ TEST_F(RawHidClientTest, CountsNumbersThatAreMissingAlsoWhereTheyWrap) {
   EXPECT_EQ(client_.lost(), 9U);
 }
 
-TEST_F(RawHidClientTest, CommandsAreNumberedAndTheLastIsOff) {
+TEST_F(RawHidClientTest, CommandsAreNumberedAndTheLastAreTheWayToOff) {
   const std::uint16_t first = give(0.0).number;
-  EXPECT_EQ(give(0.001).number, first + 1);
-  ASSERT_TRUE(hear(0.0));
-  client_.command(kTorques);
-  const RawHidCommand last =
-      test::RawHidEmulator::decode(test::bytesOf(client_.giveLastReport(0.001)));
-  EXPECT_EQ(last.number, first + 2);
-  EXPECT_EQ(last.flags, 0);
-  EXPECT_EQ(last.torques, Torques{});
+  EXPECT_EQ(run(0.001, 0.007).f_D, kFull);
+  EXPECT_EQ(giveLast(0.007).number, first + 7);
+  EXPECT_GT(f_D_.x(), 0.0);
+  for (int i = 1; i <= 2; ++i) EXPECT_EQ(giveLast(0.007 + i * 1e-3).flags, kRawHidDrive);
+  for (int i = 3; i <= 5; ++i) {
+    const Given off = giveLast(0.0071 + i * 1e-3);
+    EXPECT_EQ(off.flags, 0);
+    EXPECT_EQ(off.f_D, Vec3(Vec3::Zero()));
+  }
+}
+
+TEST_F(RawHidRampTest, AStartAndEachFaultBeginTheRamp) {
+  expectRampFrom(0.0);
+  EXPECT_EQ(f_D_, kFull);
+  ASSERT_TRUE(hear(0.5205)) << "the writer has not looked since 500 ms";
+  expectRampFrom(0.521);
+  wish(kFull, false);
+  (void)give(1.022);
+  expectRampFrom(1.023);
+  (void)give(1.575);  // the site has stood
+  expectRampFrom(1.576);
+}
+
+// Two reports between two commands: neither the haptic thread nor the writer sees the first.
+TEST_F(RawHidRampTest, HomingThatIsLostForOneReportBeginsTheRamp) {
+  expectRampFrom(0.0);
+  emulator_.setHomed(false);
+  ASSERT_TRUE(hear(0.5011));
+  emulator_.setHomed(true);
+  ASSERT_TRUE(hear(0.5012));
+  expectRampFrom(0.502);
+}
+
+TEST_F(RawHidRampTest, AWishFromBeforeAFaultIsNotRendered) {
+  expectRampFrom(0.0);
+  emulator_.setHomed(false);
+  ASSERT_TRUE(hear(0.5011));
+  emulator_.setHomed(true);
+  ASSERT_TRUE(hear(0.5012));
+  for (int i = 2; i < 20; ++i) (void)give(0.5 + i * 1e-3);
+  EXPECT_EQ(f_D_, Vec3(Vec3::Zero()));
+  expectRampFrom(0.521);
+}
+
+// Whatever comes and goes: take() looks at bounds and changes, and what is wrong ends in zero.
+TEST_F(RawHidRampTest, NoTroubleMakesAJump) {
+  constexpr std::uint64_t kSeed = 1612;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  double now = 0.0;
+  for (int round = 0; round < 200; ++round) {
+    const int length = 1 + random.below(700), trouble = random.below(5);
+    const Vec3 f_D = random.inCube(20.0);
+    for (int i = 0; i < length; ++i, now += random.uniform(0.2e-3, 1.5e-3)) {
+      emulator_.setHomed(trouble != 1);
+      if (trouble != 2) {
+        ASSERT_TRUE(hear(now));
+      }
+      if (trouble != 3) wish(f_D, trouble != 4);
+      (void)give(now);
+    }
+    if (trouble != 0 && length > 400) {
+      EXPECT_EQ(f_D_, Vec3(Vec3::Zero())) << trouble;
+    }
+  }
 }
 
 }  // namespace

@@ -68,6 +68,24 @@ class RawHidDeviceTest : public testing::Test {
 
 bool isDriven(const RawHidCommand& command) { return command.torques != Torques{}; }
 
+/// What a command's torques push with in the centre, in the device's frame [N].
+Vec3 forceOf(const RawHidCommand& command) {
+  const auto& torques = command.torques;
+  const auto pose = FalconKinematics().computePose(kCentre_D);
+  return kRawHidTorque * pose->dangles_dp.transpose() * Vec3(torques[0], torques[1], torques[2]);
+}
+
+/// Whatever went out: no force beyond 8 N, no change by more than 2 N; rounding aside.
+void expectCalm(const FakeHidDevice& fake) {
+  Vec3 last = Vec3::Zero();
+  for (const test::Bytes& output : fake.outputs()) {
+    const Vec3 f_D = forceOf(RawHidEmulator::decode(output));
+    EXPECT_LE(f_D.norm(), 8.01);
+    EXPECT_LE((f_D - last).norm(), 2.1);  // a count of the encoder turns 8 N by less than 1 %
+    last = f_D;
+  }
+}
+
 TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
   RawHidDevice device(fake_.opener(), turned());
   EXPECT_FALSE(device.read(0.0).valid) << "nothing has come";
@@ -83,10 +101,15 @@ TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
 TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
   RawHidDevice device(fake_.opener(), turned());
   DeviceSample sample;
-  for (int i = 0; i < 200; ++i) {
-    emulator_.holdAt(kCentre_D + Vec3(0.0, 1e-4 * (i - 100), 0.0));
-    tell(device, emulator_.next(2000));  // 0.05 m/s
-    sample = device.read(1e-3 * i);      // the site's clock runs at another speed
+  // A busy machine may leave gaps of 20 ms, after which the velocity begins anew.
+  for (int round = 0, gaps = 1; gaps > 0 && round < 100; ++round) {
+    gaps = round == 0 ? 1 : 0;
+    for (int i = 0; i < 200; ++i) {
+      emulator_.holdAt(kCentre_D + Vec3(0.0, 1e-4 * (i - 100), 0.0));
+      tell(device, emulator_.next(2000));   // 0.05 m/s
+      sample = device.read(time_ += 1e-3);  // the site's clock runs at another speed
+      if (!sample.valid) ++gaps;
+    }
   }
   ASSERT_TRUE(sample.valid);
   // A count is 48 um at most: in windows of 8 ms the usual estimator is off by some mm/s.
@@ -95,7 +118,10 @@ TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
 
 TEST_F(RawHidDeviceTest, AForceArrivesAsTheTorquesThatMakeIt) {
   RawHidDevice device(fake_.opener(), turned());
-  ASSERT_TRUE(driveUntil(device, Vec3(1.0, -2.0, 3.0), &isDriven));
+  const auto isWhole = [](const RawHidCommand& c) {
+    return std::abs(forceOf(c).norm() - std::sqrt(14.0)) < 0.02;
+  };
+  ASSERT_TRUE(driveUntil(device, Vec3(1.0, -2.0, 3.0), isWhole));
   const auto pose = FalconKinematics().computePose(kCentre_D);
   const Vec3 expected = *computeTorques(*pose, Vec3(1.0, 3.0, 2.0)) / kRawHidTorque;
   for (int i = 0; i < 3; ++i)  // a count of the encoder turns the force by less than 1 %
@@ -127,8 +153,39 @@ TEST_F(RawHidDeviceTest, AnOldReplyIsNotValidInTheSitesTime) {
   EXPECT_FALSE(device.read(0.0201).valid);
   tell(device, report);
   EXPECT_FALSE(device.read(0.021).valid) << "a device that repeats itself is not fresh";
+  double now = 0.021;
+  EXPECT_TRUE(comesTrue([&] {
+    tell(device, emulator_.next());
+    return device.read(now += 0.001).valid;
+  }));
+}
+
+// After one that is not homed, or that comes late, though the newest one is good.
+TEST_F(RawHidDeviceTest, OneSampleIsNotValidAfterAFaultThatItDoesNotShow) {
+  RawHidDevice device(fake_.opener(), settings());
   tell(device, emulator_.next());
-  EXPECT_TRUE(device.read(0.022).valid);
+  ASSERT_TRUE(device.read(0.0).valid);
+  emulator_.setHomed(false);
+  tell(device, emulator_.next());
+  emulator_.setHomed(true);
+  tell(device, emulator_.next());
+  EXPECT_FALSE(device.read(0.001).valid);
+  const DeviceSample sample = device.read(0.002);
+  EXPECT_TRUE(sample.valid);
+  EXPECT_EQ(sample.hip.v_W, Vec3(Vec3::Zero()));
+}
+
+// Their position would look as good.
+TEST_F(RawHidDeviceTest, ArmsAWholeTurnOffAreNoPosition) {
+  for (std::size_t leg = 0; leg < 3; ++leg)
+    for (const int turn : {-9880, 9880}) {
+      RawHidDevice device(fake_.opener(), settings());
+      emulator_.holdAt(kCentre_D);
+      emulator_.turn(leg, turn);
+      tell(device, emulator_.next());
+      EXPECT_FALSE(device.read(0.0).valid) << leg << " by " << turn;
+      sent_ = 0;
+    }
 }
 
 TEST_F(RawHidDeviceTest, TheWriterGoesToZeroWhenRepliesOrTicksEnd) {
@@ -152,44 +209,48 @@ TEST_F(RawHidDeviceTest, AForceIsClampedAndNeverNotFinite) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   RawHidDevice device(fake_.opener(), settings());
   EXPECT_EQ(device.capabilities().max_force, 8.0);
-  ASSERT_TRUE(driveUntil(device, Vec3(8, 0, 0), &isDriven));
-  const Torques full = seen_.torques;
-  ASSERT_TRUE(driveUntil(device, Vec3(1, 0, 0), [&](const auto& c) { return c.torques != full; }));
-  ASSERT_TRUE(
-      driveUntil(device, Vec3(1e300, 0, 0), [&](const auto& c) { return c.torques == full; }));
+  const auto isFull = [](const RawHidCommand& c) { return forceOf(c).norm() > 7.95; };
+  for (const Vec3& large : {Vec3(8, 0, 0), Vec3(-100, 0, 0), Vec3(0, 1e300, 0)})
+    ASSERT_TRUE(driveUntil(device, large, [&](const RawHidCommand& c) {
+      return isFull(c) && forceOf(c).dot(large) > 0.0;
+    }));
   for (const Vec3& bad : {Vec3(kNan, 0, 0), Vec3(0, 0, std::numeric_limits<double>::infinity())}) {
+    ASSERT_TRUE(driveUntil(device, Vec3(8, 0, 0), isFull));
     EXPECT_TRUE(driveUntil(device, bad, [](const auto& c) { return c.torques == Torques{}; }));
-    ASSERT_TRUE(driveUntil(device, Vec3(1, 0, 0), &isDriven));
   }
+  expectCalm(fake_);
 }
 
-TEST_F(RawHidDeviceTest, FullForceComesAfterTheRamp) {
+TEST_F(RawHidDeviceTest, HomingThatGoesAndComesChangesTheForceByTwoNewtonsAReport) {
+  RawHidDevice device(fake_.opener(), settings());
+  const auto isFull = [](const RawHidCommand& c) { return forceOf(c).norm() > 7.95; };
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_TRUE(driveUntil(device, Vec3(0, 0, 8), isFull));
+    emulator_.setHomed(false);
+    ASSERT_TRUE(driveUntil(device, Vec3(0, 0, 8),
+                           [](const RawHidCommand& c) { return c.flags == kRawHidHome; }));
+    emulator_.setHomed(true);
+  }
+  expectCalm(fake_);
+}
+
+TEST_F(RawHidDeviceTest, AfterTheStartThereIsARamp) {
   RawHidSettings slow = settings();
-  slow.ramp_in = 0.5;
+  slow.ramp_in = 3600.0;
   RawHidDevice device(fake_.opener(), slow);
-  std::int16_t largest = 0;
-  const auto find = [&](double f) {
-    const auto torques =
-        makeRawTorques(*computeTorques(*FalconKinematics().computePose(kCentre_D), Vec3(0, 0, f)));
-    return torques[0];
-  };
-  const std::int16_t full = find(8.0);
-  ASSERT_TRUE(driveUntil(device, Vec3(0, 0, 8), [&](const RawHidCommand& c) {
-    // Of the time that has gone since the first tick, at most.
-    EXPECT_LE(std::abs(c.torques[0]), std::abs(full) * (time_ / 0.5) * 1.02 + 1);
-    largest = std::max<std::int16_t>(largest, static_cast<std::int16_t>(std::abs(c.torques[0])));
-    return std::abs(c.torques[0]) >= 0.98 * std::abs(full);
-  }));
-  EXPECT_GE(time_, 0.49);
+  ASSERT_TRUE(driveUntil(device, Vec3(0, 0, 8), &isDriven));
+  EXPECT_LT(forceOf(seen_).norm(), 0.08) << "36 s of it have not gone yet";
 }
 
 TEST_F(RawHidDeviceTest, TheLastWordIsMotorsOff) {
   {
     RawHidDevice device(fake_.opener(), settings());
-    ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
+    ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0),
+                           [](const RawHidCommand& c) { return forceOf(c).norm() > 4.9; }));
   }
   EXPECT_EQ(last().torques, Torques{});
   EXPECT_EQ(last().flags, 0);
+  expectCalm(fake_);
 }
 
 TEST_F(RawHidDeviceTest, UnpluggedItIsNotValidAndBeginsAnew) {

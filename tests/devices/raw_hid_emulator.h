@@ -18,6 +18,10 @@ class RawHidEmulator {
       state_.counts[static_cast<std::size_t>(i)] =
           static_cast<std::int16_t>(std::lround(countsOfAngle((*angles)[i])));
   }
+  /// An arm's counts from now on are off by so many.
+  void turn(std::size_t leg, int counts) {
+    state_.counts[leg] = static_cast<std::int16_t>(state_.counts[leg] + counts);
+  }
   void setHomed(bool is_homed) { state_.homed = is_homed ? 7 : 3; }
 
   /// The next state, `step_us` after the last one.

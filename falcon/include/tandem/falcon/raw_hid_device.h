@@ -35,12 +35,17 @@ struct RawHidStatus {
 
 /// A haptic device with the Falcon's legs that speaks raw_hid_report.h.
 ///
-/// Safe without anybody's help: no force unless all legs have found their index and the last report
-/// with a new number is at most 20 ms old; none 50 ms after the last write(); none for what is not
-/// finite; never more than max_force; full force only after ramp_in; motors off as the last word.
-/// The thread that writes looks after both ages by its own clock, whatever becomes of the haptic
-/// thread; the device must do the same (docs/hid.md). read() and write() are wait-free and do not
-/// allocate; one thread uses them.
+/// Safe without anybody's help: no force unless all legs have found their index, the counts are
+/// those of arms in their range, and the last report with a new number is at most 20 ms old; none
+/// from 50 ms after the last write() on; none for what is not finite. Force is never more than
+/// max_force and changes by at most 2 N in a millisecond and a report, also on the way to zero
+/// (4 ms from 8 N, then motors off). After a start, and after any of these faults, be it for one
+/// report, it comes back over ramp_in, and one sample is not valid. The last words are the same
+/// way to motors off.
+///
+/// All this is done by the thread that writes and by its own clock, whatever becomes of the haptic
+/// thread; the device must have a watchdog of its own (docs/hid.md). read() and write() are
+/// wait-free and do not allocate; one thread uses them.
 class RawHidDevice final : public HapticDevice {
  public:
   static constexpr double kFresh = 0.020;    ///< [s]
@@ -53,6 +58,7 @@ class RawHidDevice final : public HapticDevice {
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override;
   /// Not valid unless homed, fresh and within reach of the legs.
   [[nodiscard]] DeviceSample read(double now) noexcept override;
+  /// For the grip as read() has last seen it.
   void write(const Vec3& f_W) noexcept override;
 
   /// From the thread that reads; takes a lock and allocates.
@@ -60,7 +66,6 @@ class RawHidDevice final : public HapticDevice {
 
  private:
   void takeState(const RawHidState& state) noexcept;
-  [[nodiscard]] Vec3 limit(const Vec3& f_W) const noexcept;
 
   RawHidSettings settings_;
   DeviceCapabilities capabilities_;
@@ -69,11 +74,12 @@ class RawHidDevice final : public HapticDevice {
   std::optional<FalconPose> pose_;  ///< of the newest report; nothing: unusable
   AdaptiveWindow count_rates_ = makeUsualVelocityEstimator();
   Vec3 v_D_ = Vec3::Zero();
-  double device_time_ = 0.0;           ///< of the pose, by the device's clock, from some moment [s]
-  std::uint32_t time_us_ = 0;          ///< of the pose, by the device's clock
-  std::uint64_t heard_ = 0;            ///< reports seen
-  double now_ = 0.0, heard_at_ = 0.0;  ///< by the clock that read() is told
-  std::optional<double> valid_since_;
+  double device_time_ = 0.0;    ///< of the pose, by the device's clock, from some moment [s]
+  std::uint32_t time_us_ = 0;   ///< of the pose, by the device's clock
+  std::uint64_t heard_ = 0;     ///< reports seen
+  std::uint64_t closures_ = 0;  ///< of the client, that are known here
+  double heard_at_ = 0.0;       ///< by the clock that read() is told
+  bool is_usable_ = false;      ///< the last sample was valid
 
   std::unique_ptr<falcon_detail::RawHidClient> client_;  // outlives the stream
   std::unique_ptr<HidStream> stream_;
