@@ -1,5 +1,6 @@
 #include "tandem/falcon/space_mouse_device.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,9 @@
 
 namespace tandem {
 namespace {
+
+/// A site that has stood for longer lets the point go on from where it was, without a jump [s].
+constexpr double kLongestStep = 0.02;
 
 double checkedSilence(double silence) {
   falcon_detail::require(std::isfinite(silence) && silence > 0.0, "silence of the SpaceMouse",
@@ -84,7 +88,7 @@ DeviceSample SpaceMouseDevice::read(double now) noexcept {
   }
   const bool is_silent = now - heard_at_ > silence_;
   motion_.setDisplacement(is_silent ? Vec3(Vec3::Zero()) : toUser(sum.state.axes));
-  motion_.advance(interval);
+  motion_.advance(std::min(interval, kLongestStep));
   return {motion_.point(), true};
 }
 

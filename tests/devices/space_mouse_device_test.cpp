@@ -79,9 +79,25 @@ TEST_P(SpaceMouseDeviceTest, SilenceOfASecondEndsTheMotion) {
   SpaceMouseDevice device(fake_.opener(), settings());
   emulator_.move({35, 0, 0, 0, 0, 0});
   tell(device, 0.0);
-  (void)device.read(0.0);
-  EXPECT_GT(device.read(0.999).hip.v_W.x(), 0.007);
-  EXPECT_NEAR(device.read(2.0).hip.v_W.x(), 0.0, 1e-12);
+  DeviceSample sample;
+  int tick = 0;
+  for (; tick < 1000; ++tick) sample = device.read(tick * 1e-3);
+  EXPECT_GT(sample.hip.v_W.x(), 0.007);
+  for (; tick < 2000; ++tick) sample = device.read(tick * 1e-3);
+  EXPECT_NEAR(sample.hip.v_W.x(), 0.0, 1e-12);
+}
+
+// The user has not seen the point move meanwhile.
+TEST_P(SpaceMouseDeviceTest, AfterASiteHasStoodThePointGoesOnFromWhereItWas) {
+  SpaceMouseDevice device(fake_.opener(), settings());
+  emulator_.move({350, 0, 0, 0, 0, 0});
+  DeviceSample sample;
+  for (int tick = 0; tick < 300; ++tick) {
+    tell(device, tick * 1e-3);
+    sample = device.read(tick * 1e-3);
+  }
+  tell(device, 1.3);
+  EXPECT_LE(device.read(1.3).hip.p_W.x() - sample.hip.p_W.x(), 0.15 * 0.020 + 1e-12);
 }
 
 TEST_P(SpaceMouseDeviceTest, UnpluggedItStandsAndIsNotValidUntilItIsBack) {

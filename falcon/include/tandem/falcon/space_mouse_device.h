@@ -29,7 +29,8 @@ struct SpaceMouseStatus {
 /// interface point (RateControl), so that a second user needs no haptic device. Turns of the cap
 /// are in the status only. Unplugged it stops at once and reads as not valid until it is back.
 ///
-/// read() runs in the time that it is told; it and write() are wait-free. Neither allocates.
+/// read() runs in the time that it is told, of which a step counts 20 ms at most: after a site has
+/// stood the point goes on from where it was. It and write() are wait-free. Neither allocates.
 class SpaceMouseDevice final : public HapticDevice {
  public:
   /// Throws what `open` throws; std::invalid_argument, naming the value, for bad settings.
