@@ -143,13 +143,17 @@ void HidStream::disconnect() noexcept {
   port_.reset();
 }
 
+/// Each connect() is followed by a disconnect(), also if the stream ends in between.
 void HidStream::run() noexcept {
-  while (!is_ending_) {
+  for (;;) {
     readUntilGone();
     if (!is_ending_) ++losses_;
     disconnect();
     double wait = settings_.first_retry;
-    while (sleep(wait) && !reconnect()) wait = std::min(2.0 * wait, settings_.longest_retry);
+    do {
+      if (!sleep(wait)) return;
+      wait = std::min(2.0 * wait, settings_.longest_retry);
+    } while (!reconnect());
   }
 }
 

@@ -169,6 +169,29 @@ TEST(HidStream, EndsWhileItLooksForTheDevice) {
   ASSERT_TRUE(comesTrue([&] { return client.goings == 1; }));
 }
 
+// Before its threads have run at all, and while it opens the device again.
+TEST(HidStream, EndsRightAfterItHasConnected) {
+  FakeHidDevice fake;
+  Client client;
+  for (int i = 0; i < 20; ++i) HidStream stream(fake.opener(), client, makeQuick(0.001));
+  EXPECT_EQ(client.comings, 20);
+  EXPECT_EQ(client.goings, 20);
+
+  std::atomic<int> opened{0};
+  const HidOpener open = [&] {
+    std::unique_ptr<HidPort> port = fake.opener()();
+    // Long enough for the stream's end to begin; it does not matter if it is not.
+    if (++opened > 1) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return port;
+  };
+  {
+    HidStream stream(open, client, makeQuick(0.001));
+    fake.refuseWrites(1);
+    ASSERT_TRUE(comesTrue([&] { return opened == 2; }));
+  }
+  EXPECT_EQ(client.goings, client.comings);
+}
+
 TEST(HidStream, RefusesSettingsOutOfRangeAndADeviceThatIsNotThere) {
   FakeHidDevice fake;
   Client client;
