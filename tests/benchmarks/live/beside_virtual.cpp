@@ -1,4 +1,4 @@
-#include "live/beside_virtual.h"
+#include "beside_virtual.h"
 
 #include <algorithm>
 #include <cmath>

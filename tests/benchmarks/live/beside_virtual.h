@@ -1,6 +1,6 @@
 #pragma once
 
-#include "live/live_pair.h"
+#include "live_pair.h"
 
 namespace tandem::bench {
 

@@ -1,4 +1,4 @@
-#include "live/crowd.h"
+#include "crowd.h"
 
 #include <cmath>
 

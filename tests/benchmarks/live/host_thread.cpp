@@ -1,4 +1,4 @@
-#include "live/host_thread.h"
+#include "host_thread.h"
 
 #include <algorithm>
 #include <cmath>

@@ -18,9 +18,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "live/beside_virtual.h"
-#include "live/crowd.h"
-#include "live/live_pair.h"
+#include "beside_virtual.h"
+#include "crowd.h"
+#include "live_pair.h"
 #include "realtime.h"
 
 using namespace tandem;

@@ -1,4 +1,4 @@
-#include "live/live_pair.h"
+#include "live_pair.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/plugin/link_queue.h"
 
-#include "live/crowd.h"
+#include "crowd.h"
 #include "realtime.h"
 #include "scene.h"
 

@@ -7,7 +7,7 @@
 #include "tandem/plugin/haptic_loop.h"
 #include "tandem/plugin/recording.h"
 
-#include "live/host_thread.h"
+#include "host_thread.h"
 #include "scenario.h"
 
 namespace tandem::bench {
