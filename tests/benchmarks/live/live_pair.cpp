@@ -5,6 +5,8 @@
 #include <cmath>
 #include <thread>
 
+#include <pthread.h>
+
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/plugin/link_queue.h"
 
@@ -27,6 +29,7 @@ constexpr double kCountdown = 0.1;
 constexpr double kWirePeriod = 5e-4, kWireAhead = 2e-3;
 /// What carries packets must not wait for what steps worlds, and no tick for it.
 constexpr int kWireBelow = 10;
+constexpr int kHurryBelow = 20;
 
 /// The thread that would have the sockets. Each site has its own clock, which began at `begins`.
 class Wire {
@@ -68,6 +71,23 @@ class Wire {
   std::thread thread_;
 };
 
+/// While it lives, the calling thread goes before the machine's other programs, so that all that is
+/// set up is there when the first tick is due. Threads that start meanwhile go on so.
+class Hurry {
+ public:
+  explicit Hurry(int priority) {
+    sched_param wanted{};
+    wanted.sched_priority = std::max(priority - kHurryBelow, 1);
+    if (priority > 0) (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+  }
+  ~Hurry() {
+    const sched_param none{};
+    (void)pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
+  }
+  Hurry(const Hurry&) = delete;
+  Hurry& operator=(const Hurry&) = delete;
+};
+
 std::unique_ptr<Recording> makeRecording(const demos::Scenario& scenario, const Site& site) {
   // Room for what comes while the force fades.
   const double seconds = scenario.duration + 1.0;
@@ -90,6 +110,7 @@ LivePairReport runLivePair(const demos::Scenario& scenario, const LivePairSettin
     worlds[s]->site().record(report.recordings[s].get());
   }
 
+  auto hurry = std::make_unique<Hurry>(settings.priority);
   // Two sites on two machines do not tick in the same moments; half a period apart, neither has to
   // wait for the other here. By their own clocks both begin at 0.
   const double begin = readClock() + kCountdown;
@@ -98,6 +119,7 @@ LivePairReport runLivePair(const demos::Scenario& scenario, const LivePairSettin
     const Wire wire(scenario.network, queues[0], queues[1], begins, settings.priority);
     HapticLoop loop1(world1.site(), {settings.priority, true, begins[0]});
     HapticLoop loop2(world2.site(), {settings.priority, true, begins[1]});
+    hurry.reset();
     const auto host = [&](int s) {
       std::uint64_t steps = 0;
       return runHost(begins[s], scenario.duration, scenario.host_rate, [&] {
