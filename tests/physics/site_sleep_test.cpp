@@ -370,7 +370,7 @@ TEST(SiteSleep, FallsWhenTheWorldGetsAnotherGravity) {
 }
 
 TEST(SiteSleep, AQuietSiteWithANeighbourMayBeGivenAnotherObject) {
-  Rig rig;
+  Rig rig({.gravity = Vec3::Zero(), .has_floor = false, .settings = {}});
   rig.host.addCube(kMass, kHalf, Vec3(2.05 * kHalf, 0, kHalf));
   btRigidBody& other = rig.host.addCube(kMass, kHalf, Vec3(0.5, 0, kHalf));
   for (int i = 0; i < 2000 && rig.site->counters().host_steps_skipped == 0; ++i) rig.hostStep();
