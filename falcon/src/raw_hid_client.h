@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <limits>
 
 #include "tandem/falcon/falcon_force_gate.h"

@@ -1,6 +1,5 @@
 #include "tandem/falcon/raw_hid_device.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
