@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/realtime_rights.h"
 
 #include "pseudo_terminal.h"
 
@@ -76,8 +77,8 @@ FalconEmulatorSettings withoutModemLines(FalconEmulatorSettings settings) {
 
 class EmulatedFalconPort::Server {
  public:
-  Server(const FalconEmulatorSettings& settings, std::unique_ptr<Hand> hand)
-      : emulator_(withoutModemLines(settings), std::move(hand)) {
+  Server(const FalconEmulatorSettings& settings, std::unique_ptr<Hand> hand, int priority)
+      : emulator_(withoutModemLines(settings), std::move(hand)), priority_(priority) {
     plugIn();
     thread_ = std::thread([this] { run(); });
   }
@@ -122,6 +123,8 @@ class EmulatedFalconPort::Server {
 
  private:
   void run() {
+    RealtimeRights rights;
+    rights.take(priority_, false);
     while (!stops_.load(std::memory_order_relaxed)) {
       if (!serve()) sleep(kNap);
       while (visitors_.load() > 0) sleep(kVisit);  // who waits gets the lock
@@ -152,11 +155,13 @@ class EmulatedFalconPort::Server {
   SerialLine line_;
   std::atomic<bool> stops_{false};
   std::atomic<int> visitors_{0};
+  int priority_;
   std::thread thread_;
 };
 
-EmulatedFalconPort::EmulatedFalconPort(FalconEmulatorSettings settings, std::unique_ptr<Hand> hand)
-    : server_(std::make_unique<Server>(settings, std::move(hand))) {}
+EmulatedFalconPort::EmulatedFalconPort(FalconEmulatorSettings settings, std::unique_ptr<Hand> hand,
+                                       int thread_priority)
+    : server_(std::make_unique<Server>(settings, std::move(hand), thread_priority)) {}
 EmulatedFalconPort::~EmulatedFalconPort() = default;
 
 const std::string& EmulatedFalconPort::path() const noexcept { return server_->path(); }

@@ -12,10 +12,11 @@ namespace tandem {
 /// opens a tty meets it. Pseudo terminals have no DTR, so the emulator does without. Linux.
 class EmulatedFalconPort {
  public:
-  /// Throws tandem::Error without pseudo terminals or a folder for temporary files,
-  /// std::invalid_argument as FalconEmulator does.
+  /// `thread_priority`: SCHED_FIFO where it is granted, as a real device waits for no processor; 0:
+  /// as the process has it. Throws tandem::Error without pseudo terminals or a folder for temporary
+  /// files, std::invalid_argument as FalconEmulator does.
   explicit EmulatedFalconPort(FalconEmulatorSettings settings = {},
-                              std::unique_ptr<Hand> hand = nullptr);
+                              std::unique_ptr<Hand> hand = nullptr, int thread_priority = 0);
   ~EmulatedFalconPort();
   EmulatedFalconPort(const EmulatedFalconPort&) = delete;
   EmulatedFalconPort& operator=(const EmulatedFalconPort&) = delete;
