@@ -71,7 +71,7 @@ class HangingDevice final : public HapticDevice {
 class LiveFalcon : public ::testing::Test {
  protected:
   LiveFalcon() : port(makeEmulated(), makeConstantHand(Vec3(0.0, kLean, 0.0)), 82) {
-    auto& wall = rig.makeShape<btBoxShape>(btVector3(1, 0.5, 1));
+    auto& wall = rig.makeShape<btBoxShape>(toBullet(Vec3(1, 0.5, 1)));
     rig.addBody(wall, 0.0, Vec3(0.0, 0.53, 0.0));
     EXPECT_TRUE(waitUntil([&] { return guarded.read(0.0).valid; })) << "it was not ready";
     SiteSettings settings;

@@ -59,9 +59,9 @@ struct LiveSite {
 
   LiveSite(int self, const Vec3& hand_force, int boxes = 3)
       : rig(Vec3(0.0, 0.0, -9.81)), device(makeSettings(self), makeConstantHand(hand_force)) {
-    auto& floor = rig.makeShape<btBoxShape>(btVector3(2, 2, 0.5));
+    auto& floor = rig.makeShape<btBoxShape>(toBullet(Vec3(2, 2, 0.5)));
     rig.addBody(floor, 0.0, Vec3(0.0, 0.0, -0.52));
-    auto& box = rig.makeShape<btBoxShape>(btVector3(0.02, 0.02, 0.02));
+    auto& box = rig.makeShape<btBoxShape>(toBullet(Vec3(0.02, 0.02, 0.02)));
     cube = &rig.addBody(box, 0.2);
     for (int i = 0; i < boxes; ++i) rig.addBody(box, 0.2, Vec3(0.0, 0.045 + 0.041 * i, 0.0));
 

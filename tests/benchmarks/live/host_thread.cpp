@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "realtime.h"
+#include "tandem/plugin/monotonic_clock.h"
 
 namespace tandem::bench {
 
@@ -13,9 +13,9 @@ HostReport runHost(double begin, double seconds, double rate, const std::functio
   times.reserve(count);
   for (std::uint64_t i = 1; i <= count; ++i) {
     sleepUntil(begin + static_cast<double>(i) / rate);
-    const double start = readClock();
+    const double start = readMonotonicClock();
     step();
-    times.push_back(readClock() - start);
+    times.push_back(readMonotonicClock() - start);
   }
   std::sort(times.begin(), times.end());
   if (times.empty()) return {};

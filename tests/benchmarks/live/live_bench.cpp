@@ -18,10 +18,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tandem/plugin/monotonic_clock.h"
+
 #include "beside_virtual.h"
 #include "crowd.h"
 #include "live_pair.h"
-#include "realtime.h"
 
 using namespace tandem;
 using namespace tandem::bench;
@@ -90,7 +91,7 @@ nlohmann::json describe(const BesideVirtual& both) {
 nlohmann::json runLoad(const Options& options) {
   BareHost host(options.pair.boxes);
   const double step = 1.0 / options.host_rate;
-  return {{"host", describe(runHost(readClock(), options.seconds, options.host_rate, [&] {
+  return {{"host", describe(runHost(readMonotonicClock(), options.seconds, options.host_rate, [&] {
              host.world().stepSimulation(static_cast<btScalar>(step), 0);
            }))}};
 }

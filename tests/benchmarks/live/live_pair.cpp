@@ -8,10 +8,11 @@
 #include <pthread.h>
 
 #include "tandem/coordination/simulated_link.h"
+#include "tandem/falcon/realtime_rights.h"
 #include "tandem/plugin/link_queue.h"
+#include "tandem/plugin/monotonic_clock.h"
 
 #include "crowd.h"
-#include "realtime.h"
 #include "scene.h"
 
 //   site 1                                                    site 2
@@ -55,7 +56,7 @@ class Wire {
     double next = begins_[0];
     while (!is_stopping_.load(std::memory_order_relaxed)) {
       sleepUntil(next);
-      const double now = readClock();
+      const double now = readMonotonicClock();
       const double here = now - begins_[0], there = now - begins_[1];
       queues_[0]->exchange(*ends_.first, here, here + kWireAhead);
       queues_[1]->exchange(*ends_.second, there, there + kWireAhead);
@@ -113,7 +114,7 @@ LivePairReport runLivePair(const demos::Scenario& scenario, const LivePairSettin
   auto hurry = std::make_unique<Hurry>(settings.priority);
   // Two sites on two machines do not tick in the same moments; half a period apart, neither has to
   // wait for the other here. By their own clocks both begin at 0.
-  const double begin = readClock() + kCountdown;
+  const double begin = readMonotonicClock() + kCountdown;
   const double begins[2] = {begin, begin + 0.5 / scenario.haptic_rate};
   {
     const Wire wire(scenario.network, queues[0], queues[1], begins, settings.priority);
