@@ -13,6 +13,7 @@
 #include "bench/accuracy_command.h"
 #include "bench/speed/speed_command.h"
 #include "bench/stress_command.h"
+#include "device/command/arguments.h"
 #include "link/link_command.h"
 #include "peer/peer_command.h"
 #include "plot/plot.h"
@@ -159,6 +160,9 @@ int runProgram(int argc, char** argv) {
   LinkCommand link_options;
   CLI::App* link = addLinkCommand(app, link_options);
 
+  DeviceCommand device_options;
+  CLI::App* device = addDeviceCommand(app, device_options);
+
   PeerCommand peer_options;
   CLI::App* peer = app.add_subcommand("peer", "one site of a scenario, live over UDP");
   peer->add_option("--scenario", peer_options.scenario, "scenario file (TOML)")->required();
@@ -177,6 +181,7 @@ int runProgram(int argc, char** argv) {
       ->check(CLI::IsMember({"on", "off"}));
   peer->add_option("--wire", peer_options.profile, "width of numbers on the way")
       ->check(CLI::IsMember({"float32", "float64"}));
+  addDeviceOptions(*peer, peer_options.device);
   peer->add_flag("--quiet", peer_options.quiet, "print nothing but errors");
 
   std::string key_path;
@@ -190,20 +195,22 @@ int runProgram(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     if (app.get_subcommands().empty() && !app.remaining().empty())
-      throw UsageError(
-          app.remaining().front() +
-          ": no such command; allowed: run, plot, bench, peer, link, key; see tandem --help");
+      throw UsageError(app.remaining().front() +
+                       ": no such command; allowed: run, plot, bench, peer, link, device, key; see "
+                       "tandem --help");
     throw UsageError(fmt::format("{}; see tandem --help", error.what()));
   }
   if (app.get_subcommands().empty())
     throw UsageError(
-        "a command is missing; allowed: run, plot, bench, peer, link, key; see tandem --help");
+        "a command is missing; allowed: run, plot, bench, peer, link, device, key; see tandem "
+        "--help");
   if (run->parsed()) return runScenario(run_options);
   if (new_key->parsed()) return makeKey(key_path);
   if (peer->parsed()) {
     runPeerCommand(peer_options);
     return kDone;
   }
+  if (device->parsed()) return runDeviceCommand(*device, device_options) ? kDone : kCheckFailed;
   if (link->parsed()) {
     runLinkCommand(link_options);
     return kDone;

@@ -141,6 +141,8 @@ void FalconDevice::passOn() noexcept {
   reading_.write(driver_.reading());
   FalconStatus status = driver_.status();
   status.open_error = open_error_;
+  const bool answers = status.state == FalconState::kReady || status.state == FalconState::kUnhomed;
+  buttons_.store(answers ? status.buttons : std::uint8_t{0}, std::memory_order_relaxed);
   status_.write(status);
 }
 

@@ -27,6 +27,13 @@ DeviceSample MappedDevice::read(double now) noexcept {
   return {is_engaged_ ? hip : PointState{p_W_, Vec3::Zero()}, true};
 }
 
+bool MappedDevice::putPoint(const Vec3& p_W) noexcept {
+  if (is_engaged_) return false;
+  p_W_ = p_W;
+  was_read_ = true;
+  return true;
+}
+
 void MappedDevice::write(const Vec3& f_W) noexcept {
   device_->write(is_engaged_ ? map_.toDevice(f_W) : Vec3(Vec3::Zero()));
 }

@@ -167,6 +167,25 @@ TEST(MappedDevice, IsNotValidWhereTheDeviceIsNotAndPlacesNothingThen) {
   EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(2, 0, 0));
 }
 
+TEST(MappedDevice, GoesOnFromWhereItsPointIsPut) {
+  test::DeviceScript script;
+  script.sample.hip.p_W = Vec3(0.02, 0, 0);
+  MappedDevice device(std::make_unique<test::ToldDevice>(script), {});
+  EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(0.02, 0, 0));
+  EXPECT_FALSE(device.putPoint(Vec3(1, 2, 3)));  // it is the hand's
+  EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(0.02, 0, 0));
+
+  device.setEngaged(false);
+  (void)device.read(0.0);
+  EXPECT_TRUE(device.putPoint(Vec3(1, 2, 3)));
+  script.sample.hip.p_W = Vec3(0.03, 0, 0);
+  EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(1, 2, 3));
+  device.setEngaged(true);
+  EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(1, 2, 3));
+  script.sample.hip.p_W = Vec3(0.04, 0, 0);
+  EXPECT_LT((device.read(0.0).hip.p_W - Vec3(1.01, 2, 3)).norm(), 1e-15);
+}
+
 TEST(MappedDevice, HearsOfItsClutchFromAnotherThread) {
   test::DeviceScript script;
   MappedDevice device(std::make_unique<test::ToldDevice>(script), {});

@@ -8,7 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "tandem/plugin/key_file.h"
+#include "tandem/plugin/monotonic_clock.h"
 
+#include "device/get_ready.h"
+#include "device/open_device.h"
+#include "device/user_axes.h"
 #include "peer/peer_configuration.h"
 #include "peer/peer_output.h"
 #include "peer/peer_run.h"
@@ -23,12 +27,17 @@ volatile std::sig_atomic_t stop_asked = 0;
 
 extern "C" void askToStop(int) { stop_asked = 1; }
 
-/// SIGINT and SIGTERM end the run instead of the program.
-void catchSignals() {
+/// SIGINT and SIGTERM end the run instead of the program; with a device, which must not be left
+/// with force, a closed terminal and a closed pipe neither end the program.
+void catchSignals(bool has_device) {
   struct sigaction action {};
   action.sa_handler = &askToStop;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  if (!has_device) return;
+  sigaction(SIGHUP, &action, nullptr);
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &action, nullptr);
 }
 
 void print(const PeerReport& report) {
@@ -64,6 +73,30 @@ UdpMeshSettings makeSettings(const PeerCommand& command, const Scenario& scenari
   return settings;
 }
 
+/// The user's own device, ready and where the scenario has the user start; null without --device.
+/// `is_ended` if the user would rather end.
+std::unique_ptr<LiveDevice> openUsersDevice(const PeerCommand& command, const Scenario& scenario,
+                                            bool& is_ended) {
+  if (command.device.device.empty()) {
+    checkDeviceOptions(command.device);
+    return nullptr;
+  }
+  const SceneFrame frame = makeSceneFrame(scenario);
+  const int site = command.site - 1;
+  const Vec3 start_W = computeStart(scenario, frame, site);
+  auto device =
+      openDevice(command.device, {computeUserAxes(frame.q_WS, site), start_W}, UserWish::kReach);
+  GetReadySettings settings;
+  settings.is_quiet = command.quiet;
+  is_ended = !getReady(*device, settings, [](double seconds) {
+    sleepUntil(readMonotonicClock() + seconds);
+    return stop_asked != 0;
+  });
+  // The hand may go where it likes until both sites run.
+  device->holdUntilTicked(start_W);
+  return device;
+}
+
 }  // namespace
 
 void runPeerCommand(const PeerCommand& command) {
@@ -74,8 +107,12 @@ void runPeerCommand(const PeerCommand& command) {
                readKeyFile(command.key)};
   if (!peer.key.isLocked())
     fmt::print(stderr, "tandem: note: the key may be swapped to disk; raise ulimit -l\n");
-  catchSignals();
-  PeerRun run(scenario, command.site - 1, makeSettings(command, scenario), std::move(peer));
+  catchSignals(!command.device.device.empty());
+  bool is_ended = false;
+  const auto device = openUsersDevice(command, scenario, is_ended);
+  if (is_ended) return;
+  PeerRun run(scenario, command.site - 1, makeSettings(command, scenario), std::move(peer),
+              device.get());
   const auto stop = [] { return stop_asked != 0; };
   const auto report = [&](const PeerReport& one) {
     if (!command.quiet) print(one);

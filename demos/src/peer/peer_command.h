@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "device/device_options.h"
+
 namespace tandem::demos {
 
 /// `tandem peer`: one site of a scenario, live over UDP.
@@ -19,6 +21,7 @@ struct PeerCommand {
   std::string playout = "on";
   std::string profile = "float32";
   bool quiet = false;
+  DeviceOptions device;  ///< without --device: simulated, as the scenario says
 };
 
 /// Runs it to its end. Throws UsageError or std::invalid_argument for what cannot be (status 2),

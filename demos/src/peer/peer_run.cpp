@@ -39,9 +39,11 @@ const char* describe(RefuseCode code) {
 
 }  // namespace
 
-PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer)
+PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
+                 HapticDevice* device)
     : scenario_(scenario),
       index_(site),
+      device_(device),
       self_(settings.self),
       other_(peer.id),
       mesh_(settings,
@@ -60,7 +62,8 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
 
 void PeerRun::makeWorld() {
   world_.reset();
-  world_ = std::make_unique<SiteWorld>(scenario_, index_, queue_);
+  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, queue_, *device_)
+                   : std::make_unique<SiteWorld>(scenario_, index_, queue_);
   Site& own = world_->site();
   const auto ticks = static_cast<std::size_t>(std::llround(duration() * scenario_.haptic_rate));
   const auto arrivals = static_cast<std::size_t>(2.0 * duration() * scenario_.packet_rate) + 64;

@@ -31,8 +31,10 @@ struct PeerReport {
 /// due. Until the start one thread does all.
 class PeerRun {
  public:
-  /// `site` is 0 or 1. Throws as UdpMesh and SiteWorld do.
-  PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer);
+  /// `site` is 0 or 1. `device` is the user's, and must outlive this; null: simulated, as the
+  /// scenario says. Throws as UdpMesh and SiteWorld do.
+  PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
+          HapticDevice* device = nullptr);
 
   /// Until the other site is there and both know the start. Throws UsageError if it has another
   /// configuration, tandem::Error if it does not answer within `patience` [s]. False if `stop`
@@ -67,6 +69,7 @@ class PeerRun {
 
   Scenario scenario_;
   int index_;
+  HapticDevice* device_;
   PeerId self_, other_;
   UdpMesh mesh_;
   StartLink link_;

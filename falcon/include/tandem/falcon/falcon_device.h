@@ -47,6 +47,11 @@ class FalconDevice final : public HapticDevice {
 
   /// How it does; for one thread, whichever it is. Wait-free.
   [[nodiscard]] const FalconStatus& status() noexcept { return status_.read(); }
+  /// Of FalconButton, those that are pressed; none while it does not answer. Wait-free, for any
+  /// thread.
+  [[nodiscard]] std::uint8_t buttons() const noexcept {
+    return buttons_.load(std::memory_order_relaxed);
+  }
 
  private:
   struct Wish {
@@ -74,6 +79,7 @@ class FalconDevice final : public HapticDevice {
   LatestValue<FalconReading> reading_;
   LatestValue<Wish> wish_;
   LatestValue<FalconStatus> status_;
+  std::atomic<std::uint8_t> buttons_{0};
   std::atomic<bool> stops_{false};
 
   // The ticking side's.

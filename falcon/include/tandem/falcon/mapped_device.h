@@ -33,6 +33,11 @@ class MappedDevice final : public HapticDevice {
   /// As of the last read. For the thread that reads.
   [[nodiscard]] bool isEngaged() const noexcept { return is_engaged_; }
 
+  /// Puts the world's point at `p_W`, from where it goes on when the clutch takes: a scene can say
+  /// where it starts, wherever the hand is. False, and nothing, unless the clutch is out as of the
+  /// last read. For the thread that reads.
+  bool putPoint(const Vec3& p_W) noexcept;
+
   /// As it is now: the clutch has moved its centres. For the thread that reads.
   [[nodiscard]] const WorkspaceMap& map() const noexcept { return map_; }
 

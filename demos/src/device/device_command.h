@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "device/device_options.h"
+#include "device/exchange.h"
+
+namespace tandem::demos {
+
+/// Options of `tandem device` and its commands, as they were written.
+struct DeviceCommand {
+  DeviceOptions device;
+  std::optional<double> duration;       ///< [s]
+  double patience = 120.0;              ///< until it is ready [s]
+  std::string file;                     ///< of record
+  std::optional<std::string> scenario;  ///< of feel
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `tandem device ...`: each runs to its end, or until `pause` says to end. They throw UsageError
+/// or std::invalid_argument (status 2), tandem::Error with the remedy (status 1).
+void listDevices(const DeviceCommand& command);
+void showDevice(const DeviceCommand& command, const Pause& pause);
+void homeDevice(const DeviceCommand& command, const Pause& pause);
+/// False: an emulated device's force or motion was not what it must be.
+[[nodiscard]] bool checkDevice(const DeviceCommand& command, const Pause& pause);
+void measureLatency(const DeviceCommand& command, const Pause& pause);
+void recordDevice(const DeviceCommand& command, const Pause& pause);
+
+/// The placement that they use: user 1's in a scene whose axis is x.
+[[nodiscard]] Placement placeAlone();
+
+}  // namespace tandem::demos

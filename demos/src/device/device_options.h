@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tandem/falcon/falcon_kinematics.h"
+
+namespace tandem::demos {
+
+/// Options that all commands with a device share, as they were written.
+struct DeviceOptions {
+  std::string device;                   ///< a DeviceSpec; empty: the first that is plugged in
+  std::optional<std::string> firmware;  ///< file of a Falcon's image
+  std::optional<std::string> clutch;    ///< see clutch.h; nothing: there is none
+  double motors_per_torque = kUsualMotorsPerTorque;  ///< [1/(N m)]
+  double max_force = 8.0;                            ///< [N]
+  double scale = 1.0;                                ///< way in the world by way of the hand
+  std::vector<double> offset;  ///< of the workspace in the world [m]; empty or three
+};
+
+/// Throws UsageError, naming the option and what is allowed.
+void checkDeviceOptions(const DeviceOptions& options);
+
+}  // namespace tandem::demos
