@@ -325,6 +325,18 @@ TEST(FalconDevice, OneThatCannotBeOpenedSaysWhy) {
   EXPECT_EQ(device.capabilities().max_slew, 2000.0);
 }
 
+TEST_F(FalconOverTty, TellsItsButtonsToAnyThread) {
+  start();
+  ASSERT_TRUE(tickUntil(FalconState::kReady));
+  EXPECT_EQ(device_->buttons(), 0);
+  visit([](FalconEmulator& emulator) { emulator.press(kCentreButton | kPlusButton); });
+  EXPECT_TRUE(tickUntil(
+      [this](const FalconStatus&) { return device_->buttons() == (kCentreButton | kPlusButton); }));
+  // Who does not answer presses nothing: a clutch must not stay out for ever.
+  visit([](FalconEmulator& emulator) { emulator.mishaps.silent_replies = FalconMishaps::kAlways; });
+  EXPECT_TRUE(tickUntil([this](const FalconStatus&) { return device_->buttons() == 0; }));
+}
+
 /// A line that can break: reads say that the device is gone, or writes do, a number of times.
 struct Breaks {
   std::atomic<int> reads{0}, writes{0};

@@ -16,10 +16,13 @@ namespace {
 
 using Kind = DeviceSpec::Kind;
 
+constexpr int kThreadPriority = 85;  // above a HapticLoop's
+
 FalconSettings makeFalconSettings(const DeviceOptions& options) {
   FalconSettings settings;
   settings.force.max_force = options.max_force;
   settings.motors_per_torque = options.motors_per_torque;
+  settings.thread_priority = kThreadPriority;
   return settings;
 }
 

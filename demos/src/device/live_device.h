@@ -42,6 +42,8 @@ class LiveDevice final : public HapticDevice {
   /// Hand's way from the middle of its workspace, as of the last read [m].
   [[nodiscard]] double distanceFromMiddle() const noexcept;
 
+  /// Whether the clutch is in, as of the last read.
+  [[nodiscard]] bool isEngaged() const noexcept { return mapped_->isEngaged(); }
   [[nodiscard]] const DeviceSpec& spec() const noexcept { return spec_; }
   [[nodiscard]] const WorkspaceMap& map() const noexcept { return mapped_->map(); }
   [[nodiscard]] const GuardStatus& guard() const noexcept { return guarded_->status(); }

@@ -28,7 +28,9 @@ class ScreenLine {
 
   void show(const std::string& text) {
     next_ = readMonotonicClock() + period_;
-    fmt::print(stream_, "{}{}{}", is_terminal_ ? "\r\033[K" : "", text, is_terminal_ ? "" : "\n");
+    // Without wrapping: of a line that is too long for a narrow terminal the rest is not seen.
+    fmt::print(stream_, "{}{}{}", is_terminal_ ? "\r\033[?7l" : "", text,
+               is_terminal_ ? "\033[K\033[?7h" : "\n");
     is_open_ = is_terminal_;
     std::fflush(stream_);
   }

@@ -50,10 +50,10 @@ std::string show(double time, const Moment& moment, double most_force) {
   const double force = moment.force_S.norm();
   const Vec3 hand = 1e3 * moment.hand_S, cube = 1e3 * moment.cube_S;
   return fmt::format(
-      "{:6.1f} s | force {} {:5.2f} N | hand {:+6.1f} {:+6.1f} {:+6.1f} mm | cube {:+6.1f} "
-      "{:+6.1f} "
-      "{:+6.1f} mm | {}",
-      time, makeLevel(force, most_force, 16), force, hand.x(), hand.y(), hand.z(), cube.x(),
+      "{:5.1f} s {} {:4.1f} N  hand {:+4.0f} {:+4.0f} {:+4.0f}  cube {:+4.0f} {:+4.0f} {:+4.0f} mm "
+      " "
+      "{}",
+      time, makeLevel(force, most_force, 6), force, hand.x(), hand.y(), hand.z(), cube.x(),
       cube.y(), cube.z(), force > 0.0 ? "contact" : "free");
 }
 

@@ -1,0 +1,103 @@
+// `tandem device` and an emulated Falcon of this process, byte by byte over a pseudo terminal.
+// Waits are for outcomes; no time is asserted.
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tandem/falcon/emulated_falcon_port.h"
+
+#include "program/background.h"
+#include "program/device_runs.h"
+
+namespace tandem {
+namespace {
+
+using nlohmann::json;
+using test::expectRefused;
+using test::Outcome;
+using test::runTandem;
+using test::TempFolder;
+
+/// An emulated Falcon of this process, which another one drives.
+class DeviceOfAnotherProcess : public ::testing::TestWithParam<int> {
+ protected:
+  static FalconEmulatorSettings makeHomed() {
+    FalconEmulatorSettings settings;
+    settings.runs = settings.is_homed = true;
+    return settings;
+  }
+
+  double readForceUp() {
+    double force = 0.0;
+    port.visit([&](FalconEmulator& emulator, double) { force = emulator.plant().force().y(); });
+    return force;
+  }
+  void hold(const Vec3& p_D) {
+    port.visit([&](FalconEmulator& emulator, double) { emulator.plant().hold(p_D); });
+  }
+  static bool waitUntil(const std::function<bool()>& holds) {
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + std::chrono::seconds(30); Clock::now() < end;
+         std::this_thread::sleep_for(std::chrono::milliseconds(2)))
+      if (holds()) return true;
+    return holds();
+  }
+
+  EmulatedFalconPort port{makeHomed()};
+};
+
+// From bytes to newtons: a grip that is held where the cube is gets pushed up by the motors; the
+// end of the program, whatever ends it, takes the force away.
+TEST_P(DeviceOfAnotherProcess, FeelsTheCubeAndIsLeftWithoutForce) {
+  hold(Vec3(0.0, 0.0, 0.125));
+  test::Background feel(TANDEM_PROGRAM, {"device", "--device", "falcon@" + port.path()});
+  while (feel.readLine().find("end with Ctrl-C") == std::string::npos) {
+  }
+  hold(Vec3(0.0, -0.018, 0.125));
+  EXPECT_TRUE(waitUntil([&] { return readForceUp() > 1.0; }));
+  const Outcome outcome = feel.finish(GetParam());
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_EQ(readForceUp(), 0.0);
+  port.visit([](FalconEmulator& emulator, double) {
+    EXPECT_EQ(emulator.command().motors, FalconMotors{});
+    EXPECT_EQ(emulator.command().lights, 0);
+    EXPECT_EQ(emulator.refused(), 0U);
+  });
+}
+INSTANTIATE_TEST_SUITE_P(Signals, DeviceOfAnotherProcess,
+                         ::testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST(FalconOfAnotherProcess, LoadsTheImageThatItIsGiven) {
+  const TempFolder folder;
+  const FirmwareImage image = makeSyntheticFirmware(5, 64);
+  const std::string file =
+      folder.write("image.bin", std::string(image.bytes.begin(), image.bytes.end()));
+  EmulatedFalconPort port;
+  const Outcome outcome = runTandem(
+      {"device", "info", "--device", "falcon@" + port.path(), "--firmware", file, "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["state"], "unhomed");
+}
+
+TEST(FalconOfAnotherProcess, SaysThatThereIsNoFirmware) {
+  EmulatedFalconPort port;
+  const Outcome outcome =
+      runTandem({"device", "home", "--device", "falcon@" + port.path(), "--quiet"});
+  expectRefused(outcome, 1, {port.path(), "no firmware", "path of the image"});
+  // Nobody homes it: the wait has an end.
+  FalconEmulatorSettings settings;
+  settings.runs = true;
+  EmulatedFalconPort running(settings);
+  expectRefused(runTandem({"device", "home", "--device", "falcon@" + running.path(), "--quiet",
+                           "--wait", "1"}),
+                1, {"not ready within 1 s", "homing"});
+}
+
+}  // namespace
+}  // namespace tandem
