@@ -60,10 +60,7 @@ nlohmann::json toJson(const LiveDevice& device, const std::vector<Push>& pushes)
 
 bool checkDevice(const DeviceCommand& command, const Pause& pause) {
   const auto device = openDevice(command.device, placeAlone(), UserWish::kRest);
-  GetReadySettings settings;
-  settings.patience = command.patience;
-  settings.to_middle = false;
-  settings.is_quiet = command.quiet || command.json;
+  GetReadySettings settings = makeGetReadySettings(command, false);
   if (!getReady(*device, settings, pause)) return true;
   std::vector<Push> pushes;
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "device/device_command.h"
 #include "device/exchange.h"
 
 namespace tandem::demos {
@@ -9,6 +10,12 @@ struct GetReadySettings {
   bool to_middle = true;    ///< and the grip is held in the middle of its workspace
   bool is_quiet = false;
 };
+
+/// As a command asks for it.
+[[nodiscard]] inline GetReadySettings makeGetReadySettings(const DeviceCommand& command,
+                                                           bool to_middle) {
+  return {command.patience, to_middle, command.quiet || command.json};
+}
 
 /// Until the device gives true positions: prints the lines of instruction when there is something
 /// to do, and what it does meanwhile. Throws tandem::Error with the remedy if it cannot boot or is

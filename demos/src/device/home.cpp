@@ -9,10 +9,7 @@ namespace tandem::demos {
 
 void homeDevice(const DeviceCommand& command, const Pause& pause) {
   const auto device = openDevice(command.device, placeAlone(), UserWish::kRest);
-  GetReadySettings settings;
-  settings.patience = command.patience;
-  settings.to_middle = false;
-  settings.is_quiet = command.quiet;
+  const GetReadySettings settings = makeGetReadySettings(command, false);
   if (!getReady(*device, settings, pause)) return;
   const DeviceReport report = device->report();
   if (!command.quiet)

@@ -75,10 +75,7 @@ void printBins(const char* title, const nlohmann::json& part) {
 
 void measureLatency(const DeviceCommand& command, const Pause& pause) {
   const auto device = openDevice(command.device, placeAlone(), UserWish::kRest);
-  GetReadySettings settings;
-  settings.patience = command.patience;
-  settings.to_middle = false;
-  settings.is_quiet = command.quiet || command.json;
+  const GetReadySettings settings = makeGetReadySettings(command, false);
   if (!getReady(*device, settings, pause)) return;
 
   nlohmann::json j;

@@ -68,10 +68,7 @@ std::string makeCsv(const std::vector<Row>& rows) {
 void recordDevice(const DeviceCommand& command, const Pause& pause) {
   UnfinishedFile file(command.file);
   const auto device = openDevice(command.device, placeAlone(), UserWish::kDip);
-  GetReadySettings settings;
-  settings.patience = command.patience;
-  settings.to_middle = false;
-  settings.is_quiet = command.quiet;
+  const GetReadySettings settings = makeGetReadySettings(command, false);
   if (!getReady(*device, settings, pause)) return;
 
   ScreenLine line(command.quiet);

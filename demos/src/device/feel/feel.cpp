@@ -132,9 +132,7 @@ void feelCube(const DeviceCommand& command, const Pause& pause) {
   const auto device =
       openDevice(command.device, {computeUserAxes(frame.q_WS, 0), computeStart(scenario, frame, 0)},
                  UserWish::kDip);
-  GetReadySettings settings;
-  settings.patience = command.patience;
-  settings.is_quiet = command.quiet || command.json;
+  const GetReadySettings settings = makeGetReadySettings(command, true);
   if (!getReady(*device, settings, pause)) return;
   if (!settings.is_quiet)
     fmt::print("{}: {}; end with Ctrl-C\n", toText(device->spec()), scenario.title);
