@@ -39,10 +39,11 @@ struct LoopReport {
 ///
 /// From start to stop the thread alone owns the site's island. The host goes on stepping its world
 /// from its own thread, at its own 60 to 240 Hz and in real time: its steps ask for the island,
-/// which is given between two ticks, and wait for that: three times a step, five at the most, each
-/// a period at the most. The haptic thread waits for nothing but its next moment. It takes no lock,
-/// allocates nothing and makes no system call but to sleep, besides what the device and the links
-/// do. Everything else about the site is asked for by Site::betweenTicks().
+/// which is given between two ticks, and wait for that: two to four times a step, and up to
+/// eight when bodies come and go, each a period at the most. The haptic thread waits for nothing
+/// but its next moment. It takes no lock, allocates nothing and makes no system call but to sleep,
+/// besides what the device and the links do. Everything else about the site is asked for by
+/// Site::betweenTicks().
 ///
 /// A tick that begins late is made at once; ticks whose whole period has passed are skipped and
 /// counted, and the next one moves the island over them, 50 ms at the most and not if that tick is
