@@ -4,6 +4,7 @@
 
 #include <LinearMath/btScalar.h>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Which Bullet a piece of code was compiled for.
@@ -30,3 +31,4 @@ struct BulletAbi {
 void checkBulletAbi(const BulletAbi& host);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Between Bullet's btScalar and our double; to Bullet it rounds to btScalar's width.
@@ -23,3 +24,4 @@ namespace tandem {
 }
 
 }  // namespace tandem
+#pragma GCC visibility pop

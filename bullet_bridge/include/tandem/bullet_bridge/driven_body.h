@@ -5,6 +5,7 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A kinematic body of the host's world: a gripper, a lift, a belt. The host moves it by hand;
@@ -49,3 +50,4 @@ class DrivenBody {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 
 class btDiscreteDynamicsWorld;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What the host or its solver did to a body behind the island's back.
@@ -193,3 +194,4 @@ void filterNativeContact(btDiscreteDynamicsWorld& world, btCollisionObject& keep
                                                double mass) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@ class btDiscreteDynamicsWorld;
 
 #include "tandem/bullet_bridge/bullet_abi.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Who is told about each step of a host's world (each sub-step of a stepSimulation call).
@@ -39,3 +40,4 @@ class HostWorld {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

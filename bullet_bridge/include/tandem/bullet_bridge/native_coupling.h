@@ -13,6 +13,7 @@ class btRigidBody;
 /// the slot of a guide, a body's damping, a sphere that a hand moves. It is there to be compared
 /// with: nothing here is exact, and what explodes is left to explode. Not thread safe; all for the
 /// thread that steps the world, and all real-time safe but constructors and destructors.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Makes the contacts of `carrier` compliant: K overlap + B overlap_rate per pair, by Bullet's
@@ -83,7 +84,7 @@ class KinematicSphere {
   void hold(const PointState& state) noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
@@ -121,3 +122,4 @@ class NativeCoupler {
                                                                const CouplerSettings& settings);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Something of the island's that may push others: the box of space it fills, and its velocity.
@@ -70,3 +71,4 @@ class NeighbourSearch {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

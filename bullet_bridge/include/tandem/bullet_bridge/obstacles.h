@@ -10,6 +10,7 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Rigid surroundings of the island's bodies: the static objects of a host's world near them, and
@@ -83,8 +84,9 @@ class Obstacles final : public ContactFinder {
   [[nodiscard]] std::uint64_t searches() const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

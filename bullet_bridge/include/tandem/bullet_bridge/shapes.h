@@ -7,6 +7,7 @@
 class btCollisionShape;
 class btRigidBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The island's own form of a Bullet shape: box, sphere, capsule, cylinder, convex hull, static
@@ -30,3 +31,4 @@ namespace tandem {
 [[nodiscard]] Shape getShareableShape(const btRigidBody& body);
 
 }  // namespace tandem
+#pragma GCC visibility pop

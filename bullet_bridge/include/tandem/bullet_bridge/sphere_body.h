@@ -7,6 +7,7 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 class HapticBody;
@@ -36,8 +37,9 @@ class SphereBody {
   void setGhost(bool is_ghost) noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 class btDiscreteDynamicsWorld;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 class HapticBody;
@@ -34,8 +35,9 @@ class StandingWatch {
   [[nodiscard]] bool isGravityUnchanged() const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

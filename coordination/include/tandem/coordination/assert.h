@@ -3,6 +3,7 @@
 /// \file
 /// TANDEM_ASSERT(condition): a bug in the caller or in Tandem, not bad input. On in builds without
 /// NDEBUG; calls the handler, which by default prints one line and aborts.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 using AssertHandler = void (*)(const char* condition, const char* file, int line);
@@ -15,6 +16,7 @@ void failAssert(const char* condition, const char* file, int line) noexcept;
 }
 
 }  // namespace tandem
+#pragma GCC visibility pop
 
 #ifdef NDEBUG
 #define TANDEM_ASSERT(condition) static_cast<void>(sizeof(!(condition)))

@@ -10,6 +10,7 @@
 /// \file
 /// What peers must have the same before anything is coupled, as named items (section 8 of
 /// coordination/STANDARD.md). For set-up: these functions allocate.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// One named value, both as text: "object.mass", "0.2".
@@ -50,3 +51,4 @@ struct ConfigurationDifference {
     const Configuration& here, const Configuration& there);
 
 }  // namespace tandem
+#pragma GCC visibility pop

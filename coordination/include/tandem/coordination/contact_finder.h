@@ -4,6 +4,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Index of a body in its island, in the order in which bodies were added.
@@ -49,3 +50,4 @@ class ContactFinder {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -2,6 +2,7 @@
 
 #include "tandem/coordination/shape.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Where a sphere and another shape are nearest to each other (or deepest in each other).
@@ -27,3 +28,4 @@ struct SphereContact {
                                               const Vec3& p_WB, const Quat& q_WB) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

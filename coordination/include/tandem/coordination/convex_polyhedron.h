@@ -4,6 +4,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A convex solid with flat faces, in its body's frame. Made once; a ConvexHull refers to it.
@@ -53,3 +54,4 @@ class ConvexPolyhedron {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

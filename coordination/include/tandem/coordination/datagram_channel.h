@@ -8,6 +8,7 @@
 #include "tandem/coordination/impairments.h"
 #include "tandem/coordination/wire.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a way does to the datagrams of one direction that get onto it now.
@@ -73,7 +74,7 @@ class DatagramChannel {
   [[nodiscard]] const DatagramChannelCounts& counts() const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
@@ -81,3 +82,4 @@ class DatagramChannel {
 void checkConditions(const ChannelConditions& conditions);
 
 }  // namespace tandem
+#pragma GCC visibility pop

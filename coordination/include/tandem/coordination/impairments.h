@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What an imperfect way does to packets. Probabilities are per packet and independent. Of a lost
@@ -50,3 +51,4 @@ enum class Copy : std::uint8_t { kFirst, kDuplicate };
                                                            std::size_t size) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include "tandem/coordination/shape.h"
 #include "tandem/coordination/virtual_coupler.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Index of a coupler in its island, in the order in which couplers were added.
@@ -207,8 +208,9 @@ class Island {
   void computeWrench(BodyIndex body, Vec3& f_W, Vec3& t_W) const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What an island did since Island::prepare(), to see that it does no more than a scene needs. A
@@ -27,3 +28,4 @@ struct IslandCounters {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 
 #include "tandem/coordination/packet.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A packet and the moment at which it came in.
@@ -32,3 +33,4 @@ class Link {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include "tandem/coordination/packet.h"
 #include "tandem/coordination/virtual_coupler.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How a remote peer is doing, by the age of the state of it that was taken in last.
@@ -127,3 +128,4 @@ class LinkHealth {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 #include "tandem/coordination/datagram_channel.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A way that lets nothing through in one direction.
@@ -57,3 +58,4 @@ class LinkPlan {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Identity of a shared object, agreed between the peers (its place in the scenario).
@@ -48,3 +49,4 @@ struct StatePacket {
 [[nodiscard]] bool isSane(const StatePacket& packet) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

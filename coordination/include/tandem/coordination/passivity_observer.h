@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a hand may get out of a connection. Checked by checkPassivitySettings().
@@ -87,3 +88,4 @@ class PassivityObserver {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

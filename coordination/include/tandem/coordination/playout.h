@@ -10,6 +10,7 @@
 #include "tandem/coordination/link.h"
 #include "tandem/coordination/windowed_minimum.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 struct PlayoutSettings {
@@ -108,3 +109,4 @@ class Playout {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Which sequence numbers under one key were taken (section 5 of coordination/STANDARD.md): each is
@@ -31,3 +32,4 @@ class ReplayWindow {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -2,6 +2,7 @@
 
 #include "tandem/coordination/windowed_minimum.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Round trip and clock offset to a peer, from stamps that go there and come back:
@@ -37,3 +38,4 @@ class RoundTrip {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 #include "tandem/coordination/island.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The body that stands for a remote user where a scheme has one.
@@ -50,3 +51,4 @@ class Scheme {
 [[nodiscard]] const Scheme& findScheme(std::string_view name);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 #include "tandem/coordination/triangle_mesh.h"
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Ball around the body's origin.
@@ -71,3 +72,4 @@ using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Me
 void checkShape(const Shape& shape);
 
 }  // namespace tandem
+#pragma GCC visibility pop

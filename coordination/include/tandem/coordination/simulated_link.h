@@ -8,6 +8,7 @@
 #include "tandem/coordination/impairments.h"
 #include "tandem/coordination/link.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Counts of one direction. At any time `sent - lost + duplicated` is what was `delivered`, what
@@ -39,3 +40,4 @@ class SimulatedLink : public Link {
 makeSimulatedLinks(const Impairments& impairments, std::size_t capacity = 1024);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A surface of triangles in its body's frame, for spheres to touch. Made once, outside the tick; a
@@ -138,3 +139,4 @@ class TriangleMesh {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

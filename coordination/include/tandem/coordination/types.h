@@ -9,6 +9,7 @@
 /// \file
 /// The words that all of Tandem shares. SI units everywhere. Frames: W is the world, the same for
 /// all peers, right-handed; B a body (origin at its centre of mass); D the device.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 using Vec3 = Eigen::Vector3d;
@@ -52,3 +53,4 @@ class Error : public std::runtime_error {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

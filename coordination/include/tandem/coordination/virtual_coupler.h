@@ -2,6 +2,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Gains of one spring-damper; checked where they enter (Island::addCoupler, Island::addContact).
@@ -37,3 +38,4 @@ struct CouplerGains {
 }
 
 }  // namespace tandem
+#pragma GCC visibility pop

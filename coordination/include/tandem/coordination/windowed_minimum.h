@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The least of the values of the last while: of at least half the window, at most the whole.
@@ -34,3 +35,4 @@ class WindowedMinimum {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

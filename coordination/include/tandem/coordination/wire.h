@@ -9,6 +9,7 @@
 /// What every datagram has: bytes, header, named refusals. The format is coordination/STANDARD.md;
 /// section numbers refer to it. All functions of the wire are pure, check every byte, never throw
 /// and, unless they say so, never allocate: they may be called from any thread and in the tick.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::uint8_t kWireVersion = 1;
@@ -148,3 +149,4 @@ inline constexpr std::size_t kByeSize = 1;  ///< [bytes], payload
 [[nodiscard]] Decoded<ByeReason> decodeBye(ByteView payload) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

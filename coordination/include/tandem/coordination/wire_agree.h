@@ -11,6 +11,7 @@
 /// \file
 /// AGREE and AGREE_ACK (section 8): configurations in parts, and the answers. For set-up: these
 /// functions allocate.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kMaxAgreeParts = 32;
@@ -67,3 +68,4 @@ class AgreeCollector {
 [[nodiscard]] Decoded<AgreeAnswer> decodeAgreeAck(ByteView payload);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 /// \file
 /// The clear datagrams of the handshake (section 4), whole, with their header. What Noise puts into
 /// its messages and the cookie's making are the caller's.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kHelloSize = 256;  ///< [bytes], as all of these with header
@@ -89,3 +90,4 @@ struct RefuseMessage {
 [[nodiscard]] std::size_t encodeVersionRefusal(ByteView hello, ByteSpan out) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -8,6 +8,7 @@
 
 /// \file
 /// The bytes that go into Noise and into sealing besides keys and payload (sections 4 and 5).
+#pragma GCC visibility push(default)
 namespace tandem {
 
 using NoisePrologue = std::array<std::uint8_t, 13>;
@@ -44,3 +45,4 @@ struct SessionTerms {
 [[nodiscard]] SealNonce writeNonce(std::uint32_t salt, std::uint64_t sequence) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

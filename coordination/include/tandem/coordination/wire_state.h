@@ -8,6 +8,7 @@
 
 /// \file
 /// STATE (section 6): a state packet with the times, acknowledgements and energy that go with it.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How wide the reals of the records are on the wire.
@@ -73,3 +74,4 @@ inline constexpr std::size_t kMaxStateSize =
                                                 const WireLimits& limits = {}) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

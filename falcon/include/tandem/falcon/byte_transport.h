@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How a serial line is set; a Falcon knows by it what it is expected to be.
@@ -40,3 +41,4 @@ class ByteTransport {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

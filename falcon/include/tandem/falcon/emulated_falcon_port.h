@@ -6,6 +6,7 @@
 
 #include "tandem/falcon/falcon_emulator.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// An emulated Falcon behind a pseudo terminal, served by a thread in real time: any program that
@@ -42,3 +43,4 @@ class EmulatedFalconPort {
 [[nodiscard]] std::unique_ptr<ByteTransport> openEmulator(FalconEmulator& emulator);
 
 }  // namespace tandem
+#pragma GCC visibility pop

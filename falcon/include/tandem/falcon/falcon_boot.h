@@ -7,6 +7,7 @@
 #include "tandem/falcon/firmware_image.h"
 #include "tandem/falcon/line_step.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Why a Falcon did not boot.
@@ -99,3 +100,4 @@ class FalconBoot {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -10,6 +10,7 @@
 #include "tandem/falcon/haptic_device.h"
 #include "tandem/falcon/latest_value.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Opens the line to a device, or throws; called again and again until it succeeds, from the
@@ -90,3 +91,4 @@ class FalconDevice final : public HapticDevice {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include "tandem/falcon/falcon_status.h"
 #include "tandem/falcon/falcon_tracker.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A position with its number; plain values, to be copied between threads.
@@ -96,3 +97,4 @@ class FalconDriver {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include "tandem/falcon/falcon_plant.h"
 #include "tandem/falcon/firmware_image.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What can go wrong. Numbers say how many of the next ones do: 0 none, kAlways all.
@@ -143,3 +144,4 @@ class FalconEmulator {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

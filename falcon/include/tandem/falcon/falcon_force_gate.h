@@ -2,6 +2,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Force that must go is gone after so much time of frames, however slowly else it may change [s].
@@ -43,3 +44,4 @@ class FalconForceGate {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -16,6 +16,7 @@
 ///
 /// A number is a signed 16-bit one in four bytes 'A' + nibble, the lowest first; info is
 /// 'A' + 0 to 127. Bytes from a device are never trusted. Pure and real-time safe.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kFalconFrameSize = 16;
@@ -75,3 +76,4 @@ class FalconFrameReader {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

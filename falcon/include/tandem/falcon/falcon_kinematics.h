@@ -10,6 +10,7 @@
 /// The Novint Falcon as a mechanism: three legs, each an arm that a motor turns and a parallelogram
 /// that carries the grip, around the axis towards the user. Frame D: origin in the base plane, x
 /// right, y up, z out of the device towards the user.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a leg is made of [m]; only these combinations of the drawing's lengths matter.
@@ -111,3 +112,4 @@ inline constexpr double kUsualMotorsPerTorque = 4200.0;
     const Vec3& torques, double motors_per_torque = kUsualMotorsPerTorque) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

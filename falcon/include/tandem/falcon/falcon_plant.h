@@ -8,6 +8,7 @@
 #include "tandem/falcon/falcon_kinematics.h"
 #include "tandem/falcon/hand.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The mechanism of an emulated Falcon.
@@ -62,3 +63,4 @@ class FalconPlant {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

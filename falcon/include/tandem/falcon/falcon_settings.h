@@ -4,6 +4,7 @@
 #include "tandem/falcon/falcon_force_gate.h"
 #include "tandem/falcon/falcon_kinematics.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 struct FalconSettings {
@@ -31,3 +32,4 @@ struct FalconSettings {
 void check(const FalconSettings& settings);
 
 }  // namespace tandem
+#pragma GCC visibility pop

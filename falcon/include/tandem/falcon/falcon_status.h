@@ -5,6 +5,7 @@
 
 #include "tandem/falcon/falcon_boot.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 enum class FalconState : std::uint8_t {
@@ -78,3 +79,4 @@ struct FalconStatus {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

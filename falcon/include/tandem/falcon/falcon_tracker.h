@@ -7,6 +7,7 @@
 #include "tandem/falcon/falcon_kinematics.h"
 #include "tandem/falcon/velocity_estimator.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Positions and velocities of the grip from the counts of its encoders, the velocities by the
@@ -46,3 +47,4 @@ class FalconTracker {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

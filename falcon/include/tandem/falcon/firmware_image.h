@@ -10,6 +10,7 @@
 /// Tandem. It is a boot table of the C28x processor inside, in 16-bit words, low byte first:
 ///
 ///     0x08AA | 8 reserved | entry, high and low | size, high, low, data... | ... | size 0
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Follows a boot table byte by byte: host and emulator share it.
@@ -66,3 +67,4 @@ inline constexpr std::size_t kMostFirmware = 256 * 1024;  ///< [bytes]; known im
 [[nodiscard]] FirmwareImage makeSyntheticFirmware(std::uint64_t seed, std::size_t words = 512);
 
 }  // namespace tandem
+#pragma GCC visibility pop

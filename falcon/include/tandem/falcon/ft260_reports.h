@@ -16,6 +16,7 @@
 ///
 /// A frame of 16 bytes is F3 10 and the frame, both ways. Bytes from a device are never trusted.
 /// Pure and real-time safe.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kMostUartBytes = 60;  ///< in one report
@@ -38,3 +39,4 @@ struct UartBytes {
 [[nodiscard]] HidReport makeUartLine(std::uint32_t baud) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

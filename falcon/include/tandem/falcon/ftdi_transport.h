@@ -6,6 +6,7 @@
 
 #include "tandem/falcon/byte_transport.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A device behind an FTDI chip on USB.
@@ -24,3 +25,4 @@ struct FtdiAddress {
 [[nodiscard]] std::unique_ptr<ByteTransport> openFtdi(const FtdiAddress& address = {});
 
 }  // namespace tandem
+#pragma GCC visibility pop

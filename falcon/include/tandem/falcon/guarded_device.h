@@ -8,6 +8,7 @@
 
 #include "tandem/falcon/haptic_device.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a GuardedDevice holds its device to. The device's own capabilities count where smaller.
@@ -99,3 +100,4 @@ class GuardedDevice final : public HapticDevice {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a simulated user's hand does to the device's handle.
@@ -52,3 +53,4 @@ struct Waypoint {
 [[nodiscard]] std::unique_ptr<Hand> makeRecordedHand(const std::string& csv_path);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a haptic device can do; the site limits itself to it.
@@ -42,3 +43,4 @@ class HapticDevice {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

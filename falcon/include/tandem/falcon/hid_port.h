@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// An identifier and the 64 bytes that a full speed interrupt transfer carries.
@@ -74,3 +75,4 @@ using HidOpener = std::function<std::unique_ptr<HidPort>()>;
 [[nodiscard]] std::unique_ptr<HidPort> openHid(const HidAddress& address);
 
 }  // namespace tandem
+#pragma GCC visibility pop

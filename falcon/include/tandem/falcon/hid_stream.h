@@ -10,6 +10,7 @@
 
 #include "tandem/falcon/hid_port.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Whose reports a HidStream carries. Reports that tell changes only (a SpaceMouse tells places and
@@ -103,3 +104,4 @@ class HidStream {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

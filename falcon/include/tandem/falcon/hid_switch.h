@@ -8,6 +8,7 @@
 
 #include "tandem/falcon/hid_stream.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How a pedal or button shows in a report.
@@ -51,3 +52,4 @@ class HidSwitch {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

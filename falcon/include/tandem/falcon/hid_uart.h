@@ -5,6 +5,7 @@
 #include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/hid_port.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// An FT260 as a serial line, for a Falcon or a board that speaks its frames behind that bridge:
@@ -23,3 +24,4 @@ void requireFastBridge(const HidAddress& address);
 [[nodiscard]] std::unique_ptr<ByteTransport> openHidUart(const HidAddress& address = kFt260);
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <type_traits>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The newest value that one thread has for another: three rooms, of which the writer has one, the
@@ -42,3 +43,4 @@ class LatestValue {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 #include "tandem/falcon/byte_transport.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What a protocol without I/O wants done with its line now, in this order: set it, forget what has
@@ -31,3 +32,4 @@ struct LineStep {
 }
 
 }  // namespace tandem
+#pragma GCC visibility pop

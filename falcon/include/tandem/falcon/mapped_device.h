@@ -5,6 +5,7 @@
 
 #include "tandem/falcon/workspace_map.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A device seen through a WorkspaceMap, with a clutch. Of the device beneath, what is called W in
@@ -51,3 +52,4 @@ class MappedDevice final : public HapticDevice {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -2,6 +2,7 @@
 
 #include "tandem/coordination/types.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How the displacement of a cap that springs back becomes the motion of a point.
@@ -44,3 +45,4 @@ class RateControl {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include "tandem/falcon/raw_hid_report.h"
 #include "tandem/falcon/velocity_estimator.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 namespace falcon_detail {
@@ -89,3 +90,4 @@ class RawHidDevice final : public HapticDevice {
 inline const HidAddress kRawHid{0x16C0, 0x0486, 0xFFAB, 0x0200, -1, "", ""};
 
 }  // namespace tandem
+#pragma GCC visibility pop

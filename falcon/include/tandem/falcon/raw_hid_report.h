@@ -19,6 +19,7 @@
 ///     command    1         'C'    number torques of legs   flags    0         0           CRC
 ///
 /// All other bytes are 0. CRC-16/CCITT-FALSE of bytes 0 to 61. Never trusted. Pure, real-time safe.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kRawHidSize = 64;
@@ -70,3 +71,4 @@ using RawHidBytes = std::array<std::uint8_t, kRawHidSize>;
 [[nodiscard]] std::vector<std::uint8_t> makeRawHidDescriptor();
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// What makes a thread punctual, as far as the system grants it; given back with the thread and
@@ -27,3 +28,4 @@ class RealtimeRights {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include "tandem/falcon/hand.h"
 #include "tandem/falcon/haptic_device.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A mass with damping in a simulated hand, sampled at the haptic rate.
@@ -66,3 +67,4 @@ class SimulatedDevice final : public HapticDevice {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

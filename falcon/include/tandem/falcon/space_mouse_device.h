@@ -7,6 +7,7 @@
 #include "tandem/falcon/rate_control.h"
 #include "tandem/falcon/space_mouse_report.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 struct SpaceMouseSettings {
@@ -66,3 +67,4 @@ class SpaceMouseDevice final : public HapticDevice {
 [[nodiscard]] std::unique_ptr<HidPort> openSpaceMouse(const std::string& path = "");
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 #include "tandem/falcon/hid_port.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How a SpaceMouse lays out its reports.
@@ -45,3 +46,4 @@ class SpaceMouseEmulator {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -18,6 +18,7 @@
 ///
 /// Numbers are signed, 16 bits, the lower byte first; x is to the right, y towards the user, z
 /// down. Bytes from a device are never trusted. Pure and real-time safe.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A full displacement in counts; some units go beyond.
@@ -46,3 +47,4 @@ enum class SpaceMouseNews {
 [[nodiscard]] bool isSpaceMouse(const HidAddress& address) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include "tandem/falcon/byte_transport.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Opens a serial line of the kernel, such as /dev/ttyUSB0 or a pseudo terminal, for this program
@@ -13,3 +14,4 @@ namespace tandem {
 [[nodiscard]] std::unique_ptr<ByteTransport> openTty(const std::string& path);
 
 }  // namespace tandem
+#pragma GCC visibility pop

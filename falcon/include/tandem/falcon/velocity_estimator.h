@@ -16,6 +16,7 @@
 /// encoders, where every axis has the same known step. The first reading gives zero. One that is
 /// not finite, or not later than the last, is left out and gives the last velocity again. Fixed
 /// size, real-time safe. Measured against each other in docs/devices.md.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A reading and when it was taken [s].
@@ -107,3 +108,4 @@ class AdaptiveWindow {
 [[nodiscard]] AdaptiveWindow makeUsualVelocityEstimator(double step = 1.0) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

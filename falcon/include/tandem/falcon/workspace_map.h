@@ -2,6 +2,7 @@
 
 #include "tandem/falcon/haptic_device.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Where a device's small workspace lies in the world.
@@ -47,3 +48,4 @@ class WorkspaceMap {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Where datagrams go to and come from. IPv4 is kept as IPv6 has it, ::ffff:a.b.c.d.
@@ -29,3 +30,4 @@ struct Address {
 [[nodiscard]] Address resolveAddress(const std::string& text);
 
 }  // namespace tandem
+#pragma GCC visibility pop

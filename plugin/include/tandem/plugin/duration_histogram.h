@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Times from 100 ns to 100 s, counted in classes that are 0.05 % wide: percentiles of any number
@@ -58,3 +59,4 @@ class DurationHistogram {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -11,6 +11,7 @@
 #include "tandem/plugin/monotonic_clock.h"
 #include "tandem/plugin/site.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 struct HapticLoopSettings {
@@ -77,8 +78,9 @@ class HapticLoop {
   [[nodiscard]] const DurationHistogram& tickTimes() const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 /// \file
 /// Files of the key that one pair of sites shares: two lines of text, the first beginning with
 /// "tandem-key-1", the second 64 hexadecimal digits. Not real-time safe; for set-up.
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Writes a new random key into a file that only its owner may read and write.
@@ -22,3 +23,4 @@ void makeKeyFile(const std::filesystem::path& path);
 [[nodiscard]] SecretKey readKeyFile(const std::filesystem::path& path);
 
 }  // namespace tandem
+#pragma GCC visibility pop

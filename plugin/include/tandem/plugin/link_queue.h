@@ -5,6 +5,7 @@
 
 #include "tandem/coordination/link.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The way to a peer for a site with a HapticLoop: the haptic thread puts states into one queue and
@@ -28,8 +29,9 @@ class LinkQueue final : public Link {
   [[nodiscard]] std::uint64_t lost() const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

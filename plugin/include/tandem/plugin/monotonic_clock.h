@@ -1,5 +1,6 @@
 #pragma once
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The monotonic clock now [s]: what loops and links of a live site go by. Real-time safe.
@@ -9,3 +10,4 @@ namespace tandem {
 void sleepUntil(double moment) noexcept;
 
 }  // namespace tandem
+#pragma GCC visibility pop

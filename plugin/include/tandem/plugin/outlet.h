@@ -3,6 +3,7 @@
 #include "tandem/coordination/wire.h"
 #include "tandem/plugin/address.h"
 
+#pragma GCC visibility push(default)
 namespace tandem::net {
 
 /// Takes datagrams that are to be sent: a socket, or a simulated network.
@@ -14,3 +15,4 @@ class Outlet {
 };
 
 }  // namespace tandem::net
+#pragma GCC visibility pop

@@ -9,6 +9,7 @@
 #include "tandem/coordination/wire_handshake.h"
 #include "tandem/plugin/address.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Where the connection to a peer stands.
@@ -46,3 +47,4 @@ struct PeerStatus {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include "tandem/coordination/link.h"
 #include "tandem/falcon/haptic_device.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// One body at one tick: in the island, and as the btRigidBody had it after the latest host step.
@@ -70,3 +71,4 @@ class Recording {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

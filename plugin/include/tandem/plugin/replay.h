@@ -6,6 +6,7 @@
 #include "tandem/falcon/haptic_device.h"
 #include "tandem/plugin/recording.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A device that gives a recording's samples again, one per tick. The recording must outlive it.
@@ -42,3 +43,4 @@ class ReplayLink final : public Link {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iosfwd>
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// 32 secret bytes. They live in memory of their own that is kept out of swap and core dumps,
@@ -51,3 +52,4 @@ class SecretKey {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -15,6 +15,7 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 class HapticLoop;
@@ -143,8 +144,9 @@ class Site {
 
  private:
   friend class HapticLoop;
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -6,6 +6,7 @@
 #include "tandem/coordination/passivity_observer.h"
 #include "tandem/coordination/scheme.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How forces reach the host's bodies.
@@ -73,3 +74,4 @@ struct SiteSettings {
 void checkSiteSettings(const SiteSettings& settings);
 
 }  // namespace tandem
+#pragma GCC visibility pop

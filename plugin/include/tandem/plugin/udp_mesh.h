@@ -13,6 +13,7 @@
 #include "tandem/plugin/peer_status.h"
 #include "tandem/plugin/secret_key.h"
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A remote site and how it is reached.
@@ -72,8 +73,9 @@ class UdpMesh {
   [[nodiscard]] Address bound() const noexcept;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include "tandem/plugin/outlet.h"
 
+#pragma GCC visibility push(default)
 namespace tandem::net {
 
 /// A non-blocking UDP socket for IPv6 and IPv4. Datagrams are never fragmented by us and the
@@ -43,3 +44,4 @@ class UdpSocket final : public Outlet {
 };
 
 }  // namespace tandem::net
+#pragma GCC visibility pop
