@@ -27,13 +27,15 @@ function(tandem_precompile target)
   endif()
 endfunction()
 
-# tandem_add_library(NAME FOLDER folder SOURCES ... PUBLIC libs... PRIVATE libs...)
-# One library of the house: public headers in <folder>/include, private sources in <folder>/src.
+# tandem_add_library(NAME FOLDER folder [WIDTH float|float64] SOURCES ... PUBLIC libs... PRIVATE libs...)
+# One library of the house: public headers in <folder>/include, private sources in <folder>/src. It is static or, with
+# BUILD_SHARED_LIBS, shared. WIDTH: of the Bullet that it is compiled for.
 function(tandem_add_library name)
-  cmake_parse_arguments(arg "" "FOLDER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "FOLDER;WIDTH" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(folder "${PROJECT_SOURCE_DIR}/${arg_FOLDER}")
-  file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/tandem/${arg_FOLDER}/*.h")
-  add_library(tandem_${name} STATIC ${arg_SOURCES})
+  file(GLOB headers CONFIGURE_DEPENDS
+    "${folder}/include/tandem/*.h" "${folder}/include/tandem/${arg_FOLDER}/*.h")
+  add_library(tandem_${name} ${arg_SOURCES})
   add_library(tandem::${name} ALIAS tandem_${name})
   target_sources(tandem_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${folder}/include" FILES ${headers})
   target_include_directories(tandem_${name} PRIVATE "${folder}/src")
@@ -42,8 +44,45 @@ function(tandem_add_library name)
     PRIVATE $<BUILD_INTERFACE:tandem_compile_options> ${arg_PRIVATE})
   set_target_properties(tandem_${name} PROPERTIES
     CXX_STANDARD 20 CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-    POSITION_INDEPENDENT_CODE ON)
+    POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+  if(arg_WIDTH)
+    tandem_mark_width(tandem_${name} ${arg_WIDTH})
+  endif()
+  if(BUILD_SHARED_LIBS)
+    tandem_set_abi(tandem_${name} "${arg_WIDTH}")
+  endif()
   tandem_precompile(tandem_${name} <Eigen/Core> <Eigen/Geometry>)
+  if(TANDEM_INSTALL)
+    tandem_install_library(${name})
+  endif()
+endfunction()
+
+# Who links a library for one width of Bullet learns the width, and CMake refuses to link both.
+function(tandem_mark_width target width)
+  set(scalar_bytes_float 4)
+  set(scalar_bytes_float64 8)
+  target_compile_definitions(${target} PUBLIC TANDEM_BULLET_SCALAR_BYTES=${scalar_bytes_${width}})
+  set_target_properties(${target} PROPERTIES
+    INTERFACE_TANDEM_BULLET_WIDTH ${width} COMPATIBLE_INTERFACE_STRING TANDEM_BULLET_WIDTH)
+endfunction()
+
+# What a shared library is called and what it shows. Before 1.0 each minor version may break what was compiled for
+# the one before, so it is part of the name that programs look for at run time.
+function(tandem_set_abi target width)
+  set(soversion ${PROJECT_VERSION_MAJOR})
+  if(PROJECT_VERSION_MAJOR EQUAL 0)
+    set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  endif()
+  string(TOUPPER "${width}" width)
+  string(JOIN "_" version_node TANDEM ${width} ${soversion})
+  set(map "${PROJECT_BINARY_DIR}/${target}.map")
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/tandem.map.in" "${map}" @ONLY)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${soversion} LINK_DEPENDS "${map}" INSTALL_RPATH "$ORIGIN")
+  target_link_options(${target} PRIVATE "LINKER:--version-script=${map}")
+  if(NOT TANDEM_SANITIZE)  # the sanitizers' own functions come with the program
+    target_link_options(${target} PRIVATE LINKER:--no-undefined)
+  endif()
 endfunction()
 
 # tandem_add_program(NAME SOURCES ... LIBRARIES ...): an executable of ours.

@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <dlfcn.h>
 #include <link.h>
@@ -23,17 +24,53 @@ std::string nameTarget(std::size_t bytes) {
   return bytes == sizeof(double) ? "tandem::plugin_float64" : "tandem::plugin";
 }
 
-}  // namespace
+/// A btScalar that every libBulletDynamics defines: the symbol table of the one that has it says
+/// how wide it is.
+constexpr const char* kScalarOfBullet = "gDeactivationTime";
 
-std::size_t loadedBulletScalarBytes() noexcept {
-  // A btScalar that every libBulletDynamics defines: the symbol table of the one that is loaded
-  // says how wide it is.
-  void* address = dlsym(RTLD_DEFAULT, "gDeactivationTime");
-  if (address == nullptr) return 0;
+struct FoundScalar {
+  std::size_t bytes = 0;     ///< 0: there is none
+  const char* library = "";  ///< the file that defines it; lives as long as it is loaded
+};
+
+FoundScalar findScalar(void* handle) noexcept {
+  void* address = dlsym(handle, kScalarOfBullet);
   Dl_info info{};
   void* entry = nullptr;
-  if (dladdr1(address, &info, &entry, RTLD_DL_SYMENT) == 0 || entry == nullptr) return 0;
-  return static_cast<std::size_t>(static_cast<const ElfW(Sym)*>(entry)->st_size);
+  if (address == nullptr) return {};
+  if (dladdr1(address, &info, &entry, RTLD_DL_SYMENT) == 0 || entry == nullptr) return {};
+  return {static_cast<std::size_t>(static_cast<const ElfW(Sym)*>(entry)->st_size), info.dli_fname};
+}
+
+/// Names of all shared objects of this process.
+std::vector<std::string> listLoadedLibraries() {
+  std::vector<std::string> names;
+  // Only collected here: the linker is locked during the walk.
+  dl_iterate_phdr(
+      [](dl_phdr_info* object, std::size_t, void* list) {
+        static_cast<std::vector<std::string>*>(list)->emplace_back(object->dlpi_name);
+        return 0;
+      },
+      &names);
+  return names;
+}
+
+}  // namespace
+
+std::size_t loadedBulletScalarBytes() noexcept { return findScalar(RTLD_DEFAULT).bytes; }
+
+std::string findOtherBulletWidth(std::size_t scalar_bytes) {
+  for (const std::string& name : listLoadedLibraries()) {
+    if (name.empty()) continue;  // the program itself
+    void* library = dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+    if (library == nullptr) continue;
+    const FoundScalar found = findScalar(library);
+    const bool is_other = found.bytes != 0 && found.bytes != scalar_bytes;
+    std::string file = is_other ? found.library : "";
+    dlclose(library);
+    if (is_other) return file;
+  }
+  return {};
 }
 
 void checkBulletAbi(const BulletAbi& host) {
@@ -59,6 +96,17 @@ void checkBulletAbi(const BulletAbi& host) {
             << describeScalar(library.scalar_bytes)
             << "; load one width of Bullet per process and link " << nameTarget(loaded)
             << " for it";
+    throw Error(message.str());
+  }
+  if (const std::string other = findOtherBulletWidth(library.scalar_bytes); !other.empty()) {
+    const std::size_t bytes =
+        library.scalar_bytes == sizeof(double) ? sizeof(float) : sizeof(double);
+    message << "Bullet scalar width mismatch: this Tandem library ("
+            << nameTarget(library.scalar_bytes) << ") is for "
+            << describeScalar(library.scalar_bytes) << " btScalar, and " << other
+            << " has brought Bullet with " << describeScalar(bytes) << " btScalar ("
+            << nameTarget(bytes)
+            << ") into the same process, where they share constants; load one width per process";
     throw Error(message.str());
   }
 }

@@ -1,0 +1,71 @@
+# What cmake --install brings: libraries and headers, the package's CMake config, pkg-config files, the
+# program, documents. Everything finds its own place, so an installed tree may be moved as a whole.
+# Components, as Debian cuts packages: runtime (shared libraries), dev (to compile with), tools (the program).
+include(GNUInstallDirs)
+set(TANDEM_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tandem")
+
+# tandem_install_library(NAME): the library, its headers, and its target for find_package() in a file of its own.
+function(tandem_install_library name)
+  install(TARGETS tandem_${name} EXPORT tandem_${name}
+    LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
+    ARCHIVE COMPONENT dev
+    FILE_SET HEADERS COMPONENT dev)
+  install(EXPORT tandem_${name} FILE tandem-${name}.cmake NAMESPACE tandem::
+    DESTINATION "${TANDEM_CONFIG_DIR}" COMPONENT dev)
+endfunction()
+
+# tandem_install_program(NAME): a program that finds our shared libraries beside it.
+function(tandem_install_program name)
+  file(RELATIVE_PATH libraries
+    "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+  install(TARGETS ${name} RUNTIME COMPONENT tools)
+endfunction()
+
+# tandem_install_package(): what finds the libraries, once all of them are known.
+function(tandem_install_package)
+  include(CMakePackageConfigHelpers)
+  set(tandem_links_statically ON)
+  if(BUILD_SHARED_LIBS)
+    set(tandem_links_statically OFF)
+  endif()
+  set(config "${PROJECT_BINARY_DIR}/tandemConfig.cmake")
+  set(version "${PROJECT_BINARY_DIR}/tandemConfigVersion.cmake")
+  configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/tandemConfig.cmake.in" "${config}"
+    INSTALL_DESTINATION "${TANDEM_CONFIG_DIR}" NO_SET_AND_CHECK_MACRO)
+  write_basic_package_version_file("${version}" COMPATIBILITY SameMinorVersion)
+  install(FILES "${config}" "${version}" "${PROJECT_SOURCE_DIR}/cmake/TandemBullet.cmake"
+    DESTINATION "${TANDEM_CONFIG_DIR}" COMPONENT dev)
+  tandem_install_pkgconfig()
+  foreach(file README.md CHANGELOG.md LICENSE)
+    install(FILES "${PROJECT_SOURCE_DIR}/${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev)
+  endforeach()
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev)
+endfunction()
+
+# One file for each way to link: a width of Bullet with all that it needs, the devices, the part without Bullet.
+function(tandem_install_pkgconfig)
+  set(folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  file(RELATIVE_PATH to_prefix "/${folder}" "/")
+  string(REGEX REPLACE "/$" "" to_prefix "${to_prefix}")
+  set(static_libs "")
+  set(static_requires_plugin "")
+  set(static_requires_devices "")
+  if(NOT BUILD_SHARED_LIBS)
+    set(static_libs "-ldl -pthread")
+    set(static_requires_plugin "libsodium >= 1.0.18")
+    set(static_requires_devices "libftdi1 >= 1.5, hidapi-hidraw")
+  endif()
+  set(modules tandem-coordination tandem-float64)
+  if(TANDEM_FLOAT)
+    list(APPEND modules tandem)
+  endif()
+  if(TANDEM_WITH_DEVICES)
+    list(APPEND modules tandem-devices)
+  endif()
+  foreach(module ${modules})
+    set(file "${PROJECT_BINARY_DIR}/${module}.pc")
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/pkgconfig/${module}.pc.in" "${file}" @ONLY)
+    install(FILES "${file}" DESTINATION "${folder}" COMPONENT dev)
+  endforeach()
+endfunction()
