@@ -3,6 +3,9 @@
 find_package(PkgConfig REQUIRED)
 set(TANDEM_ENGINES "")
 set(TANDEM_ENGINE_LIBRARIES "")
+if(NOT TANDEM_COMPARE_ENGINES)
+  return()
+endif()
 
 # tandem_add_engine(NAME TARGET PACKAGE): takes an engine in if its target is there.
 macro(tandem_add_engine name target package)

@@ -57,13 +57,15 @@ function(tandem_add_library name)
   endif()
 endfunction()
 
-# Who links a library for one width of Bullet learns the width, and CMake refuses to link both.
+# Who links a library for one width of Bullet learns the width, and CMake refuses to link both: its message has the
+# property's name.
 function(tandem_mark_width target width)
   set(scalar_bytes_float 4)
   set(scalar_bytes_float64 8)
   target_compile_definitions(${target} PUBLIC TANDEM_BULLET_SCALAR_BYTES=${scalar_bytes_${width}})
   set_target_properties(${target} PROPERTIES
-    INTERFACE_TANDEM_BULLET_WIDTH ${width} COMPATIBLE_INTERFACE_STRING TANDEM_BULLET_WIDTH)
+    INTERFACE_TANDEM_EITHER_FLOAT_OR_FLOAT64 ${width}
+    COMPATIBLE_INTERFACE_STRING TANDEM_EITHER_FLOAT_OR_FLOAT64)
 endfunction()
 
 # What a shared library is called and what it shows. Before 1.0 each minor version may break what was compiled for

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs all tests and house checks. Runs from any folder.
 #
-#   scripts/test.sh [release|dev|clang|tsan|fuzz]
+#   scripts/test.sh [release|dev|clang|tsan|fuzz|install]
 #
 # release (the default) is optimised and has both scalar widths of Bullet, the others have float64:
 # clang is optimised, dev has AddressSanitizer and UBSan, tsan runs the tests that start threads, and
-# fuzz runs each fuzzer over its seeds and a fixed number of inputs.
+# fuzz runs each fuzzer over its seeds and a fixed number of inputs. install installs the libraries of release
+# and shared ones, and builds other people's projects on them; as root it also installs the Debian packages.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -19,17 +20,33 @@ case "$preset" in
   tsan)  groups+=(ci); targets=(tandem_thread_tests tandem_device_tests tandem_hid_tests)
          selection=(--tests-regex '^tandem_(thread|device|hid)_tests\.') ;;
   fuzz)  groups+=(ci); targets=(tandem_fuzzers); selection=(--label-regex '^fuzz$') ;;
-  -h|--help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
-  *)     echo "test.sh: $preset: no such preset; allowed: release, dev, clang, tsan, fuzz" >&2; exit 2 ;;
+  install) groups+=(ci package); targets=(tandem tandem-float) ;;
+  -h|--help) sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+  *)     echo "test.sh: $preset: no such preset; allowed: release, dev, clang, tsan, fuzz, install" >&2; exit 2 ;;
 esac
 
 step "Looking for packages that are missing"
 "$checkout/scripts/packages.sh" install "${groups[@]}"
-step "Configuring preset $preset"
-configure_preset "$preset" -DTANDEM_BUILD_TESTS=ON
-step "Building on $(nproc) cores"
-build_preset "$preset" ${targets[@]+"${targets[@]}"}
-step "Testing"
-cd "$checkout"
-ctest --preset "$preset" --parallel "$(nproc)" ${selection[@]+"${selection[@]}"}
+
+# build PRESET [OPTION...]: configures it, and builds the targets that were chosen.
+build() {
+  step "Configuring preset $1"
+  configure_preset "$@"
+  step "Building on $(nproc) cores"
+  build_preset "$1" ${targets[@]+"${targets[@]}"}
+}
+
+if [[ "$preset" == install ]]; then
+  build release -DTANDEM_BUILD_TESTS=ON
+  build install
+  step "Testing"
+  cmake -S "$checkout/tests/install" -B "$checkout/build/install_tests" -G Ninja >"$checkout/build/install_tests.log" \
+    "-DTANDEM_STATIC=$checkout/build/release" "-DTANDEM_SHARED=$checkout/build/install"
+  ctest --test-dir "$checkout/build/install_tests" --output-on-failure --parallel "$(nproc)"
+else
+  build "$preset" -DTANDEM_BUILD_TESTS=ON
+  step "Testing"
+  cd "$checkout"
+  ctest --preset "$preset" --parallel "$(nproc)" ${selection[@]+"${selection[@]}"}
+fi
 step "All passed ($preset)"

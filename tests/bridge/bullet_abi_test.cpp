@@ -28,6 +28,15 @@ TEST(BulletAbi, SeesTheWidthOfTheBulletThatIsLoaded) {
   EXPECT_EQ(loaded, sizeof(btScalar));
 }
 
+TEST(BulletAbi, FindsTheLibraryThatBringsAWidth) {
+  const test::BulletRig rig;
+  EXPECT_EQ(findOtherBulletWidth(sizeof(btScalar)), "");
+  if (loadedBulletScalarBytes() == 0) GTEST_SKIP() << "Bullet is linked statically";
+  // To a library of another width, the one that is loaded here is the other.
+  const std::string found = findOtherBulletWidth(sizeof(btScalar) + 1);
+  EXPECT_NE(found.find("libBulletDynamics"), std::string::npos) << found;
+}
+
 TEST(BulletAbi, RefusesAnotherWidthAndNamesTheLibraryToLink) {
   const bool is_double = sizeof(btScalar) == 8;
   const BulletAbi other{is_double ? std::size_t{4} : std::size_t{8}, BT_BULLET_VERSION};
