@@ -12,12 +12,15 @@
 
 #include "tandem/coordination/types.h"
 
+#include "world_end_watch.h"
+
 //   Bullet ─► [another layer ─►] our tick ─► whatever was in the slot before us
 //
 // Bullet's callbacks get the world and nothing else (the user pointer is the host's), so a table
 // finds our state by the world. When another layer sits on top of a detached link of ours and
 // somebody attaches again, our function is twice in one chain: the outermost call is the newest
-// link.
+// link. Links come and go only while none of them is being called: whoever detaches within a step
+// is silent at once, and gone at the end of the call.
 
 namespace tandem {
 namespace {
@@ -43,6 +46,7 @@ struct Link {
 struct Slot {
   std::vector<Link> links;
   std::size_t depth = 0;
+  std::size_t called = 0;  // links when the outermost call began
 
   [[nodiscard]] bool hasListener() const {
     for (const Link& link : links) {
@@ -50,11 +54,13 @@ struct Slot {
     }
     return false;
   }
+  [[nodiscard]] bool isUnused() const { return links.empty() && depth == 0; }
 };
 
 struct WorldSlots {
   Slot pre;
   Slot post;
+  HostStepListener* begun = nullptr;  // who was told that the present step begins
 };
 
 /// All attached worlds of the process. The table is guarded; what it holds belongs to the world's
@@ -107,38 +113,84 @@ AttachedWorlds& attachedWorlds() {
 class Call {
  public:
   explicit Call(Slot& slot) : slot_(slot) {
-    if (slot.depth < slot.links.size()) link_ = slot.links[slot.links.size() - 1 - slot.depth];
+    if (slot.depth == 0) slot.called = slot.links.size();
     ++slot_.depth;
+    place_ = slot.called - slot.depth;  // wraps to no link at all
   }
   ~Call() { --slot_.depth; }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  [[nodiscard]] const Link& link() const { return link_; }
+  /// As it is now: what is called in between may detach us.
+  [[nodiscard]] Link link() const {
+    return place_ < slot_.links.size() ? slot_.links[place_] : Link{};
+  }
 
  private:
   Slot& slot_;
-  Link link_;
+  std::size_t place_;
 };
+
+void preTick(btDynamicsWorld* world, btScalar dt);
+void postTick(btDynamicsWorld* world, btScalar dt);
+
+/// Puts back what was in the slot before our silent links, as far as they are on top.
+void removeSilent(btDynamicsWorld& world, Slot& slot, bool is_pre_tick) {
+  const auto present = [&] {
+    return is_pre_tick ? TickSlots::preTick(world) : TickSlots::postTick(world);
+  };
+  const btInternalTickCallback ours = is_pre_tick ? preTick : postTick;
+  while (slot.depth == 0 && !slot.links.empty() && slot.links.back().listener == nullptr &&
+         present() == ours) {
+    world.setInternalTickCallback(slot.links.back().below, world.getWorldUserInfo(), is_pre_tick);
+    slot.links.pop_back();
+  }
+}
+
+void tidyUp(btDynamicsWorld& world, WorldSlots& slots) {
+  removeSilent(world, slots.pre, true);
+  removeSilent(world, slots.post, false);
+  if (slots.pre.isUnused() && slots.post.isUnused()) attachedWorlds().forget(&world);
+}
+
+void tidyUpIfLeft(btDynamicsWorld& world, WorldSlots& slots) {
+  const auto is_left = [](const Slot& slot) {
+    return slot.links.empty() || slot.links.back().listener == nullptr;
+  };
+  if (is_left(slots.pre) || is_left(slots.post)) tidyUp(world, slots);
+}
 
 void preTick(btDynamicsWorld* world, btScalar dt) {
   WorldSlots* slots = attachedWorlds().find(world);
   if (slots == nullptr) return;
-  const Call call(slots->pre);
-  if (call.link().below != nullptr) call.link().below(world, dt);
-  if (call.link().listener != nullptr) call.link().listener->beforeHostStep(dt);
+  {
+    const Call call(slots->pre);
+    if (call.link().below != nullptr) call.link().below(world, dt);
+    if (HostStepListener* listener = call.link().listener) {
+      slots->begun = listener;
+      listener->beforeHostStep(dt);
+    }
+  }
+  tidyUpIfLeft(*world, *slots);
 }
 
 void postTick(btDynamicsWorld* world, btScalar dt) {
   WorldSlots* slots = attachedWorlds().find(world);
   if (slots == nullptr) return;
-  const Call call(slots->post);
-  if (call.link().listener != nullptr) call.link().listener->afterHostStep(dt);
-  if (call.link().below != nullptr) call.link().below(world, dt);
+  {
+    const Call call(slots->post);
+    HostStepListener* listener = call.link().listener;
+    if (listener != nullptr && listener == slots->begun) {
+      slots->begun = nullptr;
+      listener->afterHostStep(dt);
+    }
+    if (call.link().below != nullptr) call.link().below(world, dt);
+  }
+  tidyUpIfLeft(*world, *slots);
 }
 
 /// Puts a link on top of the slot, or wakes our silent link if that is what stands there.
-void attach(btDynamicsWorld& world, Slot& slot, btInternalTickCallback present,
+void attach(btDiscreteDynamicsWorld& world, Slot& slot, btInternalTickCallback present,
             btInternalTickCallback ours, bool is_pre_tick, HostStepListener& listener) {
   if (present == ours && !slot.links.empty()) {
     slot.links.back().listener = &listener;
@@ -148,16 +200,23 @@ void attach(btDynamicsWorld& world, Slot& slot, btInternalTickCallback present,
   world.setInternalTickCallback(ours, world.getWorldUserInfo(), is_pre_tick);
 }
 
-/// Puts back what was in the slot if we are on top, else leaves a silent link.
-void detach(btDynamicsWorld& world, Slot& slot, btInternalTickCallback present,
-            btInternalTickCallback ours, bool is_pre_tick) {
-  for (Link& link : slot.links) link.listener = nullptr;
-  if (present != ours || slot.links.empty()) return;
-  world.setInternalTickCallback(slot.links.back().below, world.getWorldUserInfo(), is_pre_tick);
-  slot.links.pop_back();
-}
-
 }  // namespace
+
+struct HostWorld::Impl final : WorldEndListener {
+  Impl(btDiscreteDynamicsWorld& host, HostStepListener& own)
+      : world(host), listener(own), end_watch(host, *this) {}
+
+  void worldEnds() noexcept override {
+    has_ended = true;
+    listener.hostWorldEnds();
+    attachedWorlds().forget(&world);
+  }
+
+  btDiscreteDynamicsWorld& world;
+  HostStepListener& listener;
+  WorldEndWatch end_watch;
+  bool has_ended = false;
+};
 
 HostWorld::HostWorld(btDiscreteDynamicsWorld& world, HostStepListener& listener, BulletAbi host)
     : world_(world) {
@@ -166,19 +225,35 @@ HostWorld::HostWorld(btDiscreteDynamicsWorld& world, HostStepListener& listener,
   if (slots.pre.hasListener() || slots.post.hasListener()) {
     throw Error(
         "this Bullet world is attached already; use its existing HostWorld (or Site), or destroy "
-        "that "
-        "one first");
+        "that one first");
   }
+  impl_ = std::make_unique<Impl>(world, listener);
   attach(world, slots.pre, TickSlots::preTick(world), preTick, true, listener);
   attach(world, slots.post, TickSlots::postTick(world), postTick, false, listener);
 }
 
 HostWorld::~HostWorld() {
+  if (impl_->has_ended) return;
   WorldSlots* slots = attachedWorlds().find(&world_);
   if (slots == nullptr) return;
-  detach(world_, slots->pre, TickSlots::preTick(world_), preTick, true);
-  detach(world_, slots->post, TickSlots::postTick(world_), postTick, false);
-  if (slots->pre.links.empty() && slots->post.links.empty()) attachedWorlds().forget(&world_);
+  for (Slot* slot : {&slots->pre, &slots->post})
+    for (Link& link : slot->links) link.listener = nullptr;
+  slots->begun = nullptr;
+  tidyUp(world_, *slots);
+}
+
+bool HostWorld::hasEnded() const noexcept { return impl_->has_ended; }
+
+std::vector<std::string> HostWorld::warnings() const {
+  if (impl_->has_ended)
+    return {
+        "the Bullet world was destroyed before what was attached to it: nothing moves any more; "
+        "destroy a Site before its world"};
+  if (!impl_->end_watch.isWatching())
+    return {
+        "the world has an island manager of its own making, so its end cannot be noticed: destroy "
+        "the Site before its world"};
+  return {};
 }
 
 }  // namespace tandem

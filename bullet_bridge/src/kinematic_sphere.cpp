@@ -5,13 +5,15 @@
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/bullet_bridge/native_coupling.h"
 
+#include "own_body.h"
 #include "world_lookup.h"
 
 namespace tandem {
 
 struct KinematicSphere::Impl {
   Impl(btDiscreteDynamicsWorld& host, double radius, const Vec3& p_W)
-      : world(host), shape(static_cast<btScalar>(radius)), rigid(0, nullptr, &shape) {
+      : world(host), shape(static_cast<btScalar>(radius)), own({0, nullptr, &shape}) {
+    btRigidBody& rigid = own.rigid();
     rigid.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     rigid.setFriction(0);
     rigid.setWorldTransform(toBullet(p_W, Quat::Identity()));
@@ -23,12 +25,16 @@ struct KinematicSphere::Impl {
     end = rigid.getWorldTransform();
   }
   ~Impl() {
-    if (findInWorld(world, &rigid) >= 0) world.removeRigidBody(&rigid);
+    if (isInWorld()) world.removeRigidBody(&own.rigid());
+  }
+
+  [[nodiscard]] bool isInWorld() const noexcept {
+    return own.isAlive() && findInWorld(world, &own.rigid()) >= 0;
   }
 
   btDiscreteDynamicsWorld& world;
   btSphereShape shape;
-  btRigidBody rigid;
+  OwnBody own;
   btTransform end;  // of moveTo()
 };
 
@@ -36,33 +42,31 @@ KinematicSphere::KinematicSphere(btDiscreteDynamicsWorld& world, double radius, 
     : impl_(std::make_unique<Impl>(world, radius, p_W)) {}
 KinematicSphere::~KinematicSphere() = default;
 
-btRigidBody& KinematicSphere::rigid() const noexcept { return impl_->rigid; }
+btRigidBody& KinematicSphere::rigid() const noexcept { return impl_->own.rigid(); }
 
-bool KinematicSphere::isInWorld() const noexcept {
-  return findInWorld(impl_->world, &impl_->rigid) >= 0;
-}
+bool KinematicSphere::isInWorld() const noexcept { return impl_->isInWorld(); }
 
 RigidState KinematicSphere::state() const noexcept {
-  const btRigidBody& rigid = impl_->rigid;
-  return {fromBullet(rigid.getCenterOfMassPosition()), fromBullet(rigid.getOrientation()),
-          fromBullet(rigid.getLinearVelocity()), fromBullet(rigid.getAngularVelocity())};
+  const btRigidBody& own = rigid();
+  return {fromBullet(own.getCenterOfMassPosition()), fromBullet(own.getOrientation()),
+          fromBullet(own.getLinearVelocity()), fromBullet(own.getAngularVelocity())};
 }
 
 void KinematicSphere::moveTo(const Vec3& end_W, double dt) noexcept {
   impl_->end.setOrigin(toBullet(end_W));
-  const btVector3 way = impl_->end.getOrigin() - impl_->rigid.getWorldTransform().getOrigin();
-  impl_->rigid.setLinearVelocity(way / static_cast<btScalar>(dt));
+  const btVector3 way = impl_->end.getOrigin() - rigid().getWorldTransform().getOrigin();
+  rigid().setLinearVelocity(way / static_cast<btScalar>(dt));
 }
 
 void KinematicSphere::arrive() noexcept {
-  impl_->rigid.setWorldTransform(impl_->end);
-  impl_->rigid.setInterpolationWorldTransform(impl_->end);
+  rigid().setWorldTransform(impl_->end);
+  rigid().setInterpolationWorldTransform(impl_->end);
 }
 
 void KinematicSphere::hold(const PointState& state) noexcept {
   impl_->end.setOrigin(toBullet(state.p_W));
   arrive();
-  impl_->rigid.setLinearVelocity(toBullet(state.v_W));
+  rigid().setLinearVelocity(toBullet(state.v_W));
 }
 
 }  // namespace tandem

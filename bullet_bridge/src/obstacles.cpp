@@ -119,6 +119,15 @@ void Obstacles::removeBody(BodyIndex index) {
   impl_->search.draw();
 }
 
+void Obstacles::forgetWorld() {
+  while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
+  while (!impl_->search.standing().empty())
+    impl_->remove(impl_->search.standing().back()->original);
+  impl_->search.draw();
+  impl_->next_near_spheres.clear();
+  impl_->has_next = true;
+}
+
 void Obstacles::addSphere(BodyIndex index, double radius) {
   impl_->balls.push_back({index, static_cast<btScalar>(radius)});
 }

@@ -9,6 +9,8 @@
 #include "tandem/bullet_bridge/haptic_body.h"
 #include "tandem/bullet_bridge/native_coupling.h"
 
+#include "own_body.h"
+
 namespace tandem {
 namespace {
 
@@ -30,7 +32,8 @@ btRigidBody::btRigidBodyConstructionInfo makeInfo(btSphereShape& shape, double m
 struct SphereBody::Impl {
   Impl(btDiscreteDynamicsWorld& host, double radius, double mass, const Vec3& p_W,
        SphereMeets meets)
-      : world(host), shape(static_cast<btScalar>(radius)), rigid(makeInfo(shape, mass, p_W)) {
+      : world(host), shape(static_cast<btScalar>(radius)), own(makeInfo(shape, mass, p_W)) {
+    btRigidBody& rigid = own.rigid();
     rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);
     const bool meets_all = meets == SphereMeets::kAllBodies;
     if (meets_all) rigid.setFriction(0);
@@ -41,12 +44,12 @@ struct SphereBody::Impl {
   ~Impl() {
     const bool present = haptic->isInWorld();
     haptic.reset();
-    if (present) world.removeRigidBody(&rigid);
+    if (present) world.removeRigidBody(&own.rigid());
   }
 
   btDiscreteDynamicsWorld& world;
   btSphereShape shape;
-  btRigidBody rigid;
+  OwnBody own;
   std::optional<HapticBody> haptic;
 };
 
@@ -55,8 +58,9 @@ SphereBody::SphereBody(btDiscreteDynamicsWorld& world, double radius, double mas
     : impl_(std::make_unique<Impl>(world, radius, mass, p_W, meets)) {}
 SphereBody::~SphereBody() = default;
 
-btRigidBody& SphereBody::rigid() const noexcept { return impl_->rigid; }
+btRigidBody& SphereBody::rigid() const noexcept { return impl_->own.rigid(); }
+bool SphereBody::isAlive() const noexcept { return impl_->own.isAlive(); }
 HapticBody& SphereBody::haptic() const noexcept { return *impl_->haptic; }
-void SphereBody::setGhost(bool is_ghost) noexcept { setNativeGhost(impl_->rigid, is_ghost); }
+void SphereBody::setGhost(bool is_ghost) noexcept { setNativeGhost(rigid(), is_ghost); }
 
 }  // namespace tandem

@@ -118,6 +118,8 @@ HapticLoop::HapticLoop(Site& site, const HapticLoopSettings& settings)
     throw std::invalid_argument(
         "a haptic loop needs a site whose island hands off: ContactModel::kIsland and "
         "Injection::kHandoff");
+  if (own.host_world.hasEnded())
+    throw Error("the Bullet world of this site has been destroyed; make a new Site");
   if (own.desk.isOpen()) throw std::invalid_argument("the site has a haptic loop already");
   if (settings.priority < 0 || settings.priority > 99)
     throw std::invalid_argument("priority must be 0 to 99, 0 for none");

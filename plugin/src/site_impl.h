@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tandem/bullet_bridge/driven_body.h"
@@ -36,7 +37,7 @@ struct GivenImpulse {
 
 /// A btRigidBody whose motion the island decides.
 struct SiteBody {
-  HapticBody* bullet = nullptr;
+  HapticBody* bullet = nullptr;  ///< null also from the end of the host's world on
   BodyIndex index = 0;
   Vec3 f_gravity_W = Vec3::Zero();                        ///< weight, always on the island body
   Vec3 f_host_W = Vec3::Zero(), t_host_W = Vec3::Zero();  ///< host's own, on the island body now
@@ -69,10 +70,14 @@ struct SiteBody {
   }
 };
 
+/// Status bits that stay.
+inline constexpr std::uint32_t kForGood = kBodyMissing | kStateNotFinite | kWorldGone;
+
 /// Of impulses that a late host does not have yet.
 inline constexpr std::size_t kGivenImpulses = 64;
 
 struct SharedObject {
+  btRigidBody* rigid = nullptr;        ///< the host's
   std::unique_ptr<HapticBody> bullet;  ///< what `body` points to
   SiteBody body;
   ObjectId id = 0;
@@ -133,8 +138,8 @@ struct Site::Impl final : HostStepListener {
        BulletAbi abi);
   ~Impl() override;
 
-  // Set-up: site.cpp
-  void checkNotLive() const;
+  // Set-up: site_set_up.cpp
+  void checkOpenToSetUp();
   ObjectId share(btRigidBody& body, double damping);
   void connect(PeerId peer, Link& link, const Vec3& start_W);
   void coordinate(SharedObject& object);
@@ -187,6 +192,7 @@ struct Site::Impl final : HostStepListener {
   void followLinks(double now) noexcept;
   void followLink(Remote& remote, double now) noexcept;
   void countLinks() noexcept;
+  [[nodiscard]] btRigidBody* findProxyBody(const Remote& remote) const noexcept;
   [[nodiscard]] bool isPlaceFree(const Remote& remote) const noexcept;
   [[nodiscard]] bool isRenewed(const Remote& remote, const SharedObject& object) const noexcept;
   [[nodiscard]] bool doCopiesAgree(const Remote& remote) const noexcept;
@@ -247,6 +253,10 @@ struct Site::Impl final : HostStepListener {
   void steerDriven() noexcept;
   void followDamping(Neighbour& neighbour) noexcept;
 
+  // The end of the host's world: site_world_end.cpp
+  void hostWorldEnds() noexcept override;
+  void lookForTheLastTime();
+
   // The same with a native contact model: site_native.cpp
   void addNativeProxy(Remote& remote, const Vec3& start_W);
   void beforeNativeStep(double dt) noexcept;
@@ -262,10 +272,10 @@ struct Site::Impl final : HostStepListener {
       if (remote.proxy) visit(remote.body);
   }
 
+  /// Nothing shared and nobody connected: a hand alone.
+  [[nodiscard]] bool isBare() const noexcept { return objects.empty() && remotes.empty(); }
   /// The island stands still for good.
-  [[nodiscard]] bool hasStopped() const noexcept {
-    return (status_now & (kBodyMissing | kStateNotFinite)) != 0;
-  }
+  [[nodiscard]] bool hasStopped() const noexcept { return (status_now & kForGood) != 0; }
   [[nodiscard]] double period() const noexcept { return 1.0 / settings.haptic_rate; }
   [[nodiscard]] bool isHandoff() const noexcept {
     return !native && settings.injection == Injection::kHandoff;
@@ -287,6 +297,7 @@ struct Site::Impl final : HostStepListener {
   PassivityObserver passivity;
   StateHash hash;
   SiteCounters counters;
+  std::vector<std::string> last_warnings;  ///< of bodies, from the end of the world on
   Recording* recording = nullptr;
 
   IslandDesk desk;

@@ -75,6 +75,13 @@ void Site::Impl::countLinks() noexcept {
   }
 }
 
+/// Null where the host has deleted it, too.
+btRigidBody* Site::Impl::findProxyBody(const Remote& remote) const noexcept {
+  if (remote.held_proxy)
+    return remote.held_proxy->isInWorld() ? &remote.held_proxy->rigid() : nullptr;
+  return remote.proxy && remote.proxy->isAlive() ? &remote.proxy->rigid() : nullptr;
+}
+
 /// Nothing is where the proxy is, as far as that is known, and objects are where the user has them:
 /// else it might come in on the wrong side of one, and hold it off from where it is pulled to.
 bool Site::Impl::isPlaceFree(const Remote& remote) const noexcept {
@@ -84,8 +91,8 @@ bool Site::Impl::isPlaceFree(const Remote& remote) const noexcept {
   const double allowed = settings.link_loss.rejoin_overlap;
   const double unknown = (island.state(*remote.user.body).p_W - remote.searched_W).norm();
   if (native) {
-    const btRigidBody& rigid = remote.proxy ? remote.proxy->rigid() : remote.held_proxy->rigid();
-    return computeNativeOverlap(host_world.world(), rigid) + unknown <= allowed;
+    const btRigidBody* rigid = findProxyBody(remote);
+    return rigid && computeNativeOverlap(host_world.world(), *rigid) + unknown <= allowed;
   }
   if (!settings.guide && unknown > kKnownAround) return false;
   return island.computeOverlap(*remote.user.body) <= allowed;
@@ -160,7 +167,7 @@ void Site::Impl::restrainObjects(const Remote& remote) noexcept {
 
 /// In the host's world, by the host's thread.
 void Site::Impl::showGhost(Remote& remote) noexcept {
-  if (!remote.proxy || remote.ghost_seen == remote.ghost_shown) return;
+  if (!remote.proxy || !remote.proxy->isAlive() || remote.ghost_seen == remote.ghost_shown) return;
   remote.ghost_shown = remote.ghost_seen;
   remote.proxy->setGhost(remote.ghost_seen);
 }
@@ -176,7 +183,8 @@ void Site::Impl::restrainProxy(Remote& remote) noexcept {
       remote.ghost_seen = is_out;
       showGhost(remote);
     }
-    if (remote.held_proxy) setNativeGhost(remote.held_proxy->rigid(), is_out);
+    if (remote.held_proxy && remote.held_proxy->isInWorld())
+      setNativeGhost(remote.held_proxy->rigid(), is_out);
     if (is_out) {
       RigidState state = island.state(body);
       state.v_W.setZero();

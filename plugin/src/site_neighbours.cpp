@@ -113,7 +113,7 @@ void Site::Impl::demoteLeaving() {
 void Site::Impl::unfilter(Neighbour& neighbour) {
   const bool is_present = neighbour.isInWorld();
   for (Remote& remote : remotes) {
-    if (!remote.proxy) continue;
+    if (!remote.proxy || !remote.proxy->isAlive()) continue;
     btRigidBody& proxy = remote.proxy->rigid();
     if (is_present) {
       filterNativeContact(host_world.world(), proxy, *neighbour.rigid, false);

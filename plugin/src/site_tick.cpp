@@ -41,7 +41,7 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
     handoff_due += now;
     host_time += now;
   }
-  status_now = (status_ever | status_of_host) & (kBodyMissing | kStateNotFinite);
+  status_now = (status_ever | status_of_host) & kForGood;
   sample = device.read(now);
   makeUp(now);
   tick_start = now;
@@ -119,7 +119,7 @@ void Site::Impl::computeForce() noexcept {
     contact_W = island.computeContactForce(hip);
     force_rest.set(island);
   }
-  const bool fault = lets_go || status_now & (kDeviceInvalid | kBodyMissing | kStateNotFinite);
+  const bool fault = lets_go || status_now & (kDeviceInvalid | kForGood);
   force_W = guard.follow(limitEnergy(guard.clamp(contact_W)), fault);
   counters.force_clamped = guard.clampedCount();
   counters.force_slewed = guard.slewedCount();
@@ -314,7 +314,7 @@ void Site::Impl::capture(double now) noexcept {
   if (!recording) return;
   const auto fill = [&](const SiteBody& body, BodyRecord& record) {
     record.island = island.state(body.index);
-    record.bullet = desk.isOpen() ? body.seen : body.bullet->state();
+    record.bullet = desk.isOpen() || !body.bullet ? body.seen : body.bullet->state();
   };
   for (std::size_t i = 0; i < objects.size(); ++i) fill(objects[i].body, object_records[i]);
   for (std::size_t i = 0; i < remotes.size(); ++i) {

@@ -72,6 +72,7 @@ class KinematicSphere {
   KinematicSphere(const KinematicSphere&) = delete;
   KinematicSphere& operator=(const KinematicSphere&) = delete;
 
+  /// While it is in the world.
   [[nodiscard]] btRigidBody& rigid() const noexcept;
   [[nodiscard]] bool isInWorld() const noexcept;
   [[nodiscard]] RigidState state() const noexcept;

@@ -35,7 +35,8 @@ namespace tandem {
 /// touch.
 class Obstacles final : public ContactFinder {
  public:
-  /// `host` must outlive this object, bodies too unless they have left the world.
+  /// `host` must outlive this object or be forgotten by it (forgetWorld), bodies too unless they
+  /// have left the world.
   explicit Obstacles(btDiscreteDynamicsWorld& host);
   ~Obstacles() override;
 
@@ -46,6 +47,10 @@ class Obstacles final : public ContactFinder {
 
   /// Not in the tick. The index is free again, and native contact is the host's.
   void removeBody(BodyIndex index);
+
+  /// Not in the tick. The host's world ends: no body is held and nothing is near any more, after
+  /// the commit().
+  void forgetWorld();
 
   /// Set-up. A haptic sphere (device or proxy): obstacles near it are reported by nearSpheres().
   void addSphere(BodyIndex index, double radius);

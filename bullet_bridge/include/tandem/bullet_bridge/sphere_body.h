@@ -20,8 +20,9 @@ enum class SphereMeets {
 
 /// A sphere that is put into a host's world and taken out again: the Bullet body of a remote user.
 ///
-/// It has no weight. The world must outlive it. Taking it out of the world is noticed by
-/// haptic().isInWorld().
+/// It has no weight. The world must outlive it. A host that takes it out of its world is noticed by
+/// haptic().isInWorld(), one that deletes it, too, as hosts do that delete all there is in their
+/// world, by isAlive().
 class SphereBody {
  public:
   SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
@@ -30,6 +31,8 @@ class SphereBody {
   SphereBody(const SphereBody&) = delete;
   SphereBody& operator=(const SphereBody&) = delete;
 
+  [[nodiscard]] bool isAlive() const noexcept;
+  /// While it is alive.
   [[nodiscard]] btRigidBody& rigid() const noexcept;
   [[nodiscard]] HapticBody& haptic() const noexcept;
 

@@ -33,7 +33,9 @@ enum TickStatus : std::uint32_t {
   kHostStepWrong = 1u << 3,  ///< impulse injection, but the host does not step at the haptic rate:
                              ///< make it, or hand off
   kStateNotFinite =
-      1u << 4,  ///< the island blew up: lower gains or inner_step; the force stays at zero
+      1u << 4,           ///< the island blew up: lower gains or inner_step; the force stays at zero
+  kWorldGone = 1u << 5,  ///< the host has destroyed its world before this site: the force fades and
+                         ///< stays at zero; destroy a site before its world
 };
 
 /// Counts since the start.
@@ -67,9 +69,21 @@ struct SiteCounters {
 /// host's step. Shared objects and remote users are ordinary btRigidBodys of the host's world.
 ///
 /// Set-up calls may allocate and throw; tick() does neither. One thread calls everything of one
-/// site, the one that steps the world; with a HapticLoop there are two. World, device, links and
-/// shared bodies must outlive the site; destroying the site gives the host everything back as it
-/// was.
+/// site, the one that steps the world; with a HapticLoop there are two. Several sites may live in
+/// several threads, each with a world of its own.
+///
+/// World, device, links and shared bodies should outlive the site; destroying the site gives the
+/// host everything back as it was. Not while Bullet looks for contact: outside stepSimulation(), or
+/// in the host's own tick callbacks and actions. What goes before the site: the world gets
+/// everything back in that moment, and the site says so (kWorldGone); a body taken out of its world
+/// is left alone from the next step on (kBodyMissing), and may be deleted - with the joints of
+/// ContactModel::kSpring6Dof and kPointToPoint, and with a guide and a native model, not before the
+/// site; device and links may go once nobody ticks any more.
+///
+/// With nothing shared and nobody connected the hand feels what stands in the world, and the host's
+/// simulation is the same to the bit (with a native model the hand is a body of it). Multi-bodies,
+/// soft bodies and bodies in joints are never taken in: shared bodies meet them in Bullet, the hand
+/// does not feel them.
 class Site {
  public:
   /// Throws std::invalid_argument for settings out of range; tandem::Error if the device gives no
@@ -82,11 +96,14 @@ class Site {
   Site& operator=(const Site&) = delete;
 
   /// Shares a dynamic box, sphere, capsule, cylinder or convex hull of the host's world: its mass
-  /// and inertia become m/N of what they are, until the site ends. `damping` b acts on this copy [N
-  /// s/m]. Every peer shares the same objects in the same order: that is their identity. Up to
-  /// kMaxSharedObjects. With hand-off the body sleeps in Bullet while it stands, and costs no more
-  /// than others that sleep; whatever moves, pushes or hits it wakes it. Throws tandem::Error for a
-  /// body that cannot be shared, with the reason.
+  /// and inertia become m/N of what they are, until the site ends. So what hits it here in Bullet -
+  /// a body beyond max_neighbours, a multi-body, a cloth - pushes it N times as easily as before;
+  /// the momentum of such a hit is that of m/N, and couplers carry it to the other N - 1 copies,
+  /// until all move as one of mass m would. `damping` b acts on this copy [N s/m]. Every peer
+  /// shares the same objects in the same order: that is their identity. Up to kMaxSharedObjects.
+  /// With hand-off the body sleeps in Bullet while it stands, and costs no more than others that
+  /// sleep; whatever moves, pushes or hits it wakes it. Throws tandem::Error for a body that cannot
+  /// be shared, with the reason.
   ObjectId share(btRigidBody& body, double damping = 0.0);
 
   /// Connects a remote user whose device starts at `start_W`. The scheme decides what stands for

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <btBulletDynamicsCommon.h>
+
+namespace tandem::test {
+
+/// All that attaching may touch of a body, to be compared bit for bit. Forces are spent.
+[[nodiscard]] inline std::vector<btScalar> readSettings(btRigidBody& body) {
+  std::vector<btScalar> numbers = {body.getInvMass(),
+                                   body.getLinearDamping(),
+                                   body.getAngularDamping(),
+                                   static_cast<btScalar>(body.getActivationState()),
+                                   static_cast<btScalar>(body.getFlags()),
+                                   static_cast<btScalar>(body.getCollisionFlags()),
+                                   body.getFriction(),
+                                   body.getRestitution(),
+                                   body.getContactProcessingThreshold(),
+                                   body.getLinearSleepingThreshold(),
+                                   body.getAngularSleepingThreshold()};
+  const auto add = [&](const btVector3& v) {
+    numbers.insert(numbers.end(), {v.x(), v.y(), v.z()});
+  };
+  add(body.getInvInertiaDiagLocal());
+  add(body.getGravity());
+  add(body.getLinearFactor());
+  add(body.getAngularFactor());
+  // The weight has no getter: what gravity adds to the force.
+  body.clearForces();
+  body.applyGravity();
+  add(body.getTotalForce());
+  body.clearForces();
+  return numbers;
+}
+
+/// FNV-1a over the bits of numbers.
+class BitHash {
+ public:
+  template <typename Value>
+  void add(const Value& value) {
+    unsigned char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211u;
+  }
+  void add(const btVector3& v) {
+    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+  }
+  void add(const btTransform& pose) {
+    add(pose.getOrigin());
+    for (int row = 0; row < 3; ++row) add(pose.getBasis()[row]);
+  }
+  /// Its whole motion: where and how fast it is, how tired, and what is shown of it.
+  void add(const btRigidBody& body) {
+    add(body.getWorldTransform());
+    add(body.getLinearVelocity());
+    add(body.getAngularVelocity());
+    add(body.getInterpolationWorldTransform());
+    add(body.getInterpolationLinearVelocity());
+    add(body.getInterpolationAngularVelocity());
+    add(body.getDeactivationTime());
+    add(body.getActivationState());
+    add(body.getIslandTag());
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037u;
+};
+
+}  // namespace tandem::test
