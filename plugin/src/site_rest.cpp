@@ -93,7 +93,7 @@ void Site::Impl::fallQuiet() {
   bool all_parked = true;
   forEachBody([&](const SiteBody& body) { all_parked &= body.bullet->isParked(); });
   // What the host moves by hand may come at any step, and wakes nobody.
-  if (!all_parked || neighbour_search.isAnythingDriven()) return;
+  if (!all_parked || (!isBare() && neighbour_search.isAnythingDriven())) return;
 
   Vec3 hand_W = Vec3::Zero();
   desk.run([&] {

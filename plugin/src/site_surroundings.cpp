@@ -132,7 +132,8 @@ double Site::Impl::computeSpeedInSprings() noexcept {
 }
 
 void Site::Impl::updateNeighbours(double horizon) {
-  if (neighbours.empty()) return;
+  // A hand alone feels what stands, and takes nothing of the host's.
+  if (neighbours.empty() || isBare()) return;
   const bool is_full = isFullSearch();
   const auto is_calm = [&](const SiteBody& body) {
     return !is_full && body.bullet->isParked() && !body.was_near_awake;
