@@ -81,13 +81,13 @@ void checkBulletAbi(const BulletAbi& host) {
             << describeScalar(host.scalar_bytes) << " btScalar, this Tandem library for "
             << describeScalar(library.scalar_bytes) << "; link " << nameTarget(host.scalar_bytes)
             << " instead of " << nameTarget(library.scalar_bytes);
-    throw Error(message.str());
+    throw WrongBulletError(message.str());
   }
   if (host.version != library.version) {
     message << "Bullet version mismatch: the host was compiled against Bullet " << host.version
             << ", this Tandem library against " << library.version
             << "; build both against the same Bullet headers";
-    throw Error(message.str());
+    throw WrongBulletError(message.str());
   }
   const std::size_t loaded = loadedBulletScalarBytes();
   if (loaded != 0 && loaded != library.scalar_bytes) {
@@ -96,7 +96,7 @@ void checkBulletAbi(const BulletAbi& host) {
             << describeScalar(library.scalar_bytes)
             << "; load one width of Bullet per process and link " << nameTarget(loaded)
             << " for it";
-    throw Error(message.str());
+    throw WrongBulletError(message.str());
   }
   if (const std::string other = findOtherBulletWidth(library.scalar_bytes); !other.empty()) {
     const std::size_t bytes =

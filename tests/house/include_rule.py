@@ -70,6 +70,7 @@ RULES = {
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 PUBLIC = re.compile(r"tandem/(\w+)/")
+FRONT_DOOR = re.compile(r"tandem/\w+\.h$")  # a library's own, beside its folder
 
 
 @dataclass(frozen=True)
@@ -117,9 +118,17 @@ class House:
         public = PUBLIC.match(header)
         if public:
             return self.broken_by_public(path, folder, public[1], header)
+        if FRONT_DOOR.match(header):
+            return self.broken_by_public(path, folder, self.owner_of_front_door(header), header)
         if quoted:
             return self.broken_by_private(path, folder, header)
         return broken_by_outside(folder, header)
+
+    def owner_of_front_door(self, header):
+        """The library with this header; plugin, whose headers hosts see, if there is none."""
+        owners = [library for library in LIBRARIES
+                  if (self.checkout / library / "include" / header).is_file()]
+        return owners[0] if owners else "plugin"
 
     def broken_by_public(self, path, folder, owner, header):
         if owner not in LIBRARIES:

@@ -51,6 +51,15 @@ class IncludeRuleTest(unittest.TestCase):
                         else:
                             self.assert_broken(f"{folder}/src/a.cpp", include, f"may not include {owner}/")
 
+    def test_front_doors_are_their_librarys(self):
+        door = {"plugin/include/tandem/tandem.h": "#pragma once\n"}
+        for folder in ("plugin", "demos", "tests"):
+            self.assert_kept(f"{folder}/src/a.cpp", '"tandem/tandem.h"', **door)
+        for folder in ("coordination", "bullet_bridge", "falcon"):
+            found = breaks_of({f"{folder}/src/a.cpp": '#include "tandem/tandem.h"\n', **door})
+            self.assertEqual([breach.rule for breach in found], [f"{folder}/ may not include plugin/"])
+        self.assert_broken("plugin/src/a.cpp", '"tandem/window.h"', "has no such header")
+
     def test_bullet_is_for_the_bridge(self):
         headers = ("<btBulletDynamicsCommon.h>", "<LinearMath/btScalar.h>",
                    "<BulletDynamics/Dynamics/btRigidBody.h>", "<bullet/LinearMath/btVector3.h>",

@@ -84,12 +84,12 @@ typedef struct TandemWorld TandemWorld;
 
 /* A body of a world; never given twice. */
 typedef uint32_t TandemBody;
-#define TANDEM_NO_BODY ((TandemBody)0)
+#define TANDEM_NO_BODY 0u
 
 /* A world of Tandem's own, empty and without gravity. [setup] */
 TandemResult tandem_world_create(TandemWorld** world);
 
-/* The host's btDiscreteDynamicsWorld (or a class derived from it). `scalar_bytes` and
+/* The host's btDiscreteDynamicsWorld (a class derived from it: its address as that). `scalar_bytes` and
    `bullet_version` are the host's sizeof(btScalar) and BT_BULLET_VERSION, so that a mismatch is
    refused instead of giving nonsense; in C++: TANDEM_ATTACH_ABI. The world should outlive the
    handle. [setup] */
@@ -120,7 +120,8 @@ typedef struct TandemBodySettings {
   const double* points; /* of a hull: x, y, z of each, in the body [m] */
   size_t point_count;
   double mass;       /* [kg]; 0: static */
-  double inertia[3]; /* principal moments [kg m^2]; all 0: as a body of even density */
+  double inertia[3]; /* principal moments [kg m^2]; all 0: as Bullet takes them for the shape, of a
+                        box around capsules and hulls */
   double friction;
   double restitution;
   TandemState start;
@@ -162,14 +163,22 @@ TandemResult tandem_world_step(TandemWorld* world, double dt, int max_substeps, 
      tandem_world_end_step(world, n, bodies, as_they_are_now, to_be_set);
      ... the host sets its bodies to to_be_set
 
-   begin: `now` is what the host has; what differs from what it was told last (by more than 1e-9 m,
-   rad, m/s, rad/s) the host has done: a velocity is an impulse, a pose a move. Then all ticks of
-   the step run. `handoff` has the velocities that carry each body to where the island has it in dt.
-   `host_gravity` is what the host's engine will add to velocities by itself [m/s^2], and is taken
-   off beforehand; null: nothing. end: what the host's engine made of these velocities besides
-   (contact with bodies of its own) goes to the island as an impulse, and `after` is what to set. A
-   body that the host has not is left out of `bodies`. Sub-steps of the host: once for each. [host]
- */
+   begin: `now` is what the host has. What differs from what it was told last the host has done: a
+   pose is a move, a velocity an impulse. Then all ticks of the step run. `handoff` has the host's
+   poses, and the velocities that carry each body to where the island has it in dt. `host_gravity` is
+   what the host's engine will add to velocities by itself [m/s^2], and is taken off beforehand; null:
+   nothing. end: what the host's engine made of these velocities besides (contact with bodies of its
+   own) goes to the island as an impulse, and `after` is what to set: the island's state, with that.
+
+   The engine must move bodies by the velocity that they have after its forces, x += v dt, as most do
+   (semi-implicit Euler), without damping and gyroscopic terms of its own. An impulse is a change of
+   velocity times the mass that the body has here, m/N of a shared one: give the host's body that
+   mass. Differences below 1e-9 [m, rad, m/s, rad/s], or of a host's rounding to float, 2.4e-7 of a
+   value, are none.
+
+   Bodies that the host has not are left out of `bodies`; static ones are moved by
+   tandem_world_set_state(). Both calls name the same bodies. Sub-steps of the host: once for each.
+   `handoff`, `after` and `now` may be one array. [host] */
 TandemResult tandem_world_begin_step(TandemWorld* world, double dt, const double host_gravity[3],
                                      size_t count, const TandemBody* bodies, const TandemState* now,
                                      TandemState* handoff);

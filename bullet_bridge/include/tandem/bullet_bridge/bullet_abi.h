@@ -5,6 +5,8 @@
 
 #include <LinearMath/btScalar.h>
 
+#include "tandem/coordination/types.h"
+
 // The width that the linked library was compiled for, as its CMake target and its pkg-config file
 // say it.
 #ifdef TANDEM_BULLET_SCALAR_BYTES
@@ -39,6 +41,12 @@ struct BulletAbi {
   return {sizeof(btScalar), BT_BULLET_VERSION};
 }
 
+/// The host's Bullet is not the one that this library was compiled for.
+class WrongBulletError final : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Width of btScalar in the Bullet that this library is bound to [bytes], read from the size of one
 /// of its symbols; 0 if that cannot be told (Bullet linked statically into a program that exports
 /// nothing).
@@ -54,7 +62,7 @@ struct BulletAbi {
 /// constants such as btTransform::getIdentity()'s one for the whole process.
 ///
 /// Called with bulletAbiOfThisCode() from headers, so that `host` is what the host's compiler saw.
-/// Throws tandem::Error naming both widths (or versions) and the library to link instead.
+/// Throws WrongBulletError naming both widths (or versions) and the library to link instead.
 void checkBulletAbi(const BulletAbi& host);
 
 }  // namespace tandem
