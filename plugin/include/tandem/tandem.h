@@ -16,15 +16,16 @@
    Errors. Functions that can fail return TandemResult; on failure they change nothing, write
    nothing but say why in one line: tandem_last_error(). No exception crosses. A handle that another
    one still uses is not destroyed (TANDEM_IN_USE): sites go first, then worlds, devices, links,
-   meshes.
+   meshes. A null handle, one of another kind and one that was destroyed lately are refused.
 
    Threads, said at each function:
      [any]    from any thread at any time.
      [setup]  one thread at a time for all handles that are tied together by a site; not while a
    loop runs. [host]   the thread that steps the world, which may be another one than that of
-   [setup] but not at the same time. [tick]   the thread that ticks the site: [host] unless
-   tick_source is TANDEM_TICK_CALLER. Sites of different worlds are independent, each may have its
-   own thread. */
+   [setup] but not at the same time. With a loop, too. [tick]   the thread that ticks the site:
+   [host] unless tick_source is TANDEM_TICK_CALLER. [carry]  the thread that carries packets:
+   [tick], or with a loop any one other. Sites of different worlds are independent, each may have
+   its own threads. */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -89,8 +90,8 @@ typedef uint32_t TandemBody;
 /* A world of Tandem's own, empty and without gravity. [setup] */
 TandemResult tandem_world_create(TandemWorld** world);
 
-/* The host's btDiscreteDynamicsWorld (a class derived from it: its address as that). `scalar_bytes` and
-   `bullet_version` are the host's sizeof(btScalar) and BT_BULLET_VERSION, so that a mismatch is
+/* The host's btDiscreteDynamicsWorld (a class derived from it: its address as that). `scalar_bytes`
+   and `bullet_version` are the host's sizeof(btScalar) and BT_BULLET_VERSION, so that a mismatch is
    refused instead of giving nonsense; in C++: TANDEM_ATTACH_ABI. The world should outlive the
    handle. [setup] */
 TandemResult tandem_world_attach(void* discrete_dynamics_world, size_t scalar_bytes,
@@ -165,14 +166,15 @@ TandemResult tandem_world_step(TandemWorld* world, double dt, int max_substeps, 
 
    begin: `now` is what the host has. What differs from what it was told last the host has done: a
    pose is a move, a velocity an impulse. Then all ticks of the step run. `handoff` has the host's
-   poses, and the velocities that carry each body to where the island has it in dt. `host_gravity` is
-   what the host's engine will add to velocities by itself [m/s^2], and is taken off beforehand; null:
-   nothing. end: what the host's engine made of these velocities besides (contact with bodies of its
-   own) goes to the island as an impulse, and `after` is what to set: the island's state, with that.
+   poses, and the velocities that carry each body to where the island has it in dt. `host_gravity`
+   is what the host's engine will add to velocities by itself [m/s^2], and is taken off beforehand;
+   null: nothing. end: what the host's engine made of these velocities besides (contact with bodies
+   of its own) goes to the island as an impulse, and `after` is what to set: the island's state,
+   with that.
 
-   The engine must move bodies by the velocity that they have after its forces, x += v dt, as most do
-   (semi-implicit Euler), without damping and gyroscopic terms of its own. An impulse is a change of
-   velocity times the mass that the body has here, m/N of a shared one: give the host's body that
+   The engine must move bodies by the velocity that they have after its forces, x += v dt, as most
+   do (semi-implicit Euler), without damping and gyroscopic terms of its own. An impulse is a change
+   of velocity times the mass that the body has here, m/N of a shared one: give the host's body that
    mass. Differences below 1e-9 [m, rad, m/s, rad/s], or of a host's rounding to float, 2.4e-7 of a
    value, are none.
 
@@ -213,7 +215,8 @@ TandemResult tandem_device_create_simulated(double mass, double damping, const d
 TandemResult tandem_device_set_hand(TandemDevice* device, const double force[3]);
 
 /* A device that is read and written by functions of the caller, called in [tick] once per haptic
-   period. They must not block, allocate, throw or call Tandem. */
+   period, and in tandem_site_create() once. They must not block, allocate or call Tandem; an
+   exception that leaves them ends the program. */
 typedef struct TandemDeviceFunctions {
   /* Position [m] and velocity [m/s] of the haptic interface point in W at `now` [s]; 0 if there is
      none: the force fades to zero. */
@@ -226,7 +229,7 @@ typedef struct TandemDeviceFunctions {
 TandemResult tandem_device_create(TandemDeviceFunctions functions, TandemDeviceLimits limits,
                                   TandemDevice** device);
 
-/* The force on the hand that was rendered last, in W [N]. [tick] */
+/* The force on the hand that was rendered last, in W [N]. [host] */
 TandemResult tandem_device_get_force(const TandemDevice* device, double force[3]);
 
 /* [setup] */
@@ -266,14 +269,15 @@ typedef struct TandemPacket {
 } TandemPacket;
 
 /* A way of the caller's: packets that the site sends are taken, and those that have come in are
-   given, by hand. Holds up to 256 each way; beyond that the oldest are dropped. [setup] */
+   given, by hand. Holds up to 256 each way; what finds no room is lost, as on any way. [setup] */
 TandemResult tandem_link_create_manual(TandemLink** link);
 
 /* Gives a packet that has come in, for the next tick. It is checked as any from a network: one that
-   is not sane is dropped and counted by the site. [tick] */
+   is not sane is dropped and counted by the site. Real-time safe. [carry] */
 TandemResult tandem_link_push(TandemLink* link, const TandemPacket* packet);
 
-/* Takes a packet to be sent; *there is 0 if there is none. [tick] */
+/* Takes a packet to be sent; `there` is 0 if there is none, and nothing is written then. Real-time
+   safe. [carry] */
 TandemResult tandem_link_pop(TandemLink* link, TandemPacket* packet, int* there);
 
 /* Not of a link that belongs to a mesh. [setup] */
@@ -307,8 +311,10 @@ TandemResult tandem_mesh_create(uint32_t self, const char* bind, size_t peer_cou
 /* The way to a peer; belongs to the mesh. [setup] */
 TandemResult tandem_mesh_link(TandemMesh* mesh, uint32_t peer, TandemLink** link);
 
-/* Takes in what is there and sends what is due; before each tick, or once per host step. `now` is
-   any clock of the caller's that does not run back [s]. Never blocks. [tick] */
+/* Takes in what is there and sends what is due: before each tick or host step, and with a loop 1000
+   times a second, from a thread of its own if need be; less often, states come as much later. `now`
+   is any clock of the caller's that does not run back [s]; the sites' times may be others. Never
+   blocks. [carry] */
 TandemResult tandem_mesh_poll(TandemMesh* mesh, double now);
 
 typedef enum TandemPeerPhase {
@@ -326,11 +332,16 @@ typedef struct TandemPeerStatus {
   double loss;       /* of the peer's packets, 0 to 1 */
 } TandemPeerStatus;
 
-/* [tick] */
+/* [carry] */
 TandemResult tandem_mesh_status(const TandemMesh* mesh, uint32_t peer, double now,
                                 TandemPeerStatus* status);
 
-/* Says farewell to all; poll for another 0.1 s, then destroy. [tick] */
+/* What a user should know of a peer that does not become live: the agreement that differs, why it
+   refuses us; one line each, or nothing. As tandem_site_warnings(). [carry] */
+TandemResult tandem_mesh_explain(const TandemMesh* mesh, uint32_t peer, char* text, size_t room,
+                                 size_t* length);
+
+/* Says farewell to all; poll for another 0.1 s, then destroy. [carry] */
 TandemResult tandem_mesh_leave(TandemMesh* mesh, double now);
 
 /* [setup] */
@@ -379,7 +390,9 @@ TandemSiteSettings tandem_default_site_settings(void);
 TandemResult tandem_site_create(const TandemSiteSettings* settings, TandemWorld* world,
                                 TandemDevice* device, TandemSite** site);
 
-/* Gives the host everything back as it was. [setup] */
+/* Gives the host everything back as it was; ends a loop. Its proxies are no bodies any more.
+ * [setup]
+ */
 TandemResult tandem_site_destroy(TandemSite* site);
 
 /* Shares a dynamic box, sphere, capsule, cylinder or hull: its mass and inertia become m/N of what
@@ -410,11 +423,12 @@ typedef enum TandemStatus {
 TandemResult tandem_site_tick(TandemSite* site, double now, uint32_t* status);
 
 /* A thread of its own ticks the site in real time, with TANDEM_TICK_CALLER; the host steps its
-   world in real time, too. `priority` of SCHED_FIFO, 0: none. From then on the [tick] functions of
-   this site, its device and its links may not be called, but tandem_site_read(). [setup] */
+   world in real time, too. `priority` of SCHED_FIFO, 0: none. Until the loop is stopped,
+   tandem_site_tick() and the set-up of this site are refused. Not with simulated links, which
+   belong to one thread. [setup] */
 TandemResult tandem_site_start_loop(TandemSite* site, int priority);
 
-/* The force fades to zero and the thread ends. [setup] */
+/* The force fades to zero and the thread ends; without a loop, nothing. [setup] */
 TandemResult tandem_site_stop_loop(TandemSite* site);
 
 /* How a remote is doing. */
@@ -449,8 +463,9 @@ TandemResult tandem_site_read(TandemSite* site, TandemReading* reading, size_t o
                               TandemState* objects, size_t remote_room, TandemState* proxies,
                               TandemLinkState* links);
 
-/* What a user should know about what was attached, one line each. Writes at most `room` bytes with
- *the 0, and to length how many there are without it. [setup] */
+/* What a user should know about what was attached, and what the system did not grant a loop, one
+   line each. Writes at most `room` bytes with the 0, and to `length` (or null) how many there are
+   without it. [setup] */
 TandemResult tandem_site_warnings(const TandemSite* site, char* text, size_t room, size_t* length);
 
 #if defined(__GNUC__)

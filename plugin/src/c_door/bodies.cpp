@@ -26,7 +26,8 @@ constexpr int kCookie = 0x54624f44;
 
 [[nodiscard]] Shape makeShape(const TandemBodySettings& settings) {
   const double* size = settings.size;
-  switch (static_cast<int>(settings.shape)) {
+  const int kind = readNumber(settings.shape);
+  switch (kind) {
     case TANDEM_BOX:
       return Box{Vec3(size[0], size[1], size[2])};
     case TANDEM_SPHERE:
@@ -40,7 +41,7 @@ constexpr int kCookie = 0x54624f44;
     case TANDEM_PLANE:
       return Plane{Vec3::UnitZ(), 0.0};
     default:
-      refuseValue("shape", static_cast<int>(settings.shape), "one of TandemShapeKind");
+      refuseValue("shape", kind, "one of TandemShapeKind");
   }
 }
 

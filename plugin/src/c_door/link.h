@@ -28,6 +28,8 @@ class ManualLink final : public Link {
   SpscRing<StatePacket> departures_{kRoom}, arrivals_{kRoom};
 };
 
+class MeshLink;
+
 struct LinkEnd {
   static constexpr std::uint32_t kKind = 0x546c494e;
   static constexpr const char* kName = "link";
@@ -35,7 +37,10 @@ struct LinkEnd {
 
   std::unique_ptr<Link> own;  ///< null: the mesh's
   Link* link = nullptr;
-  ManualLink* manual = nullptr;  ///< null: of another kind
+  bool is_simulated = false;
+  ManualLink* manual = nullptr;   ///< null: of another kind
+  MeshLink* mesh_link = nullptr;  ///< null: of another kind
+  HandleHead* mesh = nullptr;     ///< that it belongs to
 };
 
 }  // namespace tandem::c_door

@@ -16,6 +16,7 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
   end->link = link.get();
   end->own = std::move(link);
   end->manual = manual;
+  end->is_simulated = !manual;
   return Shells<TandemLink>::all().wrap(std::move(end));
 }
 

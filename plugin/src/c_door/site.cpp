@@ -5,6 +5,7 @@
 
 #include "tandem/bullet_bridge/world_access.h"
 
+#include "c_door/mesh_link.h"
 #include "c_door/values.h"
 
 namespace tandem::c_door {
@@ -17,6 +18,7 @@ SiteEnd::SiteEnd(const SiteSettings& settings, TandemWorld& world, TandemDevice&
       site_(settings, world_.bullet(), device.thing->haptic, world_.abi()) {}
 
 SiteEnd::~SiteEnd() {
+  stopLoop();
   for (const TandemBody body : shared_) world_.release(body);
   for (const TandemBody proxy : proxies_) world_.forget(proxy);
 }
@@ -51,12 +53,18 @@ TandemBody SiteEnd::connect(std::uint32_t peer, TandemLink& link, const Vec3& st
   if (link.head.users > 0)
     throw Refusal(TANDEM_IN_USE, "the link is connected already; each remote has one of its own");
   peers_.reserve(peers_.size() + 1);
-  link_uses_.reserve(link_uses_.size() + 1);
+  link_uses_.reserve(link_uses_.size() + 2);
+  mesh_links_.reserve(mesh_links_.size() + 1);
   proxies_.reserve(proxies_.size() + 1);
   world_.reserveNumber();
   site_.connect(PeerId{peer}, *link.thing->link, start_W);
   peers_.push_back(peer);
   link_uses_.emplace_back(link.head);
+  has_simulated_link_ |= link.thing->is_simulated;
+  if (MeshLink* mesh_link = link.thing->mesh_link) {
+    mesh_links_.push_back(mesh_link);
+    link_uses_.emplace_back(*link.thing->mesh);
+  }
   btRigidBody* proxy = site_.proxyBody(site_.remoteCount() - 1);
   if (!proxy) return TANDEM_NO_BODY;
   proxies_.push_back(world_.number(*proxy));
@@ -77,13 +85,28 @@ std::uint32_t SiteEnd::tick(double now) {
 }
 
 void SiteEnd::startLoop(int priority) {
+  if (loop_) throw Error("the site has a loop already; stop that first");
+  if (has_simulated_link_)
+    throw Error(
+        "a simulated link belongs to the thread of both its sites; connect a loop's site by a mesh "
+        "or a manual link");
   HapticLoopSettings settings;
   settings.priority = priority;
   settings.locks_memory = priority > 0;
-  loop_ = std::make_unique<HapticLoop>(site_, settings);
+  for (MeshLink* link : mesh_links_) link->setLive(true);
+  try {
+    loop_ = std::make_unique<HapticLoop>(site_, settings);
+  } catch (...) {
+    for (MeshLink* link : mesh_links_) link->setLive(false);
+    throw;
+  }
 }
 
-void SiteEnd::stopLoop() { loop_.reset(); }
+void SiteEnd::stopLoop() noexcept {
+  if (!loop_) return;
+  loop_.reset();
+  for (MeshLink* link : mesh_links_) link->setLive(false);
+}
 
 std::vector<std::string> SiteEnd::warnings() const {
   std::vector<std::string> all = site_.warnings();

@@ -33,7 +33,7 @@ class SiteEnd {
   TandemBody connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W);
   std::uint32_t tick(double now);
   void startLoop(int priority);
-  void stopLoop();
+  void stopLoop() noexcept;
 
   [[nodiscard]] Site& site() noexcept { return site_; }
   [[nodiscard]] std::vector<std::string> warnings() const;
@@ -45,6 +45,8 @@ class SiteEnd {
   World& world_;
   Use world_use_, device_use_;
   std::vector<Use> link_uses_;
+  std::vector<MeshLink*> mesh_links_;
+  bool has_simulated_link_ = false;
   std::vector<std::uint32_t> peers_;
   std::vector<TandemBody> shared_, proxies_;
   bool ticks_itself_;

@@ -46,7 +46,7 @@ SiteSettings fromC(const TandemSiteSettings& c) {
   settings.proxy = {c.proxy_mass, c.proxy_damping, c.proxy_radius};
   settings.hip_radius = c.hip_radius;
   settings.scheme = &findScheme(&checkPointer(c.scheme, "scheme"));
-  settings.tick_source = readTickSource(static_cast<int>(c.tick_source));
+  settings.tick_source = readTickSource(readNumber(c.tick_source));
   if (c.has_guide) settings.guide = readUnitVec3("guide", c.guide);
   settings.inner_step = c.inner_step;
   settings.max_neighbours = c.max_neighbours;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "c_door/site.h"
 #include "c_door/values.h"
@@ -60,12 +59,6 @@ void readRemotes(const Site& site, std::size_t room, TandemState* proxies,
     if (proxies) proxies[i] = proxy ? c_door::toC(*proxy) : makeNoState();
     if (links) links[i] = static_cast<TandemLinkState>(site.linkState(i));
   }
-}
-
-[[nodiscard]] std::string join(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
 }
 
 }  // namespace
@@ -141,14 +134,7 @@ TandemResult tandem_site_read(TandemSite* site, TandemReading* reading, size_t o
 }
 
 TandemResult tandem_site_warnings(const TandemSite* site, char* text, size_t room, size_t* length) {
-  return guarded([&] {
-    const std::string all = join(open(site).warnings());
-    if (room > 0) {
-      const std::size_t written = all.copy(&checkPointer(text, "text"), room - 1);
-      text[written] = '\0';
-    }
-    if (length) *length = all.size();
-  });
+  return guarded([&] { writeLines(open(site).warnings(), text, room, length); });
 }
 
 }  // extern "C"

@@ -82,6 +82,17 @@ void writeVec3(const Vec3& v, double* values) noexcept {
   for (int i = 0; i < 3; ++i) values[i] = v[i];
 }
 
+void writeLines(const std::vector<std::string>& lines, char* text, std::size_t room,
+                std::size_t* length) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  if (room > 0) {
+    const std::size_t written = all.copy(&checkPointer(text, "text"), room - 1);
+    text[written] = '\0';
+  }
+  if (length) *length = all.size();
+}
+
 TandemState toC(const RigidState& state) noexcept {
   TandemState c;
   writeVec3(state.p_W, c.position);

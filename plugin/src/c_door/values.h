@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
 
 #include "tandem/coordination/types.h"
 #include "tandem/tandem.h"
@@ -24,6 +27,15 @@ struct Name {
 [[noreturn]] void refuseNull(const char* name);
 [[noreturn]] void refuseValue(const char* name, double value, const char* allowed);
 
+/// The number in an enumeration that comes from another language, which may be none of it.
+template <typename Enumeration>
+[[nodiscard]] int readNumber(const Enumeration& enumeration) noexcept {
+  int number = 0;
+  static_assert(sizeof number == sizeof enumeration);
+  std::memcpy(&number, &enumeration, sizeof number);
+  return number;
+}
+
 void requireFinite(const char* name, double value);
 void requirePositive(const char* name, double value);
 void requireNotNegative(const char* name, double value);
@@ -36,6 +48,10 @@ void requireNotNegative(const char* name, double value);
 [[nodiscard]] RigidState fromC(const Name& name, const TandemState& state);
 
 void writeVec3(const Vec3& v, double* values) noexcept;
+/// Lines, as much of them as fits in `room` bytes with the 0; `text` may be null for no room, and
+/// `length` anyway.
+void writeLines(const std::vector<std::string>& lines, char* text, std::size_t room,
+                std::size_t* length);
 [[nodiscard]] TandemState toC(const RigidState& state) noexcept;
 
 template <typename Value>

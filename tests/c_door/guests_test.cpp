@@ -1,0 +1,173 @@
+// A host with an engine of its own, whose bodies stand in a world of Tandem's.
+
+#include <algorithm>
+
+#include "c_door_rig.h"
+#include "support/random.h"
+
+namespace tandem {
+namespace {
+
+using namespace test;
+
+constexpr double kStep = 1.0 / 240.0;
+constexpr double kMass = 0.1;  // of the cube's copy: half of 0.2 kg
+
+/// One shared cube, and the host's body that it stands for.
+struct Guest : FreeDoorCube {
+  TandemState now{};
+
+  Guest() : FreeDoorCube(makeWorld()) { now = body(cube); }
+
+  /// The engine turns and moves by its velocities; `meanwhile` may change them.
+  template <typename Meanwhile>
+  void step(Meanwhile meanwhile) {
+    TandemState given{};
+    ok(tandem_world_begin_step(world, kStep, nullptr, 1, &cube, &now, &given));
+    now = given;
+    meanwhile();
+    for (int i = 0; i < 3; ++i) now.position[i] += kStep * now.velocity[i];
+    const Vec3 turn = kStep * toVec3(now.angular_velocity);
+    const Quat before(now.orientation[3], now.orientation[0], now.orientation[1],
+                      now.orientation[2]);
+    const double angle = turn.norm();
+    const Quat turned =
+        angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, turn / angle)) * before : before;
+    std::copy_n(turned.coeffs().data(), 4, now.orientation);
+    ok(tandem_world_end_step(world, 1, &cube, &now, &now));
+  }
+  void step() {
+    step([] {});
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+  [[nodiscard]] double islandSpeed() const { return object().velocity[0]; }
+};
+
+TEST(Guest, StandsWhereItIs) {
+  Guest guest;
+  guest.steps(20);  // it falls asleep in Tandem's world
+  EXPECT_EQ(toVec3(guest.now.position), Vec3::Zero());
+  EXPECT_EQ(toVec3(guest.now.velocity), Vec3::Zero());
+}
+
+// J = 0.02 N s on 0.1 kg, also on one that sleeps.
+TEST(Guest, TakesTheHostsImpulse) {
+  for (const int rest : {0, 1, 20}) {
+    Guest guest;
+    guest.steps(rest);
+    guest.now.velocity[0] += 0.02 / kMass;
+    guest.steps(2);
+    EXPECT_NEAR(guest.islandSpeed(), 0.2, byDoorWidth(1e-12, 1e-7)) << rest;
+    EXPECT_NEAR(guest.now.velocity[0], 0.2, byDoorWidth(1e-12, 1e-7)) << rest;
+    // The island is ahead of the host by up to a tick when it hears of it.
+    const double late = rest == 0 ? byDoorWidth(1e-12, 1e-9) : 0.2 * 1e-3;
+    EXPECT_NEAR(guest.now.position[0], 2 * kStep * 0.2, late) << rest;
+  }
+}
+
+TEST(Guest, GoesAlongWhenTheHostMovesIt) {
+  for (const int rest : {0, 1, 20}) {
+    Guest guest;
+    guest.now.velocity[0] = 0.2;
+    guest.steps(rest);
+    guest.now.position[1] = 0.5;
+    const double angle = 0.3;
+    guest.now.orientation[2] = std::sin(0.5 * angle),
+    guest.now.orientation[3] = std::cos(0.5 * angle);
+    guest.steps(3);
+    const TandemState object = guest.object();
+    EXPECT_NEAR(object.position[1], 0.5, byDoorWidth(1e-12, 1e-7)) << rest;
+    EXPECT_NEAR(object.orientation[2], std::sin(0.5 * angle), byDoorWidth(1e-12, 1e-6)) << rest;
+    EXPECT_NEAR(object.velocity[0], 0.2, byDoorWidth(1e-12, 1e-7)) << rest;
+    EXPECT_NEAR(guest.now.position[1], 0.5, byDoorWidth(1e-12, 1e-7)) << rest;
+  }
+}
+
+// A turn of 2 rad/s for 0.1 s is 0.2 rad.
+TEST(Guest, TurnsAsTheIslandHasIt) {
+  Guest guest;
+  guest.now.angular_velocity[2] = 2.0;
+  guest.steps(24);
+  EXPECT_NEAR(2.0 * std::asin(guest.now.orientation[2]), 0.2, byDoorWidth(1e-12, 1e-5));
+  EXPECT_NEAR(guest.now.angular_velocity[2], 2.0, byDoorWidth(1e-12, 1e-5));
+}
+
+// What the engine does to the velocity during its step is the island's in the next one, once.
+TEST(Guest, KeepsTheMomentumOfAHit) {
+  Guest guest;
+  guest.now.velocity[0] = 1.0;
+  guest.steps(3);
+  // A ball of the host's own, of 0.3 kg, that the cube hits: fully elastic.
+  constexpr double kBall = 0.3;
+  double ball = 0.0;
+  guest.step([&] {
+    const double cube = guest.now.velocity[0];
+    guest.now.velocity[0] = (kMass - kBall) / (kMass + kBall) * cube;
+    ball = 2.0 * kMass / (kMass + kBall) * cube;
+  });
+  EXPECT_NEAR(guest.now.velocity[0], -0.5, byDoorWidth(1e-12, 1e-6));
+  guest.steps(5);
+  EXPECT_NEAR(guest.islandSpeed(), -0.5, byDoorWidth(1e-12, 1e-6));
+  EXPECT_NEAR(kMass * guest.islandSpeed() + kBall * ball, kMass * 1.0, byDoorWidth(1e-12, 1e-7));
+}
+
+TEST(Guest, KeepsTheMomentumOfManyHits) {
+  constexpr std::uint64_t kSeed = 11;
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  Guest guest;
+  Vec3 given = Vec3::Zero();
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 during = random.inCube(0.1), between = random.inCube(0.1);
+    const bool is_hit = random.below(3) == 0, is_pushed = random.below(3) == 0;
+    guest.step([&] {
+      for (int k = 0; k < 3 && is_hit; ++k) guest.now.velocity[k] += during[k];
+    });
+    for (int k = 0; k < 3 && is_pushed; ++k) guest.now.velocity[k] += between[k];
+    given += Vec3(is_hit * during + is_pushed * between);
+  }
+  guest.steps(2);
+  EXPECT_LT((toVec3(guest.object().velocity) - given).norm(), byDoorWidth(1e-12, 1e-5));
+  EXPECT_LT((toVec3(guest.now.velocity) - given).norm(), byDoorWidth(1e-12, 1e-5));
+}
+
+// A host that keeps its states in float moves nothing by that.
+TEST(Guest, DoesNotTakeRoundingForTheHostsDoing) {
+  Guest guest;
+  guest.now.position[0] = 3.14159;
+  guest.now.velocity[1] = 0.123456789;
+  guest.steps(2);
+  const auto round = [](double& value) { value = static_cast<double>(static_cast<float>(value)); };
+  const double speed = guest.object().velocity[1];
+  for (int i = 0; i < 240; ++i) {
+    for (double& value : guest.now.position) round(value);
+    for (double& value : guest.now.velocity) round(value);
+    guest.step([&] {
+      for (double& value : guest.now.velocity) round(value);
+    });
+  }
+  EXPECT_EQ(guest.object().velocity[1], speed);
+  // The island has gone on by itself: a second at that speed.
+  EXPECT_NEAR(guest.now.position[1], 242 * kStep * speed, byDoorWidth(1e-9, 1e-5));
+}
+
+// The hand presses a cube that is a guest: the engine's body is where the island has it.
+TEST(Guest, IsPushedByTheHand) {
+  FreeDoorCube pushed(makeWorld());
+  const double hand[3] = {-0.0295, 0.0, 0.0}, still[3] = {0.0, 0.0, 0.0};
+  ok(tandem_device_move(pushed.device, hand, still));
+  TandemState now = pushed.body(pushed.cube), given{};
+  for (int i = 0; i < 60; ++i) {
+    ok(tandem_world_begin_step(pushed.world, kStep, nullptr, 1, &pushed.cube, &now, &given));
+    for (int k = 0; k < 3; ++k) now.position[k] += kStep * given.velocity[k];
+    now.velocity[0] = given.velocity[0];
+    EXPECT_NEAR(now.position[0], pushed.body(pushed.cube).position[0], byDoorWidth(1e-12, 1e-7));
+    ok(tandem_world_end_step(pushed.world, 1, &pushed.cube, &now, &now));
+  }
+  EXPECT_GT(now.position[0], 1e-3);
+}
+
+}  // namespace
+}  // namespace tandem
