@@ -107,7 +107,7 @@ void checkBulletAbi(const BulletAbi& host) {
             << " has brought Bullet with " << describeScalar(bytes) << " btScalar ("
             << nameTarget(bytes)
             << ") into the same process, where they share constants; load one width per process";
-    throw Error(message.str());
+    throw WrongBulletError(message.str());
   }
 }
 
