@@ -1,0 +1,80 @@
+#include "packet_doubles.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "refusal.h"
+
+namespace tandem::pybullet {
+namespace {
+
+constexpr std::size_t kHead = 12;
+constexpr std::size_t kPerObject = 14;
+
+/// A whole number of [0, most].
+double toWhole(double value, double most, const char* what) {
+  if (!(value >= 0.0 && value <= most) ||
+      value != static_cast<double>(static_cast<std::uint64_t>(value))) {
+    throw Refusal(kBadCommand, std::string("push: ") + what + " is no whole number that fits");
+  }
+  return value;
+}
+
+constexpr double kMostId = 4294967295.0;
+constexpr double kMostSequence = 9007199254740992.0;  // 2^53, the last that doubles count to
+
+}  // namespace
+
+std::vector<double> toDoubles(const TandemPacket& packet) {
+  std::vector<double> doubles{static_cast<double>(packet.sender), packet.is_idle != 0 ? 1.0 : 0.0,
+                              static_cast<double>(packet.sequence), packet.time};
+  const auto append = [&](const double* values, std::size_t size) {
+    doubles.insert(doubles.end(), values, values + size);
+  };
+  append(packet.position, 3);
+  append(packet.velocity, 3);
+  doubles.push_back(packet.port_energy);
+  doubles.push_back(static_cast<double>(packet.object_count));
+  for (std::size_t i = 0; i < packet.object_count; ++i) {
+    const TandemState& state = packet.objects[i];
+    doubles.push_back(static_cast<double>(packet.object_ids[i]));
+    append(state.position, 3);
+    append(state.orientation, 4);
+    append(state.velocity, 3);
+    append(state.angular_velocity, 3);
+  }
+  return doubles;
+}
+
+TandemPacket toPacket(const std::vector<double>& doubles) {
+  if (doubles.size() < kHead) throw Refusal(kBadCommand, "push: a packet has 12 doubles or more");
+  TandemPacket packet{};
+  const double* at = doubles.data();
+  packet.sender = static_cast<std::uint32_t>(toWhole(*at++, kMostId, "sender"));
+  packet.is_idle = *at++ != 0.0 ? 1 : 0;
+  packet.sequence = static_cast<std::uint64_t>(toWhole(*at++, kMostSequence, "sequence"));
+  packet.time = *at++;
+  std::copy_n(at, 3, packet.position);
+  std::copy_n(at + 3, 3, packet.velocity);
+  at += 6;
+  packet.port_energy = *at++;
+  packet.object_count = static_cast<std::size_t>(
+      toWhole(*at++, TANDEM_MAX_OBJECTS_PER_PACKET, "the number of objects"));
+  if (doubles.size() != kHead + kPerObject * packet.object_count) {
+    throw Refusal(kBadCommand, "push: " + std::to_string(doubles.size()) +
+                                   " doubles are not what its number of objects needs");
+  }
+  for (std::size_t i = 0; i < packet.object_count; ++i) {
+    packet.object_ids[i] = static_cast<std::uint32_t>(toWhole(at[0], kMostId, "an object's id"));
+    TandemState& state = packet.objects[i];
+    std::copy_n(at + 1, 3, state.position);
+    std::copy_n(at + 4, 4, state.orientation);
+    std::copy_n(at + 8, 3, state.velocity);
+    std::copy_n(at + 11, 3, state.angular_velocity);
+    at += kPerObject;
+  }
+  return packet;
+}
+
+}  // namespace tandem::pybullet

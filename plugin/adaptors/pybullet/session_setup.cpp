@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "refusal.h"
+#include "session.h"
+#include "steady_time.h"
+
+namespace tandem::pybullet {
+namespace {
+
+[[noreturn]] void refuse(int body, const std::string& why) {
+  throw Refusal(kPyBulletSays, "body " + std::to_string(body) + ": " + why);
+}
+
+}  // namespace
+
+Session::Session(const B3Functions& functions, b3::Client client) : engine_(functions, client) {}
+
+Session::~Session() { sayFarewell(1); }
+
+void Session::requireOpen() const {
+  if (!site_) throw Refusal(kWrongOrder, "there is no site yet: `device`, then `site`");
+}
+
+void Session::requireSite() const {
+  requireOpen();
+  if (!ended_.empty()) throw Refusal(kWrongOrder, ended_ + "; `close` and begin again");
+}
+
+void Session::requireFree(int body) const {
+  const auto is_it = [&](const auto& held) { return held.body.number() == body; };
+  if (std::any_of(moving_.begin(), moving_.end(), is_it) ||
+      std::any_of(standing_.begin(), standing_.end(), is_it)) {
+    refuse(body, "is attached already");
+  }
+}
+
+void Session::takeDevice(DeviceHandle device, bool is_moved) {
+  if (site_) throw Refusal(kWrongOrder, "the site has its device: `close` first");
+  device_ = std::move(device);
+  device_is_moved_ = is_moved;
+}
+
+void Session::openSite(const TandemSiteSettings& settings) {
+  if (site_) throw Refusal(kWrongOrder, "there is a site already: `close` first");
+  if (!device_) throw Refusal(kWrongOrder, "a site needs a device: `device` first");
+  TandemWorld* world = nullptr;
+  check(tandem_world_create(&world));
+  WorldHandle own_world(world);
+  TandemSite* site = nullptr;
+  check(tandem_site_create(&settings, world, device_.get(), &site));
+  site_.reset(site);
+  world_ = std::move(own_world);
+  peers_ = settings.peers;
+  proxy_mass_ = settings.proxy_mass;
+  followParameters();
+}
+
+void Session::addMesh(MeshHandle mesh) {
+  if (mesh_) throw Refusal(kWrongOrder, "there is a mesh already: `close` first");
+  mesh_ = std::move(mesh);
+}
+
+TandemPeerStatus Session::meshStatus(std::uint32_t peer) const {
+  if (!mesh_) throw Refusal(kWrongOrder, "there is no mesh");
+  TandemPeerStatus status{};
+  check(tandem_mesh_status(mesh_.get(), peer, now(), &status));
+  return status;
+}
+
+int Session::keepLink(Link link) {
+  links_.push_back(std::move(link));
+  return static_cast<int>(links_.size()) - 1;
+}
+
+int Session::addManualLink() {
+  Link link;
+  check(tandem_link_create_manual(&link.handle));
+  link.manual.reset(link.handle);
+  return keepLink(std::move(link));
+}
+
+int Session::addMeshLink(std::uint32_t peer) {
+  if (!mesh_) throw Refusal(kWrongOrder, "a link of kind mesh needs a mesh: `mesh` first");
+  Link link;
+  check(tandem_mesh_link(mesh_.get(), peer, &link.handle));
+  return keepLink(std::move(link));
+}
+
+int Session::addSimulatedLink(const std::string& name, const TandemNetwork& network) {
+  Link link;
+  link.simulated = std::make_unique<SimulatedEnd>(name, network);
+  link.handle = link.simulated->link();
+  return keepLink(std::move(link));
+}
+
+TandemLink* Session::manualLink(int link) const {
+  if (link < 0 || link >= static_cast<int>(links_.size()) ||
+      !links_[static_cast<std::size_t>(link)].manual) {
+    throw Refusal(kBadCommand, "link=" + std::to_string(link) + " is no manual link");
+  }
+  return links_[static_cast<std::size_t>(link)].handle;
+}
+
+std::vector<Piece> Session::findPieces(const BorrowedBody& body, const Piece* shape) const {
+  if (shape) return {*shape};
+  return readPieces(engine_, body.number(), body.before());
+}
+
+TandemBody Session::addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state) {
+  const BodyFacts& facts = body.before();
+  TandemBodySettings& settings = piece.settings;
+  settings.points = piece.points.data();
+  settings.point_count = piece.points.size() / 3;
+  settings.mass = facts.mass;
+  std::copy_n(facts.inertia, 3, settings.inertia);
+  settings.friction = facts.friction;
+  settings.restitution = facts.restitution;
+  settings.start = state;
+  TandemBody id = TANDEM_NO_BODY;
+  check(tandem_world_add_body(world_.get(), &settings, &id));
+  return id;
+}
+
+void Session::addMoving(BorrowedBody body, TandemBody id, const TandemState& state) {
+  moving_.push_back({std::move(body), id, state});
+  ids_.push_back(id);
+  now_.resize(ids_.size());
+  told_.resize(ids_.size());
+}
+
+int Session::share(int body, double damping, const Piece* shape) {
+  requireSite();
+  requireFree(body);
+  BorrowedBody borrowed(engine_, body);
+  const BodyFacts& facts = borrowed.before();
+  if (facts.links > 0) {
+    refuse(body, "has " + std::to_string(facts.links) +
+                     " links besides its base; only a body without joints can be shared");
+  }
+  if (!(facts.mass > 0.0)) {
+    refuse(body, "is static (fixed base or mass 0); share a moving body, or make it an obstacle");
+  }
+  std::vector<Piece> pieces = findPieces(borrowed, shape);
+  if (pieces.size() != 1 || !pieces[0].isCentred()) {
+    refuse(body,
+           "its shape is not one piece about its centre of mass; give shape=hull with the points "
+           "of its outline");
+  }
+  TandemState state{};
+  if (!engine_.readState(body, state)) refuse(body, "is not there");
+  const TandemBody id = addGuest(borrowed, pieces[0], state);
+  std::uint32_t object = 0;
+  if (const TandemResult result = tandem_site_share(site_.get(), id, damping, &object);
+      result != TANDEM_OK) {
+    const Refusal why(-static_cast<int>(result),
+                      "body " + std::to_string(body) + ": " + tandem_last_error());
+    (void)tandem_world_remove_body(world_.get(), id);
+    throw why;
+  }
+  borrowed.borrow(engine_, 1.0 / peers_);
+  for (const Standing& other : standing_) {
+    stopContact(body, other.body.number());
+  }
+  addMoving(std::move(borrowed), id, state);
+  return static_cast<int>(object);
+}
+
+void Session::addObstacle(int body, const Piece* shape) {
+  requireSite();
+  requireFree(body);
+  BorrowedBody borrowed(engine_, body);
+  if (borrowed.before().mass > 0.0) {
+    refuse(body, "moves; an obstacle is static (fixed base or mass 0)");
+  }
+  if (borrowed.before().links > 0) refuse(body, "has links, of which Tandem would not know");
+  Standing standing{borrowed, findPieces(borrowed, shape), {}, {}};
+  if (!engine_.readState(body, standing.pose)) refuse(body, "is not there");
+  try {
+    for (Piece& piece : standing.pieces) {
+      standing.ids.push_back(addGuest(borrowed, piece, computePieceState(standing.pose, piece)));
+    }
+  } catch (const Refusal&) {
+    for (const TandemBody id : standing.ids) (void)tandem_world_remove_body(world_.get(), id);
+    throw;
+  }
+  standing.body.borrow(engine_, 0.0);
+  for (const Moving& other : moving_) stopContact(body, other.body.number());
+  standing_.push_back(std::move(standing));
+}
+
+int Session::connect(std::uint32_t peer, int link, const double start[3]) {
+  requireSite();
+  if (link < 0 || link >= static_cast<int>(links_.size())) {
+    throw Refusal(kBadCommand, "link=" + std::to_string(link) + ": no such link");
+  }
+  TandemBody proxy = TANDEM_NO_BODY;
+  check(tandem_site_connect(site_.get(), peer, links_[static_cast<std::size_t>(link)].handle, start,
+                            &proxy));
+  proxies_.push_back(proxy);
+  return static_cast<int>(proxies_.size()) - 1;
+}
+
+void Session::showProxy(int remote, int body) {
+  requireSite();
+  requireFree(body);
+  if (remote < 0 || remote >= static_cast<int>(proxies_.size())) {
+    throw Refusal(kBadCommand, "remote=" + std::to_string(remote) + ": no such remote");
+  }
+  const TandemBody id = proxies_[static_cast<std::size_t>(remote)];
+  if (id == TANDEM_NO_BODY) {
+    throw Refusal(kWrongOrder, "the site's scheme has no proxy that could be shown");
+  }
+  if (std::any_of(moving_.begin(), moving_.end(), [&](const Moving& m) { return m.id == id; })) {
+    throw Refusal(kWrongOrder, "the proxy of this remote is shown already");
+  }
+  BorrowedBody borrowed(engine_, body);
+  if (borrowed.before().links > 0 || !(borrowed.before().mass > 0.0)) {
+    refuse(body, "must move and have no links to show a proxy");
+  }
+  TandemState state{};
+  check(tandem_world_get_states(world_.get(), 1, &id, &state));
+  borrowed.borrow(engine_, proxy_mass_ / borrowed.before().mass);
+  engine_.writeState(body, state);
+  for (const Standing& other : standing_) {
+    stopContact(body, other.body.number());
+  }
+  for (const Moving& other : moving_) stopContact(body, other.body.number());
+  addMoving(std::move(borrowed), id, state);
+}
+
+void Session::stopContact(int body_a, int body_b) {
+  engine_.setCollides(body_a, body_b, false);
+  without_contact_.emplace_back(body_a, body_b);
+}
+
+void Session::sayFarewell(int rounds) {
+  if (!mesh_ || tandem_mesh_leave(mesh_.get(), now()) != TANDEM_OK) return;
+  for (int round = 0; round < rounds; ++round) {
+    if (round > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    (void)tandem_mesh_poll(mesh_.get(), now());
+  }
+}
+
+void Session::close() {
+  constexpr int kFarewells = 10;
+  std::set<int> there;
+  for (Moving& one : moving_) {
+    if (one.body.giveBack(engine_)) there.insert(one.body.number());
+  }
+  for (Standing& one : standing_) {
+    if (one.body.giveBack(engine_)) there.insert(one.body.number());
+  }
+  for (const auto& [a, b] : without_contact_) {
+    if (there.count(a) > 0 && there.count(b) > 0) engine_.setCollides(a, b, true);
+  }
+  sayFarewell(kFarewells);
+  site_.reset();
+  world_.reset();
+  device_.reset();
+  links_.clear();
+  mesh_.reset();
+  moving_.clear(), standing_.clear(), proxies_.clear(), without_contact_.clear();
+  ids_.clear(), now_.clear(), told_.clear();
+  warnings_.clear();
+  ended_.clear();
+  is_between_ = has_warned_of_step_ = false;
+}
+
+}  // namespace tandem::pybullet

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+
+#include "refusal.h"
+#include "session.h"
+#include "steady_time.h"
+
+namespace tandem::pybullet {
+namespace {
+
+/// Below this two states are the same [m, m/s, rad/s, and of quaternions].
+constexpr double kSame = 1e-9;
+
+bool areNear(const double* a, const double* b, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!(std::abs(a[i] - b[i]) <= kSame)) return false;
+  }
+  return true;
+}
+
+bool isTurnedAlike(const double a[4], const double b[4]) {
+  const double product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+  return 1.0 - std::abs(product) < kSame;
+}
+
+bool arePosesNear(const TandemState& a, const TandemState& b) {
+  return areNear(a.position, b.position, 3) && isTurnedAlike(a.orientation, b.orientation);
+}
+
+bool areNear(const TandemState& a, const TandemState& b) {
+  return arePosesNear(a, b) && areNear(a.velocity, b.velocity, 3) &&
+         areNear(a.angular_velocity, b.angular_velocity, 3);
+}
+
+}  // namespace
+
+void Session::warn(const std::string& text) {
+  constexpr std::size_t kMost = 100;
+  if (warnings_.size() < kMost) warnings_.push_back(text);
+}
+
+void Session::end(const std::string& why) {
+  is_between_ = false;
+  ended_ = why;
+  warn(why + ": the site has ended");
+}
+
+void Session::followParameters() {
+  const std::optional<EngineParameters> asked = engine_.readParameters();
+  if (!asked) throw Refusal(kPyBulletSays, "PyBullet does not tell its time step");
+  parameters_ = *asked;
+  check(tandem_world_set_gravity(world_.get(), parameters_.gravity));
+}
+
+bool Session::isSame(BorrowedBody& body) {
+  std::string notice;
+  const bool is_there = body.isThere(engine_, notice);
+  if (!notice.empty()) warn(notice);
+  if (!is_there) {
+    end("body " + std::to_string(body.number()) + " was removed from PyBullet while attached");
+  }
+  return is_there;
+}
+
+// One body of all per step: the cost does not grow with their number.
+void Session::lookAtOne() {
+  const std::size_t all = moving_.size() + standing_.size();
+  if (all == 0) return;
+  next_look_ = (next_look_ + 1) % all;
+  if (next_look_ < moving_.size()) {
+    isSame(moving_[next_look_].body);
+    return;
+  }
+  Standing& one = standing_[next_look_ - moving_.size()];
+  TandemState pose{};
+  if (!isSame(one.body) || !engine_.readState(one.body.number(), pose)) return;
+  if (arePosesNear(pose, one.pose)) return;
+  one.pose = pose;
+  for (std::size_t i = 0; i < one.ids.size(); ++i) {
+    const TandemState state = computePieceState(pose, one.pieces[i]);
+    check(tandem_world_set_state(world_.get(), one.ids[i], &state));
+  }
+}
+
+void Session::preTick() {
+  if (!site_ || !ended_.empty()) return;
+  try {
+    begin();
+  } catch (const Refusal& why) {
+    end(why.what());
+  }
+}
+
+void Session::postTick() {
+  if (!is_between_) return;
+  is_between_ = false;
+  try {
+    finish();
+  } catch (const Refusal& why) {
+    end(why.what());
+  }
+}
+
+void Session::begin() {
+  const double gravity[3] = {parameters_.gravity[0], parameters_.gravity[1],
+                             parameters_.gravity[2]};
+  const std::optional<EngineParameters> asked = engine_.readParameters();
+  if (!asked) return end("PyBullet does not tell its time step");
+  parameters_ = *asked;
+  if (!std::equal(gravity, gravity + 3, parameters_.gravity)) {
+    check(tandem_world_set_gravity(world_.get(), parameters_.gravity));
+  }
+  lookAtOne();
+  for (std::size_t i = 0; i < moving_.size() && ended_.empty(); ++i) {
+    Moving& one = moving_[i];
+    if (!engine_.readState(one.body.number(), now_[i])) {
+      return end("body " + std::to_string(one.body.number()) +
+                 " was removed from PyBullet while attached");
+    }
+    if (!areNear(now_[i], one.set)) isSame(one.body);
+  }
+  if (!ended_.empty()) return;
+  if (mesh_) check(tandem_mesh_poll(mesh_.get(), now()));
+  check(tandem_world_begin_step(world_.get(), parameters_.step, parameters_.gravity, ids_.size(),
+                                ids_.data(), now_.data(), told_.data()));
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    TandemState told = told_[i];
+    std::copy_n(now_[i].orientation, 4, told.orientation);
+    moving_[i].body.makeReadyToTurn(parameters_.step, told);
+    engine_.writeVelocities(moving_[i].body.number(), told);
+    moving_[i].set = now_[i];
+  }
+  is_between_ = true;
+}
+
+// Bullet moves a body by its velocity after the step times the step.
+void Session::watchStep(const TandemState& before, const TandemState& after) {
+  const double* const v = after.velocity;
+  const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (has_warned_of_step_ || std::sqrt(v2) * parameters_.step < 1e-6) return;
+  double along = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) along += (after.position[i] - before.position[i]) * v[i];
+  const double step = along / v2;
+  if (std::abs(step - parameters_.step) < 1e-3 * parameters_.step) return;
+  has_warned_of_step_ = true;
+  warn("PyBullet moved a body for " + std::to_string(step) + " s in a step of " +
+       std::to_string(parameters_.step) + " s: where shared bodies are is not exact");
+}
+
+void Session::finish() {
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (!engine_.readState(moving_[i].body.number(), now_[i])) {
+      return end("body " + std::to_string(moving_[i].body.number()) +
+                 " was removed from PyBullet while attached");
+    }
+    watchStep(moving_[i].set, now_[i]);
+  }
+  check(tandem_world_end_step(world_.get(), ids_.size(), ids_.data(), now_.data(), told_.data()));
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    engine_.writeState(moving_[i].body.number(), told_[i]);
+    moving_[i].set = told_[i];
+  }
+}
+
+void Session::read(SessionReading& out) const {
+  requireOpen();
+  TandemReading& reading = out.reading;
+  check(tandem_site_read(site_.get(), &reading, 0, nullptr, 0, nullptr, nullptr));
+  out.objects.resize(reading.object_count);
+  out.proxies.resize(reading.remote_count);
+  out.links.resize(reading.remote_count);
+  check(tandem_site_read(site_.get(), &reading, out.objects.size(), out.objects.data(),
+                         out.proxies.size(), out.proxies.data(), out.links.data()));
+  out.has_ended = !ended_.empty();
+  if (out.has_ended) std::fill_n(reading.force, 3, 0.0);
+}
+
+std::string Session::warnings() const {
+  std::string text;
+  if (site_) {
+    std::size_t length = 0;
+    check(tandem_site_warnings(site_.get(), nullptr, 0, &length));
+    text.resize(length + 1);
+    check(tandem_site_warnings(site_.get(), text.data(), text.size(), &length));
+    text.resize(length);
+  }
+  for (const std::string& line : warnings_) {
+    if (!text.empty() && text.back() != '\n') text += '\n';
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace tandem::pybullet

@@ -1,0 +1,378 @@
+"""Remote dynamic proxies for PyBullet: distant users push the same body.
+
+    import pybullet as p, tandem_pybullet as tandem
+
+    with tandem.Site(device=tandem.SimulatedDevice(start=(-0.03, 0, 0))) as site:
+        site.share(cube)                                   # a PyBullet body; the same at each user
+        site.obstacle(floor)                               # what the hand and the cube shall feel
+        site.connect(2, site.mesh(1, "0.0.0.0:7001", [tandem.Peer(2, "host:7001", "pair.key")])[2],
+                     start=(0.03, 0, 0))
+        while True:
+            site.push((5, 0, 0))                           # the hand
+            site.step()                                    # p.stepSimulation()
+            print(site.force(), site.read().objects[0].position)
+
+Needs the plugin, libtandem-pybullet.so, beside this file, in a lib/.../tandem folder above it, or
+named by the environment variable TANDEM_PYBULLET_PLUGIN; and nothing else but pybullet. SI units;
+quaternions are x, y, z, w. What is refused raises TandemError with one line of text. All calls for
+one physics client belong to one thread.
+"""
+
+import glob
+import os
+from array import array
+from collections import namedtuple
+
+import pybullet
+
+__all__ = ["Device", "Link", "LINK_STATES", "Packet", "Peer", "PeerStatus", "PHASES", "Reading",
+           "SimulatedDevice", "Site", "State", "STATUS_BITS", "TandemError", "create_key",
+           "find_plugin"]
+
+_POSTFIX = "_tandem"
+_WORDS_PER_COMMAND = 128
+
+#: Pose of a centre of mass and its velocities, each a tuple.
+State = namedtuple("State", "position orientation velocity angular_velocity")
+
+#: What a site shows at one moment. `force`: on the hand [N]; `hip`: where the hand is; `status`: names
+#: out of STATUS_BITS; `links`: names out of LINK_STATES, one for each remote, as `proxies` are.
+Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash packets_sent "
+                                "packets_taken has_ended objects proxies links")
+
+#: A state as it goes from site to site by manual links; `objects`: (id, State) pairs.
+Packet = namedtuple("Packet", "sender is_idle sequence time position velocity port_energy objects")
+
+#: A remote of a mesh; `address` "host:port", or None if it is to call us; `key`: a file.
+Peer = namedtuple("Peer", "id address key")
+
+PeerStatus = namedtuple("PeerStatus", "phase silence round_trip loss")
+
+LINK_STATES = ("waiting", "live", "stale", "fading", "lost", "rejoining")
+PHASES = ("calling", "agreeing", "different", "live", "left")
+STATUS_BITS = ("device_invalid", "body_missing", "packet_refused", "host_step_wrong",
+               "state_not_finite", "world_gone")
+
+
+class TandemError(RuntimeError):
+    """A command that was refused; `status` is the plugin's number."""
+
+    def __init__(self, status, text):
+        super().__init__(text)
+        self.status = status
+
+
+class Device:
+    """A hand that the script moves: Site.move(). `max_force` [N] and `max_slew` [N/s] bound what it is
+    given to feel."""
+
+    def __init__(self, start=(0, 0, 0), max_force=None, max_slew=None):
+        self.words = {"kind": "moved", "start": start, "max_force": max_force, "max_slew": max_slew}
+
+
+class SimulatedDevice:
+    """A handle of `mass` [kg] and `damping` [N s/m] in a hand that pushes: Site.push(). `guide`: the
+    unit vector of a slot that it moves in."""
+
+    def __init__(self, start=(0, 0, 0), mass=0.1, damping=0.5, guide=None):
+        self.words = {"kind": "simulated", "start": start, "mass": mass, "damping": damping,
+                      "guide": guide}
+
+
+class Link:
+    """A way to one remote, made by a Site. push() and pop() are for manual ones."""
+
+    def __init__(self, site, number):
+        self._site = site
+        self.number = number
+
+    def push(self, packet):
+        """Gives a Packet that has come in, for the next step."""
+        numbers = [packet.sender, packet.is_idle, packet.sequence, packet.time, *packet.position,
+                   *packet.velocity, packet.port_energy, len(packet.objects)]
+        for number, state in packet.objects:
+            numbers.append(number)
+            for part in state:
+                numbers.extend(part)
+        self._site._send_doubles("push", numbers, link=self.number)
+
+    def pop(self):
+        """The next Packet that the site wants to send, or None."""
+        numbers = self._site._ask("pop", link=self.number)
+        if not numbers:
+            return None
+        sender, is_idle, sequence, time = numbers[:4]
+        objects = []
+        for at in range(12, len(numbers), 14):
+            objects.append((int(numbers[at]), _state_of(numbers[at + 1:at + 14])))
+        return Packet(int(sender), bool(is_idle), int(sequence), time, tuple(numbers[4:7]),
+                      tuple(numbers[7:10]), numbers[10], objects)
+
+
+class Site:
+    """One user's site in one physics client.
+
+    `device`: a Device or SimulatedDevice. `self_id`: this user's number, 1 or more; `peers`: how many
+    users share, so that each copy of a body carries 1/peers of its mass. `settings`: haptic_rate,
+    packet_rate, contact=(K, B), coordination=(K, B), proxy_mass, proxy_damping, proxy_radius,
+    hip_radius, scheme, guide=(x, y, z) and more: docs/pybullet.md. What is not given is as in the
+    paper's Experiment I. A client takes one site at a time.
+    """
+
+    def __init__(self, device=None, self_id=1, peers=2, client=0, plugin=None, **settings):
+        self._client = client
+        self._spheres = []
+        self._radius = settings.get("proxy_radius")
+        self._plugin = pybullet.loadPlugin(plugin or find_plugin(), _POSTFIX,
+                                           physicsClientId=client)
+        if self._plugin < 0:
+            raise TandemError(-1, "PyBullet could not load the plugin; what it said is on the "
+                                  "standard output")
+        self._command("device", **(device or Device()).words)
+        self._command("site", self=self_id, peers=peers, **settings)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    # Set-up.
+
+    def share(self, body, damping=0.0, shape=None):
+        """Shares a body without joints, and returns its number, from 0. All users share the same
+        bodies in the same order. `damping` acts on this copy [N s/m]. `shape`, if PyBullet does not
+        tell it (maximal coordinates): ("box", half_extents), ("sphere", radius),
+        ("capsule", radius, height), ("cylinder", radius, height) or ("hull", points)."""
+        return self._command_with_shape("share", body, shape, damping=damping)
+
+    def obstacle(self, body, shape=None):
+        """Makes a static body one that shared bodies, proxies and the hand meet in Tandem, and no
+        longer in PyBullet. `shape` as of share(), or ("plane",) for all below z = 0 of the body."""
+        self._command_with_shape("obstacle", body, shape)
+
+    def obstacles(self):
+        """Makes all static bodies without joints obstacles; returns their numbers."""
+        found = []
+        for index in range(pybullet.getNumBodies(physicsClientId=self._client)):
+            body = pybullet.getBodyUniqueId(index, physicsClientId=self._client)
+            mass = pybullet.getDynamicsInfo(body, -1, physicsClientId=self._client)[0]
+            joints = pybullet.getNumJoints(body, physicsClientId=self._client)
+            if mass == 0 and joints == 0:
+                self.obstacle(body)
+                found.append(body)
+        return found
+
+    def connect(self, peer, link, start=(0, 0, 0), show=(0.2, 0.6, 0.9, 0.7)):
+        """Connects the remote user `peer`, whose hand starts at `start`; returns the remote's number,
+        from 0. `show`: colour of a sphere that shows its proxy and pushes what else is in PyBullet's
+        world, or None."""
+        remote = self._command("connect", peer=peer, link=link.number, start=start)
+        proxy = self.read().proxies[remote].position
+        if show is not None and proxy[0] == proxy[0]:  # NaN: a scheme without proxies
+            self._show(remote, proxy, show)
+        return remote
+
+    def simulated_link(self, name, delay=0.0, jitter=0.0, loss=0.0, duplicate=0.0, reorder=0.0,
+                       seed=1):
+        """One end of the simulated way `name` between two clients of this process; the other user
+        calls this with the same arguments. `delay` and `jitter` in seconds, the others are
+        probabilities."""
+        return Link(self, self._command("link", kind="simulated", name=name, delay=delay,
+                                        jitter=jitter, loss=loss, duplicate=duplicate,
+                                        reorder=reorder, seed=seed))
+
+    def manual_link(self):
+        """A way of the script's own: Link.pop() what is to be sent, Link.push() what has come in."""
+        return Link(self, self._command("link", kind="manual"))
+
+    def mesh(self, self_id, bind, peers, agreements=None):
+        """Sealed UDP ways to all `peers` over one socket bound to `bind`, "0.0.0.0:7001". Returns
+        {peer's id: Link}. `agreements`: {key: value} that must be the same at all sites. Step in
+        real time."""
+        for peer in peers:
+            address = {} if peer.address is None else {"address": peer.address}
+            self._command("peer", id=peer.id, key=peer.key, **address)
+        for key, value in (agreements or {}).items():
+            self._command("agree", key=key, value=value)
+        self._command("mesh", self=self_id, bind=bind)
+        return {peer.id: Link(self, self._command("link", kind="mesh", peer=peer.id))
+                for peer in peers}
+
+    # In the loop.
+
+    def push(self, force):
+        """The force of a simulated device's hand from now on [N]."""
+        self._command("hand", force=force)
+
+    def move(self, position, velocity=(0, 0, 0)):
+        """Where the hand is now [m], and its velocity [m/s]."""
+        self._command("hand", position=position, velocity=velocity)
+
+    def step(self):
+        """p.stepSimulation(): the haptic ticks of this time run inside."""
+        pybullet.stepSimulation(physicsClientId=self._client)
+
+    def force(self):
+        """The force on the hand that was rendered last [N]; zero after the site has ended."""
+        return tuple(self._ask("force"))
+
+    def read(self):
+        """A Reading of everything."""
+        numbers = self._ask("read")
+        objects, remotes = int(numbers[16]), int(numbers[17])
+        states = [_state_of(numbers[at:at + 13])
+                  for at in range(18, 18 + 13 * (objects + remotes), 13)]
+        links = numbers[18 + 13 * (objects + remotes):]
+        bits = int(numbers[10])
+        return Reading(tuple(numbers[0:3]), tuple(numbers[3:6]), tuple(numbers[6:9]),
+                       int(numbers[9]),
+                       tuple(name for i, name in enumerate(STATUS_BITS) if bits >> i & 1),
+                       int(numbers[11]) << 32 | int(numbers[12]), int(numbers[13]),
+                       int(numbers[14]), bool(numbers[15]), states[:objects], states[objects:],
+                       tuple(LINK_STATES[int(state)] for state in links))
+
+    def states(self):
+        """The shared bodies' States, as the haptic island has them."""
+        return self.read().objects
+
+    def mesh_status(self, peer):
+        """PeerStatus of a peer of the mesh; `phase` is one of PHASES, times in seconds."""
+        phase, silence, round_trip, loss = self._ask("mesh_status", peer=peer)
+        return PeerStatus(PHASES[int(phase)], silence, round_trip, loss)
+
+    def warnings(self):
+        """What to know about what was attached, and what has happened since: lines of text."""
+        answer = self._send("warnings")
+        return answer[1].decode().splitlines()
+
+    def close(self):
+        """Gives PyBullet its bodies back as they were, and ends the site. The plugin stays loaded."""
+        if self._plugin < 0:
+            return
+        self._command("close")
+        self._plugin = -1
+        for body, end in self._spheres:
+            if end == pybullet.getBodyInfo(body, physicsClientId=self._client):
+                pybullet.removeBody(body, physicsClientId=self._client)
+        self._spheres = []
+
+    # Inside.
+
+    def _show(self, remote, position, colour):
+        radius = self._radius or 0.01
+        client = {"physicsClientId": self._client}
+        shape = pybullet.createCollisionShape(pybullet.GEOM_SPHERE, radius=radius, **client)
+        visual = pybullet.createVisualShape(pybullet.GEOM_SPHERE, radius=radius, rgbaColor=colour,
+                                            **client)
+        body = pybullet.createMultiBody(1, shape, visual, basePosition=position, **client)
+        self._command("proxy", remote=remote, body=body)
+        self._spheres.append((body, pybullet.getBodyInfo(body, **client)))
+
+    def _command_with_shape(self, name, body, shape, /, **words):
+        if shape is None:
+            shape = self._hull_of(body)
+        words["body"] = body
+        if shape is None:
+            return self._command(name, **words)
+        kind, *size = shape
+        words["shape"] = kind
+        if kind == "hull":
+            return self._send_doubles(name, [x for point in size[0] for x in point], **words)
+        if size:
+            words["size"] = size[0] if kind == "box" else size
+        return self._command(name, **words)
+
+    def _hull_of(self, body):
+        """Points of a body that is one mesh, which the plugin cannot ask for; else None."""
+        client = {"physicsClientId": self._client}
+        try:
+            pieces = pybullet.getCollisionShapeData(body, -1, **client)
+            if len(pieces) != 1 or pieces[0][2] != pybullet.GEOM_MESH:
+                return None
+            points = pybullet.getMeshData(body, -1, **client)[1]
+        except pybullet.error:
+            return None
+        return ("hull", sorted(set(points)))
+
+    def _send_doubles(self, name, numbers, /, **words):
+        """A command with doubles, which PyBullet carries exactly only as pairs of 32-bit words."""
+        ints = array("i", array("d", numbers).tobytes()).tolist()
+        while len(ints) > _WORDS_PER_COMMAND:
+            self._check(self._send("data", ints[:_WORDS_PER_COMMAND]))
+            ints = ints[_WORDS_PER_COMMAND:]
+        return self._check(self._send(_line(name, words), ints))
+
+    def _command(self, name, /, **words):
+        """Runs a command; its number."""
+        return self._check(self._send(_line(name, words)))
+
+    def _ask(self, name, /, **words):
+        """Runs a command; its doubles."""
+        answer = self._send(_line(name, words))
+        self._check(answer)
+        return array("d", answer[1])
+
+    def _check(self, answer):
+        status, text = answer
+        if status < 0:
+            raise TandemError(status, text.decode() or "the site is closed")
+        return status
+
+    def _send(self, line, ints=()):
+        answer = pybullet.executePluginCommand(self._plugin, line, ints,
+                                               physicsClientId=self._client)
+        if isinstance(answer, int):
+            return answer, b""
+        status, _, data = answer
+        return status, array("b", data).tobytes()
+
+
+def create_key(path, site):
+    """Makes a file with a new key for a pair of sites; `site`: any open one."""
+    site._command("key", path=path)
+
+
+def find_plugin():
+    """Path of libtandem-pybullet.so; raises FileNotFoundError with where it was looked for."""
+    named = os.environ.get("TANDEM_PYBULLET_PLUGIN")
+    here = os.path.dirname(os.path.abspath(__file__))
+    name = "libtandem-pybullet.so"
+    places = [named] if named else [os.path.join(here, name)]
+    if not named:
+        for up in (".", "..", "../..", "../../.."):
+            places += sorted(glob.glob(os.path.join(here, up, "lib", "tandem", name)) +
+                             glob.glob(os.path.join(here, up, "lib", "*", "tandem", name)))
+    for place in places:
+        if os.path.isfile(place):
+            return os.path.realpath(place)
+    raise FileNotFoundError(f"{name}: not at {', '.join(places)}; set TANDEM_PYBULLET_PLUGIN")
+
+
+def _state_of(numbers):
+    return State(tuple(numbers[0:3]), tuple(numbers[3:7]), tuple(numbers[7:10]),
+                 tuple(numbers[10:13]))
+
+
+def _line(name, words):
+    """The text of a command: repr() of a float has all its digits."""
+    parts = [name]
+    for key, value in words.items():
+        if value is None:
+            continue
+        if isinstance(value, str):
+            if '"' in value:
+                raise ValueError(f"{key}={value}: no double quotes")
+            parts.append(f'{key}="{value}"' if " " in value else f"{key}={value}")
+        elif isinstance(value, bool):
+            parts.append(f"{key}={int(value)}")
+        elif isinstance(value, int):
+            parts.append(f"{key}={value}")
+        elif isinstance(value, float):
+            parts.append(f"{key}={float(value)!r}")
+        else:
+            parts.append(key + "=" + ",".join(repr(float(x)) for x in value))
+    line = " ".join(parts)
+    if len(line) > 1023:
+        raise ValueError(f"{name}: longer than the 1023 characters that PyBullet carries")
+    return line

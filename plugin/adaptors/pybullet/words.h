@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tandem::pybullet {
+
+/// A command as it comes in: a name, then words `key=value` apart by spaces. A value with spaces
+/// stands in double quotes. Numbers are decimal, several of one word apart by commas. What cannot
+/// be read throws Refusal(kBadCommand).
+class Words {
+ public:
+  explicit Words(std::string_view line);
+
+  const std::string& name() const { return name_; }
+  bool has(std::string_view key) const;
+
+  // Each asks for the word of a key, and notes that the command knows it.
+  std::string text(std::string_view key);
+  std::string text(std::string_view key, std::string_view otherwise);
+  double number(std::string_view key);
+  double number(std::string_view key, double otherwise);
+  int integer(std::string_view key);
+  int integer(std::string_view key, int otherwise);
+  std::uint64_t count(std::string_view key, std::uint64_t otherwise);
+  /// 0 or 1.
+  bool flag(std::string_view key, bool otherwise);
+  /// `size` finite numbers, to `out`.
+  void numbers(std::string_view key, double* out, std::size_t size);
+  bool numbersIfThere(std::string_view key, double* out, std::size_t size);
+
+  /// Throws if a word is left that the command has not asked for.
+  void finish() const;
+
+ private:
+  struct Word {
+    std::string key, value;
+    bool is_known = false;
+  };
+  Word* find(std::string_view key);
+  Word& get(std::string_view key);
+
+  std::string name_;
+  std::vector<Word> words_;
+};
+
+}  // namespace tandem::pybullet

@@ -1,0 +1,233 @@
+// What becomes of PyBullet's bodies while a site has them, and after.
+
+#include "plugin_rig.h"
+
+namespace tandem::test {
+namespace {
+
+StubBody makeBrick() {
+  StubBody brick;
+  brick.mass = 0.6;
+  brick.inertia = Vec3(5e-5, 2.6e-4, 2.9e-4) * 2.0;
+  brick.shape = {makeStubShape(b3::kBox, Vec3(0.1, 0.04, 0.02))};
+  return brick;
+}
+
+TEST(NothingRegistered, AsksTheServerNothing) {
+  PluginHost host;
+  host.engine.add(makeStubCube());
+  host.step(10);
+  EXPECT_EQ(host.engine.commands, 0);
+}
+
+TEST(SharedBody, CarriesItsShareUntilClose) {
+  StubBody before = makeBrick();
+  before.is_multibody = false;
+  PluginHost host;
+  const int brick = host.engine.add(before), floor = host.engine.add(makeStubFloor());
+  host.command(kFarHand);
+  host.command("site peers=3");
+  host.command("share body=" + std::to_string(brick) + " shape=box size=0.05,0.02,0.01");
+  host.command("obstacle body=" + std::to_string(floor));
+  const StubBody& body = host.engine.bodies.at(brick);
+  EXPECT_DOUBLE_EQ(body.mass, 0.2);
+  EXPECT_LT((body.inertia - before.inertia / 3.0).norm(), 1e-18);
+  EXPECT_LT(body.linear_damping, 1e-29);
+  EXPECT_FALSE(body.may_sleep);
+  EXPECT_EQ(host.engine.without_contact.size(), 1u);
+  host.step(3);
+  host.command("close");
+  EXPECT_EQ(body.mass, before.mass);
+  EXPECT_EQ(body.inertia, before.inertia);
+  EXPECT_EQ(body.linear_damping, 0.04);
+  EXPECT_EQ(body.angular_damping, 0.04);
+  EXPECT_TRUE(body.may_sleep);
+  EXPECT_EQ(host.engine.bodies.at(floor).linear_damping, 0.04);
+  EXPECT_TRUE(host.engine.without_contact.empty());
+  host.command(kFarHand);
+  host.command("site");  // and a site can be opened again
+}
+
+TEST(SharedBody, TakesTheMomentumOfANativeHit) {
+  SharedCube shared;
+  shared.body().hit = Vec3(0.03, 0.0, 0.04);
+  shared.host.step(3);
+  EXPECT_LT((shared.body().state.v_W - Vec3(0.3, 0.0, 0.4)).norm(), 1e-12);
+  EXPECT_LT((Vec3(&shared.host.read()[kObjects + 7]) - Vec3(0.3, 0.0, 0.4)).norm(), 1e-12);
+}
+
+TEST(SharedBody, FeelsWhatTheUserDoesToIt) {
+  SharedCube shared;
+  shared.host.step();
+  shared.body().state.p_W = Vec3(1.0, 2.0, 3.0);
+  shared.body().state.v_W = Vec3(0.0, 0.5, 0.0);
+  shared.host.step(24);
+  const Vec3 expected(1.0, 2.05, 3.0);
+  EXPECT_LT((shared.body().state.p_W - expected).norm(), 1e-9);
+  EXPECT_LT((Vec3(&shared.host.read()[kObjects]) - expected).norm(), 1e-9);
+}
+
+// Falls with gravity once, and not twice; also when gravity is changed on the way.
+TEST(SharedBody, FallsAsTheServersGravitySays) {
+  SharedCube shared;
+  for (const double g : {-9.81, 4.0}) {
+    shared.host.engine.gravity = Vec3(0, 0, g);
+    const double before = shared.body().state.v_W.z();
+    shared.host.step(24);
+    EXPECT_NEAR(shared.body().state.v_W.z() - before, 0.1 * g, 1e-3 * std::abs(g)) << g;
+  }
+}
+
+class Turning : public ::testing::TestWithParam<double> {};
+
+// A brick tumbles as a free body: the server's own gyroscopic term is neither lost nor counted
+// twice.
+TEST_P(Turning, KeepsItsAngularMomentum) {
+  StubBody brick = makeBrick();
+  brick.state.w_W = Vec3(1.0, 6.0, 0.5);
+  SharedCube shared(brick);
+  shared.host.engine.time_step = 1.0 / GetParam();
+  const auto momentum = [&] {
+    const RigidState& s = shared.body().state;
+    return Vec3(s.q_WB * Vec3(shared.body().inertia.cwiseProduct(s.q_WB.conjugate() * s.w_W)));
+  };
+  const Vec3 before = momentum();
+  shared.host.step(static_cast<int>(GetParam()));
+  EXPECT_LT((momentum() - before).norm(), 1e-6 * before.norm());
+  const Quat island(Eigen::Map<const Eigen::Vector4d>(&shared.host.read()[kObjects + 3]));
+  EXPECT_LT(island.angularDistance(shared.body().state.q_WB), 1e-9);
+}
+INSTANTIATE_TEST_SUITE_P(Rates, Turning, ::testing::Values(60.0, 240.0, 1000.0));
+
+/// A hand of 5 N presses a cube onto a floor.
+struct Pressed {
+  PluginHost host;
+  int cube, floor;
+
+  Pressed() {
+    StubBody body = makeStubCube();
+    body.state.p_W.z() = 0.02;
+    cube = host.engine.add(body);
+    floor = host.engine.add(makeStubFloor());
+    host.engine.gravity = Vec3(0, 0, -9.81);
+    host.command("device kind=simulated start=0,0,0.05");
+    host.command("site peers=1");
+    host.command("share body=" + std::to_string(cube));
+  }
+};
+
+TEST(Obstacle, CarriesAPress) {
+  Pressed pressed;
+  pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
+  pressed.host.command("hand force=0,0,-5");
+  pressed.host.step(240);
+  EXPECT_NEAR(pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(), 0.02, 1e-6);
+  EXPECT_NEAR(pressed.host.read()[2], 5.0, 1e-3);
+}
+
+TEST(Obstacle, IsFollowedWhereItIsMoved) {
+  Pressed pressed;
+  pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
+  pressed.host.step(10);
+  pressed.host.engine.bodies.at(pressed.floor).state.p_W.z() = -0.1;
+  pressed.host.step(240);
+  EXPECT_NEAR(pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(), -0.08, 1e-4);
+}
+
+TEST(Obstacle, MayBeOfSeveralPiecesOffItsCentre) {
+  StubBody table;
+  table.mass = 0.0;
+  for (const double x : {-0.5, 0.5}) {
+    b3::CollisionShapeData piece = makeStubShape(b3::kBox, Vec3(1.0, 1.0, 0.1));
+    piece.frame[0] = x;
+    piece.frame[2] = -0.05;
+    table.shape.push_back(piece);
+  }
+  Pressed pressed;
+  const int number = pressed.host.engine.add(table);
+  pressed.host.command("obstacle body=" + std::to_string(number));
+  pressed.host.step(120);
+  EXPECT_NEAR(pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(), 0.02, 1e-5);
+}
+
+TEST(RemovedBody, EndsTheSiteWithAMessage) {
+  SharedCube shared;
+  shared.host.step(2);
+  shared.host.engine.remove(shared.cube);
+  shared.host.step(2);
+  EXPECT_NE(shared.host.warnings().find("body 0 was removed"), std::string::npos);
+  EXPECT_EQ(shared.host.read()[kHasEnded], 1.0);
+  EXPECT_NE(shared.host.refusal("share body=0").find("close"), std::string::npos);
+  const int commands = shared.host.engine.commands;
+  shared.host.step(2);
+  EXPECT_EQ(shared.host.engine.commands, commands);
+  shared.host.command("close");
+}
+
+// Another body has the removed one's number, pose and velocity: it is neither moved nor changed.
+TEST(RemovedBody, IsNotMistakenForTheNextOfItsNumber) {
+  for (const bool at_once : {true, false}) {
+    SharedCube shared;
+    if (!at_once) shared.host.step(2);
+    StubBody other = makeStubCube();
+    other.mass = 3.0;
+    shared.host.engine.remove(shared.cube);
+    EXPECT_EQ(shared.host.engine.add(other), shared.cube);
+    shared.host.step(2);
+    EXPECT_EQ(shared.host.read()[kHasEnded], 1.0) << at_once;
+    shared.host.command("close");
+    EXPECT_EQ(shared.body().mass, 3.0);
+    EXPECT_EQ(shared.body().linear_damping, 0.04);
+  }
+}
+
+TEST(RemovedBody, ObstaclesAreMissedToo) {
+  Pressed pressed;
+  pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
+  pressed.host.engine.remove(pressed.floor);
+  pressed.host.step(4);
+  EXPECT_NE(pressed.host.warnings().find("body 1 was removed"), std::string::npos);
+}
+
+TEST(ResetSimulation, EndsTheSiteWithAMessage) {
+  SharedCube shared;
+  shared.host.engine.reset();
+  shared.host.step();
+  EXPECT_NE(shared.host.warnings().find("was removed"), std::string::npos);
+  shared.host.engine.add(makeStubCube());
+  shared.host.command("close");
+  EXPECT_EQ(shared.body().mass, 0.2);
+}
+
+TEST(ChangedBody, KeepsTheUsersDampingForLater) {
+  SharedCube shared;
+  shared.body().linear_damping = 0.2;
+  shared.body().state.v_W.x() = 0.1;
+  shared.host.step(2);
+  EXPECT_NE(shared.host.warnings().find("damping was set"), std::string::npos);
+  EXPECT_EQ(shared.host.read()[kHasEnded], 0.0);
+  EXPECT_LT(shared.body().linear_damping, 1e-29);
+  shared.host.command("close");
+  EXPECT_EQ(shared.body().linear_damping, 0.2);
+  EXPECT_EQ(shared.body().angular_damping, 0.04);
+}
+
+TEST(ChangedBody, KeepsItsShareOfTheMass) {
+  SharedCube shared;
+  shared.body().mass = 1.0;
+  shared.host.step(2);
+  EXPECT_NE(shared.host.warnings().find("mass was set"), std::string::npos);
+  EXPECT_DOUBLE_EQ(shared.body().mass, 0.1);
+}
+
+TEST(WrongTimeStep, IsNoticed) {
+  SharedCube shared;
+  shared.body().state.v_W.x() = 0.1;
+  shared.host.engine.moves_for = 1.0 / 120.0;
+  shared.host.step(2);
+  EXPECT_NE(shared.host.warnings().find("PyBullet moved a body for 0.008333 s"), std::string::npos)
+      << shared.host.warnings();
+}
+
+}  // namespace
+}  // namespace tandem::test

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "plugin_host.h"
+
+namespace tandem::test {
+
+inline const char* const kFarHand = "device kind=moved start=10,0,0";
+
+// Places of `read`.
+inline constexpr std::size_t kStatus = 10, kHasEnded = 15, kObjects = 18;
+
+/// m x'' + B x' + K x = 0 from x0 at rest, K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
+/// 0.35.
+inline double computeRinging(double x0, double t) {
+  const double c = 10.0 / 0.2, w = std::sqrt(2000.0 / 0.1 - c * c);
+  return x0 * std::exp(-c * t) * (std::cos(w * t) + c / w * std::sin(w * t));
+}
+
+/// A packet of user 2, whose hand rests at `hand`, with these objects at rest.
+inline std::vector<double> makePacket(const Vec3& hand, const std::vector<Vec3>& objects = {}) {
+  std::vector<double> packet{2,        0, 0, 0, hand.x(),     hand.y(),
+                             hand.z(), 0, 0, 0, std::nan(""), static_cast<double>(objects.size())};
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Vec3& p = objects[i];
+    packet.insert(packet.end(),
+                  {static_cast<double>(i), p.x(), p.y(), p.z(), 0, 0, 0, 1, 0, 0, 0, 0, 0, 0});
+  }
+  return packet;
+}
+
+/// A server with a shared cube that nothing pulls, and no hand near.
+struct SharedCube {
+  PluginHost host;
+  int cube;
+
+  explicit SharedCube(const StubBody& body = makeStubCube(), const std::string& words = "")
+      : cube(host.engine.add(body)) {
+    host.command(kFarHand);
+    host.command("site coordination=0,0 " + words);
+    host.command("share body=" + std::to_string(cube));
+  }
+  StubBody& body() { return host.engine.bodies.at(cube); }
+};
+
+}  // namespace tandem::test

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tandem/coordination/types.h"
+
+#include "b3_abi.h"
+
+namespace tandem::test {
+
+namespace b3 = pybullet::b3;
+
+/// A body of the stub engine: a base, as PyBullet's multibodies without links are.
+struct StubBody {
+  double mass = 0.2;
+  Vec3 inertia = Vec3::Constant(0.2 * 0.04 * 0.04 / 6.0);  // [kg m^2]
+  double linear_damping = 0.04, angular_damping = 0.04;    // as they come in PyBullet
+  bool is_multibody = true;
+  bool may_sleep = true;
+  int links = 0;
+  RigidState state;
+  std::vector<b3::CollisionShapeData> shape;
+  Vec3 hit = Vec3::Zero();  // impulse in the next internal step [N s], as of a native contact
+};
+
+/// The least of a physics server that a plugin can be loaded into, behind the C functions that the
+/// program exports: gravity and damping, then x += v dt, and ticks in each internal step with a
+/// context that is zeroed as PyBullet's. Shares no code with the plugin but the layouts.
+class StubEngine {
+ public:
+  double time_step = 1.0 / 240.0;
+  int substeps = 0;
+  Vec3 gravity = Vec3::Zero();
+  double moves_for = 0.0;  // time that bodies really move for; 0: the step
+  std::map<int, StubBody> bodies;
+  std::set<std::pair<int, int>> without_contact;
+  int commands = 0;  // submitted so far
+
+  /// The number of a removed body goes to the next one.
+  int add(const StubBody& body);
+  void remove(int body) { bodies.erase(body); }
+  void reset() { bodies.clear(), without_contact.clear(); }
+
+  b3::Client client() { return reinterpret_cast<b3::Client>(this); }
+
+  using Tick = int (*)(b3::PluginContext*);
+  /// stepSimulation(): internal steps with a plugin's ticks around, if there is one.
+  void step(Tick pre_tick = nullptr, Tick post_tick = nullptr, void* user_pointer = nullptr);
+
+ private:
+  void move(StubBody& body, double dt) const;
+};
+
+/// One piece as PyBullet would tell it, of body 0: whoever takes it sets the number.
+b3::CollisionShapeData makeStubShape(int geometry, const Vec3& dimensions);
+
+/// The cube of 4 cm and 200 g of the README.
+StubBody makeStubCube();
+/// A floor: all below z = 0.
+StubBody makeStubFloor();
+
+}  // namespace tandem::test

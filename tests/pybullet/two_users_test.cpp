@@ -1,0 +1,98 @@
+// Two servers in one process, each with the plugin: Experiment I of the README.
+
+#include "plugin_rig.h"
+
+namespace tandem::test {
+namespace {
+
+/// One user of the README's example.
+struct User {
+  PluginHost host;
+
+  User(int self, double start) {
+    const int cube = host.engine.add(makeStubCube());
+    host.engine.time_step = 1.0 / 60.0;
+    const std::string x = std::to_string(start);
+    host.command("device kind=simulated start=" + x + ",0,0");
+    host.command("site self=" + std::to_string(self) + " peers=2 guide=1,0,0");
+    host.command("share body=" + std::to_string(cube));
+  }
+  void connect(int peer, const std::string& start) {
+    host.command("connect peer=" + std::to_string(peer) + " link=0 start=" + start);
+  }
+};
+
+void expectReadme(User& first, User& second) {
+  EXPECT_NEAR(first.host.engine.bodies.at(0).state.p_W.x(), 0.1266, 5e-5);
+  EXPECT_NEAR(second.host.engine.bodies.at(0).state.p_W.x(), 0.1199, 5e-5);
+  EXPECT_NEAR(first.host.ask("force").doubles()[0], -5.041, 5e-4);
+}
+
+TEST(TwoUsers, MeetOverASimulatedLink) {
+  User first(1, -0.03), second(2, 0.03);
+  const std::string link = "link kind=simulated name=between delay=0.05";
+  EXPECT_EQ(first.host.command(link), 0);
+  EXPECT_NE(second.host.refusal("link kind=simulated name=between delay=0.04").find("same"),
+            std::string::npos);
+  EXPECT_EQ(second.host.command(link), 0);
+  EXPECT_NE(second.host.refusal(link).find("both its ends"), std::string::npos);
+  first.connect(2, "0.03,0,0");
+  second.connect(1, "-0.03,0,0");
+  first.host.command("hand force=5,0,0");
+  for (int step = 0; step < 60; ++step) {
+    first.host.step();
+    second.host.step();
+  }
+  expectReadme(first, second);
+  EXPECT_GT(first.host.read()[14], 50.0);  // packets taken
+}
+
+TEST(TwoUsers, CarryPacketsByHand) {
+  User first(1, -0.03), second(2, 0.03);
+  for (User* user : {&first, &second}) user->host.command("link kind=manual");
+  first.connect(2, "0.03,0,0");
+  second.connect(1, "-0.03,0,0");
+  first.host.command("hand force=5,0,0");
+  int carried = 0;
+  for (int step = 0; step < 60; ++step) {
+    for (User* user : {&first, &second}) user->host.step();
+    for (User* from : {&first, &second}) {
+      User& to = from == &first ? second : first;
+      for (PluginAnswer packet = from->host.ask("pop link=0"); packet.status == 1;
+           packet = from->host.ask("pop link=0")) {
+        EXPECT_EQ(to.host.askDoubles("push link=0", packet.doubles()).status, 0);
+        ++carried;
+      }
+    }
+  }
+  EXPECT_GT(carried, 1000);
+  EXPECT_GT(second.host.engine.bodies.at(0).state.p_W.x(), 0.1);
+  EXPECT_EQ(first.host.read()[kStatus], 0.0);
+}
+
+TEST(TwoUsers, MayLeaveWithALinkOpen) {
+  User first(1, -0.03);
+  first.host.command("link kind=simulated name=left");
+  {
+    User second(2, 0.03);
+    second.host.command("link kind=simulated name=left");
+    second.connect(1, "-0.03,0,0");
+    second.host.step(5);
+  }
+  first.connect(2, "0.03,0,0");
+  first.host.step(5);
+  EXPECT_EQ(first.host.read()[kHasEnded], 0.0);
+}
+
+TEST(TwoUsers, ANameIsFreeWhenBothEndsAreBack) {
+  PluginHost first, second;
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(first.command("link kind=simulated name=again"), 0);
+    EXPECT_EQ(second.command("link kind=simulated name=again"), 0);
+    first.command("close");
+    second.command("close");
+  }
+}
+
+}  // namespace
+}  // namespace tandem::test
