@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "tandem/tandem.h"
+
 #include "plugin_rig.h"
 #include "support/random.h"
 
@@ -79,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"link kind=simulated name=a delay=-1", -TANDEM_INVALID_ARGUMENT, "delay"},
         Wrong{"connect peer=2 link=1 start=0,0,0", kBad, "no such link"},
         Wrong{"connect peer=0 link=0 start=0,0,0", kBad, "peer"},
-        Wrong{"connect peer=1 link=0 start=0,0,0", -TANDEM_INVALID_ARGUMENT, "1"},
+        Wrong{"connect peer=1 link=0 start=0,0,0", -TANDEM_INVALID_ARGUMENT, "its own remote"},
         Wrong{"proxy remote=0 body=0", kBad, "no such remote"},
         Wrong{"hand force=1,0,0", kBad, "position"}, Wrong{"pop link=3", kBad, "no manual link"},
         Wrong{"push link=0", kBad, "12 doubles"},

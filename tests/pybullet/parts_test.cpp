@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "gyroscope.h"
-#include "packet_doubles.h"
-#include "refusal.h"
+#include "../plugin/adaptors/pybullet/gyroscope.h"
+#include "../plugin/adaptors/pybullet/packet_doubles.h"
+#include "../plugin/adaptors/pybullet/refusal.h"
+#include "../plugin/adaptors/pybullet/words.h"
 #include "support/random.h"
-#include "words.h"
 
 namespace tandem::pybullet {
 namespace {

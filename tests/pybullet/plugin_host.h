@@ -56,6 +56,7 @@ struct PluginAnswer {
 class PluginHost {
  public:
   StubEngine engine;
+  bool closes = true;  // before it unloads
 
   PluginHost() {
     b3::PluginContext context;
@@ -66,6 +67,7 @@ class PluginHost {
     user_pointer_ = context.user_pointer;
   }
   ~PluginHost() {
+    if (closes) command("close");
     b3::PluginContext context{};
     context.client = engine.client();
     context.user_pointer = user_pointer_;

@@ -7,7 +7,7 @@
 
 #include "tandem/coordination/types.h"
 
-#include "b3_abi.h"
+#include "../plugin/adaptors/pybullet/b3_abi.h"
 
 namespace tandem::test {
 

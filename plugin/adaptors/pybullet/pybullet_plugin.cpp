@@ -65,7 +65,7 @@ int executePluginCommand_tandem(b3::PluginContext* context, const b3::PluginArgu
 void exitPlugin_tandem(b3::PluginContext* context) {
   Instance* const instance = tandem::pybullet::instanceOf(context);
   if (!instance) return;
-  if (instance->session.isOpen()) {
+  if (instance->session.hasBodies()) {
     tandem::pybullet::say("unloaded with a site open: its bodies stay as Tandem had them, ",
                           "with m/N and without damping; `close` gives them back");
   }

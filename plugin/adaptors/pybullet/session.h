@@ -74,7 +74,7 @@ class Session {
   /// Gives all bodies back and ends the site, its links and its device.
   void close();
 
-  bool isOpen() const { return site_ != nullptr; }
+  bool hasBodies() const { return !moving_.empty() || !standing_.empty(); }
   TandemDevice* device() const { return device_.get(); }
   bool deviceIsMoved() const { return device_is_moved_; }
   TandemPeerStatus meshStatus(std::uint32_t peer) const;

@@ -31,6 +31,7 @@ __all__ = ["Device", "Link", "LINK_STATES", "Packet", "Peer", "PeerStatus", "PHA
 
 _POSTFIX = "_tandem"
 _WORDS_PER_COMMAND = 128
+_MULTIBODY = 2  # body type
 
 #: Pose of a centre of mass and its velocities, each a tuple.
 State = namedtuple("State", "position orientation velocity angular_velocity")
@@ -287,6 +288,8 @@ class Site:
         """Points of a body that is one mesh, which the plugin cannot ask for; else None."""
         client = {"physicsClientId": self._client}
         try:
+            if pybullet.getDynamicsInfo(body, -1, **client)[10] != _MULTIBODY:
+                return None  # of others PyBullet does not tell the shape
             pieces = pybullet.getCollisionShapeData(body, -1, **client)
             if len(pieces) != 1 or pieces[0][2] != pybullet.GEOM_MESH:
                 return None

@@ -1,0 +1,328 @@
+#!/usr/bin/env python3
+"""The plugin in the real PyBullet. Where there is none: "SKIPPED", and exit status 77.
+
+    PYTHONPATH=folder/of/tandem_pybullet.py real_pybullet.py
+"""
+
+import itertools
+import math
+import sys
+import unittest
+
+try:
+    import pybullet as p
+except ImportError as why:
+    print(f"SKIPPED: no PyBullet to test with ({why})")
+    sys.exit(77)
+
+import tandem_pybullet as tandem
+
+AT_REST = tandem.State((0, 0, 0), (0, 0, 0, 1), (0, 0, 0), (0, 0, 0))
+HALF = (0.02, 0.02, 0.02)
+
+
+def ringing(x0, t):
+    """m x'' + B x' + K x = 0 from x0 at rest, K = 2000, B = 10, m = 0.1."""
+    c = 10 / 0.2
+    w = math.sqrt(2000 / 0.1 - c * c)
+    return x0 * math.exp(-c * t) * (math.cos(w * t) + c / w * math.sin(w * t))
+
+
+class Client:
+    """A physics client with a step, sub-steps and gravity; a context manager."""
+
+    def __init__(self, rate=240, substeps=0, gravity=0.0):
+        self.id = p.connect(p.DIRECT)
+        p.setTimeStep(1 / rate, physicsClientId=self.id)
+        p.setPhysicsEngineParameter(numSubSteps=substeps, physicsClientId=self.id)
+        p.setGravity(0, 0, gravity, physicsClientId=self.id)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        p.disconnect(self.id)
+
+    def add_cube(self, position=(0, 0, 0), maximal=False, half=HALF, mass=0.2):
+        shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=half, physicsClientId=self.id)
+        return p.createMultiBody(mass, shape, basePosition=position, physicsClientId=self.id,
+                                 useMaximalCoordinates=maximal)
+
+    def add_floor(self):
+        shape = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=self.id)
+        return p.createMultiBody(0, shape, physicsClientId=self.id)
+
+    def position(self, body):
+        return p.getBasePositionAndOrientation(body, physicsClientId=self.id)[0]
+
+    def velocity(self, body):
+        return p.getBaseVelocity(body, physicsClientId=self.id)
+
+    def dynamics(self, body):
+        return p.getDynamicsInfo(body, -1, physicsClientId=self.id)
+
+
+def far_hand():
+    return tandem.Device(start=(10, 0, 0))
+
+
+class FreeCoupler(unittest.TestCase):
+    def test_is_the_closed_form(self):
+        """1e-6 m is asked for; what is measured is rounding."""
+        for maximal, rate, substeps, gravity in itertools.product((False, True), (240, 60),
+                                                                  (0, 1, 4, 16), (0.0, -9.81)):
+            with self.subTest(maximal=maximal, rate=rate, substeps=substeps, gravity=gravity), \
+                    Client(rate, substeps, gravity) as client:
+                worst = self.find_worst(client, maximal, rate)
+                print(f"free coupler, maximal={maximal:d} 1/{rate} s x {substeps:2} "
+                      f"g={gravity}: {worst:.1e} m")
+                self.assertLess(worst, 1e-10)
+
+    @staticmethod
+    def find_worst(client, maximal, rate):
+        cube = client.add_cube((0.01, 0, 0), maximal)
+        with tandem.Site(far_hand(), client=client.id, coordination=(2000, 10),
+                         link_loss=False) as site:
+            site.share(cube, shape=("box", HALF) if maximal else None)
+            link = site.manual_link()
+            site.connect(2, link, start=(-5, 0, 0))
+            link.push(tandem.Packet(2, False, 0, 0.0, (-5, 0, 0), (0, 0, 0), math.nan,
+                                    [(0, AT_REST)]))
+            worst = 0.0
+            for step in range(1, rate // 2):
+                site.step()
+                worst = max(worst, abs(client.position(cube)[0] - ringing(0.01, step / rate)))
+            return worst
+
+
+class Bodies(unittest.TestCase):
+    def test_are_given_back(self):
+        for maximal in (False, True):
+            with self.subTest(maximal=maximal), Client(gravity=-9.81) as client:
+                brick, other = (client.add_cube((0, y, 1), maximal, (0.05, 0.02, 0.01))
+                                for y in (0, 1))
+                before = client.dynamics(brick)
+                site = tandem.Site(far_hand(), peers=2, client=client.id)
+                site.share(brick, shape=("box", (0.05, 0.02, 0.01)))
+                self.assertAlmostEqual(client.dynamics(brick)[0], before[0] / 2)
+                for _ in range(24):
+                    site.step()
+                site.close()
+                after = client.dynamics(brick)
+                for place in (0, 2):  # mass, inertia
+                    self.assertEqual(after[place], before[place])
+                for body in (brick, other):  # damping acts again as in one that was not shared
+                    p.resetBasePositionAndOrientation(body, (0, body, 5), (0, 0, 0, 1),
+                                                      physicsClientId=client.id)
+                    p.resetBaseVelocity(body, (1, 0, 0), (0, 0, 1), physicsClientId=client.id)
+                for _ in range(120):
+                    p.stepSimulation(physicsClientId=client.id)
+                self.assertEqual(client.velocity(brick), client.velocity(other))
+
+    def test_tumble_as_free_bodies(self):
+        """The engine's own gyroscopic term, of either kind, is neither lost nor counted twice."""
+        for maximal, rate in itertools.product((False, True), (60, 240)):
+            with self.subTest(maximal=maximal, rate=rate), Client(rate) as client:
+                brick = client.add_cube((0, 0, 0), maximal, (0.05, 0.02, 0.01))
+                p.resetBaseVelocity(brick, (0, 0, 0), (1, 6, 0.5), physicsClientId=client.id)
+                with tandem.Site(far_hand(), peers=1, client=client.id) as site:
+                    site.share(brick, shape=("box", (0.05, 0.02, 0.01)))
+                    before = self.momentum(client, brick)
+                    for _ in range(rate):
+                        site.step()
+                    after = self.momentum(client, brick)
+                lost = math.dist(before, after) / math.hypot(*before)
+                print(f"tumbling brick, maximal={maximal:d} 1/{rate} s: {lost:.1e} of its angular "
+                      "momentum lost in 1 s")
+                self.assertLess(lost, 1e-5)
+
+    @staticmethod
+    def momentum(client, body):
+        turned = p.getBasePositionAndOrientation(body, physicsClientId=client.id)[1]
+        R = p.getMatrixFromQuaternion(turned)
+        w = client.velocity(body)[1]
+        inertia = client.dynamics(body)[2]
+        local = [inertia[i] * sum(R[3 * j + i] * w[j] for j in range(3)) for i in range(3)]
+        return [sum(R[3 * i + j] * local[j] for j in range(3)) for i in range(3)]
+
+    def test_push_what_is_pybullets(self):
+        """A shared cube runs into another that PyBullet alone knows: momentum is kept."""
+        with Client() as client:
+            cube, other = client.add_cube((0, 0, 0)), client.add_cube((0.1, 0, 0), mass=0.1)
+            p.changeDynamics(other, -1, linearDamping=0, angularDamping=0,
+                             physicsClientId=client.id)
+            with tandem.Site(far_hand(), client=client.id) as site:  # carries 0.1 kg of 0.2
+                site.share(cube)
+                p.resetBaseVelocity(cube, (0.5, 0, 0), physicsClientId=client.id)
+                for _ in range(120):
+                    site.step()
+                speeds = [client.velocity(body)[0][0] for body in (cube, other)]
+            self.assertGreater(speeds[1], 0.2)
+            self.assertAlmostEqual(sum(speeds), 0.5, delta=1e-6)
+
+
+class Floor(unittest.TestCase):
+    def test_carries_a_press(self):
+        """A hand of 5 N presses a cube onto a mirrored floor: it does not sink."""
+        for maximal in (False, True):
+            with self.subTest(maximal=maximal), Client(gravity=-9.81) as client:
+                cube, floor = client.add_cube((0, 0, 0.02), maximal), client.add_floor()
+                hand = tandem.SimulatedDevice(start=(0, 0, 0.05), damping=5)
+                with tandem.Site(hand, peers=1, client=client.id) as site:
+                    site.share(cube, shape=("box", HALF))
+                    self.assertEqual(site.obstacles(), [floor])
+                    for _ in range(60):
+                        site.step()
+                    before = client.position(cube)[2]
+                    site.push((0, 0, -5))
+                    for _ in range(240):
+                        site.step()
+                    self.assertAlmostEqual(site.force()[2], 5, delta=1e-3)
+                    self.assertGreater(client.position(cube)[2], before - 1e-6)
+                    self.assertAlmostEqual(client.position(cube)[2], 0.02, delta=2e-4)
+                for _ in range(240):  # and PyBullet's own floor carries it afterwards
+                    p.stepSimulation(physicsClientId=client.id)
+                self.assertAlmostEqual(client.position(cube)[2], 0.02, delta=1e-3)
+
+
+class TwoUsers(unittest.TestCase):
+    def test_meet_over_a_simulated_link(self):
+        """Experiment I as in the README: 5 N, 50 ms, 1 s at 60 Hz."""
+        with Client(60) as here, Client(60) as there:
+            cubes, sites, x = [], [], (-0.03, 0.03)
+            for i, client in enumerate((here, there)):
+                cubes.append(client.add_cube())
+                site = tandem.Site(tandem.SimulatedDevice(start=(x[i], 0, 0)), self_id=i + 1,
+                                   client=client.id, guide=(1, 0, 0))
+                site.share(cubes[i])
+                site.connect(2 - i, site.simulated_link("way", delay=0.05), (x[1 - i], 0, 0))
+                sites.append(site)
+            sites[0].push((5, 0, 0))
+            for _ in range(60):
+                for site in sites:
+                    site.step()
+            at = [client.position(cube)[0] for client, cube in zip((here, there), cubes)]
+            force = sites[0].force()[0]
+            print(f"Experiment I: cube at {at[0]:.4f} m here, {at[1]:.4f} m there; "
+                  f"force on user 1: {force:.3f} N")
+            self.assertAlmostEqual(at[0], 0.1266, delta=1e-4)
+            self.assertAlmostEqual(at[1], 0.1199, delta=1e-4)
+            self.assertAlmostEqual(force, -5.041, delta=1e-3)
+            self.assertEqual(sites[0].read().links, ("live",))
+            for site in sites:
+                site.close()
+
+    def test_carry_packets_by_hand(self):
+        with Client(60) as here, Client(60) as there:
+            sites, links = [], []
+            for i, client in enumerate((here, there)):
+                site = tandem.Site(tandem.SimulatedDevice(start=(0.06 * i - 0.03, 0, 0)),
+                                   self_id=i + 1, client=client.id)
+                site.share(client.add_cube())
+                links.append(site.manual_link())
+                site.connect(2 - i, links[i], (0.03 - 0.06 * i, 0, 0))
+                sites.append(site)
+            sites[0].push((2, 0, 0))
+            for _ in range(60):
+                for site in sites:
+                    site.step()
+                for i in (0, 1):
+                    while (packet := links[i].pop()) is not None:
+                        links[1 - i].push(packet)
+            x = [site.states()[0].position[0] for site in sites]
+            self.assertGreater(x[0], 0.02)
+            self.assertAlmostEqual(x[0], x[1], delta=5e-3)
+            for site in sites:
+                site.close()
+
+
+class WhatGoesWrong(unittest.TestCase):
+    def test_removed_body(self):
+        with Client() as client, tandem.Site(far_hand(), client=client.id) as site:
+            cube = client.add_cube()
+            site.share(cube)
+            site.step()
+            p.removeBody(cube, physicsClientId=client.id)
+            other = client.add_cube(mass=3.0)
+            self.assertEqual(other, cube)  # PyBullet gives the number away again
+            for _ in range(3):
+                site.step()
+            self.assertTrue(site.read().has_ended)
+            self.assertIn("was removed", site.warnings()[-1])
+            self.assertEqual(client.dynamics(other)[0], 3.0)
+
+    def test_reset_simulation(self):
+        with Client() as client:
+            site = tandem.Site(far_hand(), client=client.id)
+            site.share(client.add_cube())
+            site.step()
+            p.resetSimulation(physicsClientId=client.id)
+            site.step()
+            self.assertIn("was removed", site.warnings()[-1])
+            site.close()
+            again = tandem.Site(far_hand(), client=client.id)
+            again.share(client.add_cube())
+            again.step()
+            again.close()
+
+    def test_unload_and_disconnect_with_a_site_open(self):
+        for unload in (True, False):
+            with Client() as client:
+                site = tandem.Site(far_hand(), client=client.id)
+                cube = client.add_cube()
+                site.share(cube)
+                site.connect(2, site.simulated_link(f"open{unload}"))
+                site.step()
+                if unload:
+                    p.unloadPlugin(site._plugin, physicsClientId=client.id)
+                    p.stepSimulation(physicsClientId=client.id)
+
+    def test_bodies_that_cannot_be_shared(self):
+        with Client() as client, tandem.Site(far_hand(), client=client.id) as site:
+            shape = p.createCollisionShape(p.GEOM_SPHERE, radius=0.02, physicsClientId=client.id)
+            jointed = p.createMultiBody(
+                0.1, shape, linkMasses=[0.1], linkCollisionShapeIndices=[shape],
+                linkVisualShapeIndices=[-1], linkPositions=[(0.1, 0, 0)],
+                linkOrientations=[(0, 0, 0, 1)], linkInertialFramePositions=[(0, 0, 0)],
+                linkInertialFrameOrientations=[(0, 0, 0, 1)], linkParentIndices=[0],
+                linkJointTypes=[p.JOINT_REVOLUTE], linkJointAxis=[(0, 0, 1)],
+                physicsClientId=client.id)
+            for body, says in ((jointed, "links"), (client.add_floor(), "static"), (77, "77"),
+                               (client.add_cube(maximal=True), "maximal coordinates")):
+                with self.assertRaisesRegex(tandem.TandemError, says):
+                    site.share(body)
+
+    def test_second_site_and_unknown_words(self):
+        with Client() as client, tandem.Site(far_hand(), client=client.id):
+            with self.assertRaisesRegex(tandem.TandemError, "close"):
+                tandem.Site(far_hand(), client=client.id)
+        with Client() as client:
+            with self.assertRaisesRegex(tandem.TandemError, "no word colour"):
+                tandem.Site(far_hand(), client=client.id, colour="red")
+
+
+class Shapes(unittest.TestCase):
+    def test_all_rest_on_the_floor_as_tall_as_they_are(self):
+        for name, kind, size, height in (
+                ("sphere", p.GEOM_SPHERE, {"radius": 0.02}, 0.02),
+                ("cylinder", p.GEOM_CYLINDER, {"radius": 0.02, "height": 0.06}, 0.03),
+                ("box", p.GEOM_BOX, {"halfExtents": (0.03, 0.02, 0.01)}, 0.01),
+                ("mesh", p.GEOM_MESH, {"vertices": list(itertools.product((-0.02, 0.02),
+                                                                          repeat=3))}, 0.02)):
+            with self.subTest(name), Client(gravity=-9.81) as client:
+                shape = p.createCollisionShape(kind, physicsClientId=client.id, **size)
+                body = p.createMultiBody(0.2, shape, basePosition=(0, 0, height),
+                                         physicsClientId=client.id)
+                client.add_floor()
+                with tandem.Site(far_hand(), peers=1, client=client.id) as site:
+                    site.obstacles()
+                    site.share(body)
+                    for _ in range(240):
+                        site.step()
+                    self.assertEqual(site.read().status, ())
+                    # A hull keeps PyBullet's points and has Bullet's margin around.
+                    self.assertAlmostEqual(client.position(body)[2], height, delta=2.5e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
