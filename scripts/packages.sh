@@ -6,8 +6,9 @@
 #   scripts/packages.sh install build demo   installs what is missing; needs no network when all is there
 #
 # Groups: build (library and program), demo (figures), test, bench (other engines that tandem bench compares
-# with, and valgrind for instruction counts; optional), live (cyclictest, for live_bench.sh; optional), package
-# (Debian packages), ci (Clang, sanitizers, fuzzing, format).
+# with, and valgrind for instruction counts; optional), live (cyclictest, for live_bench.sh; optional), hosts (a
+# simulator of others with Bullet inside, for tests/preload), package (Debian packages), ci (Clang, sanitizers,
+# fuzzing, format).
 set -euo pipefail
 
 packages_of() {
@@ -19,9 +20,10 @@ packages_of() {
     test)  echo libgtest-dev python3 ;;
     bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;
     live)  echo rt-tests ;;
+    hosts) echo libignition-physics-sdf-dev libignition-plugin-dev libignition-physics5-bullet-plugin5 ;;
     package) echo dpkg-dev binutils ;;
     ci)    echo clang libclang-rt-14-dev llvm clang-format clang-tidy ;;
-    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, test, bench, live, package, ci" >&2; return 2 ;;
+    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, test, bench, live, hosts, package, ci" >&2; return 2 ;;
   esac
 }
 
@@ -90,7 +92,7 @@ main() {
     list)    packages_of_all "$@" ;;
     missing) missing_of "$@" ;;
     install) install_missing "$@" ;;
-    *)       sed -n '2,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; return 2 ;;
+    *)       sed -n '2,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; return 2 ;;
   esac
 }
 

@@ -15,7 +15,8 @@ groups=(build demo test)
 targets=()
 selection=()
 case "$preset" in
-  release|dev) ;;
+  release) groups+=(hosts) ;;
+  dev) ;;
   clang) groups+=(ci) ;;
   tsan)  groups+=(ci); targets=(tandem_thread_tests tandem_device_tests tandem_hid_tests)
          selection=(--tests-regex '^tandem_(thread|device|hid)_tests\.') ;;

@@ -7,6 +7,8 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "only_shape.h"
+
 namespace tandem {
 namespace {
 
@@ -25,7 +27,7 @@ class Collector final : public btBroadphaseAabbCallback {
   bool process(const btBroadphaseProxy* proxy) override {
     auto* object = static_cast<btCollisionObject*>(proxy->m_clientObject);
     if (!isObstacle(*object)) return true;
-    const btCollisionShape& shape = *object->getCollisionShape();
+    const btCollisionShape& shape = onlyShapeOf(*object->getCollisionShape());
     const btTransform& pose = object->getWorldTransform();
     // The broadphase's boxes have a skin and may be a step old; ask the shape.
     if (!mayReach(shape, pose, computeRegion(shape, pose), region_)) return true;

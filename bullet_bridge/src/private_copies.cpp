@@ -10,6 +10,8 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "only_shape.h"
+
 namespace tandem {
 namespace {
 
@@ -76,11 +78,12 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
     : original(&host_object),
       host_shape(host_object.getCollisionShape()),
       index(body),
-      own_shape(makeOwnShape(*host_object.getCollisionShape())) {
+      own_shape(makeOwnShape(onlyShapeOf(*host_object.getCollisionShape()))) {
   Surface::of(host_object).applyTo(object);
-  if (host_shape->getShapeType() == STATIC_PLANE_PROXYTYPE)
+  const int type = onlyShapeOf(*host_shape).getShapeType();
+  if (type == STATIC_PLANE_PROXYTYPE)
     plane = static_cast<const btStaticPlaneShape*>(own_shape.get());
-  if (host_shape->getShapeType() == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
+  if (type == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
   // Bullet's objects share shapes by non-const pointer; nothing here changes them.
   object.setCollisionShape(own_shape ? own_shape.get() : host_object.getCollisionShape());
   place(btTransform::getIdentity());
@@ -116,7 +119,8 @@ btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
   if (plane) {
     // A plane has no middle: its origin goes to its point nearest to ours, so that numbers stay
     // small.
-    const auto& host_plane = static_cast<const btStaticPlaneShape&>(*original->getCollisionShape());
+    const auto& host_plane =
+        static_cast<const btStaticPlaneShape&>(onlyShapeOf(*original->getCollisionShape()));
     const Vec3 normal = fromBullet(host_pose.getBasis() * host_plane.getPlaneNormal());
     p = (normal.dot(p) + static_cast<double>(host_plane.getPlaneConstant())) * normal;
   }

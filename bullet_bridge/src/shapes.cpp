@@ -16,6 +16,8 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "only_shape.h"
+
 namespace tandem {
 namespace {
 
@@ -70,7 +72,8 @@ class TriangleReader final : public btTriangleCallback {
 
 }  // namespace
 
-std::optional<Shape> convertShape(const btCollisionShape& shape) {
+std::optional<Shape> convertShape(const btCollisionShape& whole) {
+  const btCollisionShape& shape = onlyShapeOf(whole);
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:
       return Sphere{static_cast<const btSphereShape&>(shape).getRadius()};
@@ -116,7 +119,8 @@ Shape getShareableShape(const btRigidBody& body) {
     throw Error(
         std::string(
             "a shared object must be a box, sphere, capsule, cylinder or convex hull, not a ") +
-        body.getCollisionShape()->getName() + "; give the body one of these shapes");
+        body.getCollisionShape()->getName() +
+        "; give the body one of these shapes, or a compound of just one at its origin");
   return *shape;
 }
 

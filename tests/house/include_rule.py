@@ -5,6 +5,9 @@
                        +--------------------+--> coordination      (arrow: may include)
                        +--> falcon ---------+          tests --> everything
 
+An adaptor (plugin/adaptors) brings a site into a host that does not know of it: what it may use is wider
+than plugin's, and nobody includes it but tests.
+
 Usage: include_rule.py CHECKOUT     Ends with 1 when a line breaks a rule.
 """
 
@@ -15,6 +18,7 @@ from pathlib import Path
 
 LIBRARIES = ("coordination", "bullet_bridge", "falcon", "plugin")
 FOLDERS = LIBRARIES + ("demos", "tests")
+ADAPTORS = "plugin/adaptors"
 SUFFIXES = {".h", ".cpp", ".in"}
 
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token",
@@ -63,6 +67,8 @@ RULES = {
         ("thread", THREADS - LOCKS), ("clock", CLOCKS), ("file", FILES), ("socket", SOCKETS))),
     "falcon": Rule(("coordination",), ("Eigen", "hidapi", "libftdi1")),
     "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
+    # It must look at a host's own bodies, and its settings come out of a file.
+    ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++")),
     "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11", "Boost",
                               "MuJoCo", "ODE", "Simbody")),
     "tests": Rule(LIBRARIES + ("demos",), None),
@@ -82,6 +88,11 @@ class Break:
 
     def __str__(self):
         return f"{self.file}:{self.line}: #include {self.header}: {self.rule}"
+
+
+def folder_of(file):
+    """The folder whose rule a file of the checkout goes by."""
+    return ADAPTORS if file.as_posix().startswith(ADAPTORS + "/") else file.parts[0]
 
 
 def dependency_of(header):
@@ -109,7 +120,7 @@ class House:
             match = INCLUDE.match(line)
             if not match:
                 continue
-            rule = self.broken_rule(path, file.parts[0], match[1] == '"', match[2])
+            rule = self.broken_rule(path, folder_of(file), match[1] == '"', match[2])
             if rule:
                 yield Break(file, number, match[2], rule)
 
@@ -145,21 +156,21 @@ class House:
         target = self.find_private(path, folder, header)
         if target is None:
             return "no such header in this folder; a dependency's header stands in <>"
-        owner = target.relative_to(self.checkout.resolve()).parts[0]
+        owner = folder_of(target.relative_to(self.checkout.resolve()))
         if is_public_header(path.relative_to(self.checkout)):
             return 'a public header includes public headers only, as "tandem/<folder>/<name>.h"'
         if owner == folder or folder == "tests":
             return None
         if owner == "tests":
             return f"{folder}/ may not include tests/"
-        if owner == "demos":
-            return "nothing but tests/ includes demos/"
+        if owner in ("demos", ADAPTORS):
+            return f"nothing but tests/ includes {owner}/"
         return f"{owner}'s private header: other folders see include/tandem/{owner} only"
 
     def find_private(self, path, folder, header):
         """The file behind a quoted include: beside the includer, in the folder's sources, then anywhere."""
         places = [path.parent, self.checkout / folder / "src", self.checkout / folder]
-        places += [self.checkout / other / "src" for other in FOLDERS]
+        places += [self.checkout / other / "src" for other in FOLDERS] + [self.checkout / ADAPTORS]
         for place in places:
             target = (place / header).resolve()
             if target.is_file() and self.checkout.resolve() in target.parents:

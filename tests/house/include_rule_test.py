@@ -112,6 +112,20 @@ class IncludeRuleTest(unittest.TestCase):
         self.assertIn("nothing but tests/ includes demos/", found[0].rule)
         self.assertEqual(breaks_of({"tests/unit/a.cpp": '#include "scenario.h"\n', **demo}), [])
 
+    def test_adaptors_may_read_bullet_and_files_but_no_private_headers(self):
+        adaptor = "plugin/adaptors/preload/a.cpp"
+        for include in ("<toml++/toml.h>", "<BulletDynamics/Dynamics/btRigidBody.h>", '"tandem/plugin/plugin.h"',
+                        '"tandem/falcon/falcon.h"'):
+            self.assert_kept(adaptor, include)
+        self.assert_broken("plugin/src/a.cpp", "<toml++/toml.h>", "may not use toml++")
+        self.assert_kept(adaptor, '"preload/inner/b.h"', **{"plugin/adaptors/preload/inner/b.h": ""})
+        self.assert_kept("tests/a.cpp", '"preload/inner/b.h"', **{"plugin/adaptors/preload/inner/b.h": ""})
+        self.assert_broken(adaptor, "<fmt/format.h>", "may not use fmt")
+        found = breaks_of({adaptor: '#include "site_impl.h"\n', "plugin/src/site_impl.h": ""})
+        self.assertIn("plugin's private header", found[0].rule)
+        found = breaks_of({"plugin/src/a.cpp": '#include "../adaptors/b.h"\n', "plugin/adaptors/b.h": ""})
+        self.assertIn("nothing but tests/ includes plugin/adaptors/", found[0].rule)
+
     def test_headers_that_are_not_there(self):
         self.assert_broken("plugin/src/a.cpp", '"nowhere.h"', "no such header")
         self.assert_broken("plugin/src/a.cpp", '"tandem/falcon/nowhere.h"', "falcon/include has no such header")

@@ -31,8 +31,8 @@ namespace tandem {
 /// Two threads may share it. addBody(), removeBody(), addSphere() and search() are for the thread
 /// that steps the host's world; nothing of what they find acts before commit(), which is for the
 /// thread that ticks, as are nearSpheres(), lookAround() and find(), while the other waits.
-/// Compound shapes make Bullet allocate in every search of contacts; all others only at first
-/// touch.
+/// Compounds of several shapes make Bullet allocate in every search of contacts; all others only at
+/// first touch.
 class Obstacles final : public ContactFinder {
  public:
   /// `host` must outlive this object or be forgotten by it (forgetWorld), bodies too unless they

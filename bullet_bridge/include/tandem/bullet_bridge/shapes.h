@@ -11,9 +11,10 @@ class btRigidBody;
 namespace tandem {
 
 /// The island's own form of a Bullet shape: box, sphere, capsule, cylinder, convex hull, static
-/// plane, each with Bullet's margin where it counts: hulls are rounded by it. Nothing for a shape
-/// that the island does not know: cylinders scaled to ovals, hulls without a volume, concave
-/// shapes, compounds and others. Allocates, and for a hull takes time that grows with the square of
+/// plane, each with Bullet's margin where it counts: hulls are rounded by it. A compound of one
+/// child at its origin is that child, as some hosts wrap every shape so. Nothing for a shape that
+/// the island does not know: cylinders scaled to ovals, hulls without a volume, concave shapes,
+/// other compounds and others. Allocates, and for a hull takes time that grows with the square of
 /// its points.
 [[nodiscard]] std::optional<Shape> convertShape(const btCollisionShape& shape);
 
@@ -26,8 +27,8 @@ namespace tandem {
 /// its up axis.
 [[nodiscard]] std::optional<Shape> convertMesh(const btCollisionShape& shape);
 
-/// The shape of a body that can be shared: box, sphere, capsule, cylinder or convex hull. Throws
-/// tandem::Error naming any other.
+/// The shape of a body that can be shared: box, sphere, capsule, cylinder or convex hull, or a
+/// compound of one of them at its origin. Throws tandem::Error naming any other.
 [[nodiscard]] Shape getShareableShape(const btRigidBody& body);
 
 }  // namespace tandem

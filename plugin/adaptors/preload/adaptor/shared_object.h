@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/plugin/site.h"
+
+#include "host_time.h"
+#include "object_choice.h"
+#include "remote_site.h"
+#include "step_log.h"
+
+namespace tandem::preload {
+
+/// The one world of a process that a config shares an object of: waits for the object, attaches a
+/// site when it comes, lets go when it leaves. What happens is said on stderr; nothing is thrown,
+/// and after trouble the host goes on without Tandem. Called by the thread that steps the world.
+class SharedObject {
+ public:
+  /// Throws tandem::Error if the log cannot be written.
+  explicit SharedObject(const PreloadConfig& config);
+  ~SharedObject();
+  SharedObject(const SharedObject&) = delete;
+  SharedObject& operator=(const SharedObject&) = delete;
+
+  /// The world may be a derived one that is not complete yet: nothing is asked of it here.
+  void setWorld(btDiscreteDynamicsWorld& world) noexcept { world_ = &world; }
+
+  void beforeStep() noexcept;
+  void afterStep(double dt, int max_sub_steps, double fixed_step, int sub_steps) noexcept;
+  void objectLeaves(const void* object) noexcept;
+  /// The world ends: gives it everything back.
+  void endWorld() noexcept;
+
+  /// Null while the object is not there.
+  [[nodiscard]] const Site* site() const noexcept { return site_.get(); }
+
+ private:
+  void lookForObject();
+  void attach(const ObjectChoice& choice);
+  void lookForTheSame(const ObjectChoice& choice);
+  void letGo() noexcept;
+  void giveUp(const char* why) noexcept;
+  void report();
+
+  PreloadConfig config_;
+  btDiscreteDynamicsWorld* world_ = nullptr;
+  std::unique_ptr<StepLog> log_;
+  std::unique_ptr<RemoteSite> remote_;
+  std::unique_ptr<SimulatedDevice> device_;
+  std::unique_ptr<Site> site_;
+  btRigidBody* body_ = nullptr;
+  std::vector<const void*> leave_alone_;  ///< others that were there when the object left
+  HostTime time_, site_time_;
+  std::uint64_t steps_ = 0;
+  std::uint32_t reported_status_ = 0;
+  bool is_in_step_ = false, has_left_ = false, is_waiting_told_ = false, has_given_up_ = false;
+};
+
+}  // namespace tandem::preload
