@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 #include "support/random.h"
 
 namespace tandem {

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "bridge/bullet_rig.h"
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 
 namespace tandem {
 namespace {

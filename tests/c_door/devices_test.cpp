@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 
 namespace tandem {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 #include "support/random.h"
 
 namespace tandem {

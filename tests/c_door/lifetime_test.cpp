@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "bridge/bullet_rig.h"
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 
 namespace tandem {
 namespace {

@@ -1,6 +1,6 @@
 // Packets that the caller carries.
 
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 
 namespace tandem {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bridge/bullet_rig.h"
-#include "c_door_rig.h"
+#include "c_door/c_door_rig.h"
 
 namespace tandem {
 namespace {

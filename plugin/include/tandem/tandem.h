@@ -308,6 +308,9 @@ TandemResult tandem_mesh_create(uint32_t self, const char* bind, size_t peer_cou
                                 const TandemMeshPeer* peers, size_t agreement_count,
                                 const TandemAgreement* agreements, TandemMesh** mesh);
 
+/* The port that its socket has, for one that was bound to port 0: any. [any] */
+TandemResult tandem_mesh_port(const TandemMesh* mesh, uint16_t* port);
+
 /* The way to a peer; belongs to the mesh. [setup] */
 TandemResult tandem_mesh_link(TandemMesh* mesh, uint32_t peer, TandemLink** link);
 

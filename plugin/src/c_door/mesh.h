@@ -25,6 +25,7 @@ class MeshEnd {
 
   /// The same handle each time. `own` is this one's.
   [[nodiscard]] TandemLink* link(std::uint32_t peer, HandleHead& own);
+  [[nodiscard]] std::uint16_t port() const noexcept { return mesh_.bound().port; }
   void poll(double now);
   void leave(double now);
   [[nodiscard]] TandemPeerStatus status(std::uint32_t peer, double now) const;

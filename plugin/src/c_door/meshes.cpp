@@ -150,6 +150,13 @@ TandemResult tandem_mesh_create(uint32_t self, const char* bind, size_t peer_cou
   });
 }
 
+TandemResult tandem_mesh_port(const TandemMesh* mesh, uint16_t* port) {
+  return guarded([&] {
+    const MeshEnd& of = open(mesh);
+    checkPointer(port, "port") = of.port();
+  });
+}
+
 TandemResult tandem_mesh_link(TandemMesh* mesh, uint32_t peer, TandemLink** link) {
   return guarded([&] {
     MeshEnd& of = open(mesh);
