@@ -1,7 +1,8 @@
 // A program of somebody else's: dynamically linked to Bullet, without a word of Tandem. It prints a
 // hash over the bits of all its bodies' states after each step, and where its cube is at the end.
 //
-//   host [--steps N] [--world plain|derived|second|removed|late|in_step|world_first|leaked|none]
+//   host [--steps N] [--world
+//   plain|derived|second|removed|late|callback|in_step|world_first|leaked|none]
 //   [--realtime]
 
 #include <cstdint>
@@ -24,6 +25,9 @@ void removeInStep(btDynamicsWorld* world, btScalar) {
   if (++calls == 20) static_cast<Scene*>(world->getWorldUserInfo())->removeFirstCube();
 }
 
+int seen_sub_steps = 0;
+void countSubSteps(btDynamicsWorld*, btScalar) { ++seen_sub_steps; }
+
 std::unique_ptr<btDiscreteDynamicsWorld> makeWorld(const std::string& kind, Parts& parts) {
   if (kind == "derived")
     return std::make_unique<btMultiBodyDynamicsWorld>(
@@ -44,6 +48,8 @@ void run(const std::string& kind, int steps, bool is_realtime) {
     if (kind != "late") scene.addCubes();
     for (int step = 0; step < steps; ++step) {
       if (kind == "late" && step == 10) scene.addCubes();
+      if (kind == "callback" && step == 10)
+        world->setInternalTickCallback(countSubSteps, nullptr, true);
       if (kind == "removed" && step == 30) scene.removeFirstCube();
       if (kind == "removed" && step == 40) scene.putFirstCubeBack();
       world->stepSimulation(btScalar(1) / 60, 4, btScalar(1) / 240);
@@ -51,6 +57,7 @@ void run(const std::string& kind, int steps, bool is_realtime) {
       const timespec pause{0, 1000000000 / 60};
       if (is_realtime) nanosleep(&pause, nullptr);
     }
+    if (kind == "callback") state ^= static_cast<std::uint64_t>(seen_sub_steps);
     print(state, scene.firstCube());
     if (kind == "leaked") std::exit(0);  // nothing is taken down
     if (kind == "world_first") {

@@ -2,7 +2,9 @@
 // LD_PRELOAD, for both widths.
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -35,8 +37,8 @@ const Width kWidths[] = {
     {"float64", TANDEM_FLOAT64_HOST, TANDEM_FLOAT64_ATTACHED_HOST, TANDEM_FLOAT64_PLUGIN,
      "8-byte (double)"},
 };
-const char* const kWorlds[] = {"plain",   "derived",     "second", "removed", "late",
-                               "in_step", "world_first", "leaked", "none"};
+const char* const kWorlds[] = {"plain",    "derived", "second",      "removed", "late",
+                               "callback", "in_step", "world_first", "leaked",  "none"};
 
 /// Every line is ours, and there are so many.
 void expectLines(const std::string& err, long count) {
@@ -143,6 +145,15 @@ TEST_P(PreloadedHost, LetsGoOfAnObjectThatLeavesAndTakesItAgain) {
   EXPECT_NE(outcome.out.find("mass 0.200000"), std::string::npos);
 }
 
+TEST_P(PreloadedHost, AttachesAgainWhenTheProgramTakesTheCallback) {
+  const Outcome outcome = preloaded("callback", folder_.write("push.toml", kPush));
+  EXPECT_EQ(outcome.status, 0);
+  expectWords(outcome.err, {"has set a tick callback of its own", "was taken out of world 1"});
+  double x = 0.0;
+  ASSERT_EQ(std::sscanf(outcome.out.c_str(), "hash %*s cube %lf", &x), 1);
+  EXPECT_GT(x, 0.02);
+}
+
 TEST_P(PreloadedHost, GoesOnWhateverTheHostDoesWithItsWorld) {
   const std::string config = folder_.write("push.toml", kPush);
   for (const std::string world : {"derived", "late", "in_step", "leaked"}) {
@@ -211,8 +222,8 @@ INSTANTIATE_TEST_SUITE_P(Widths, PreloadedHost, testing::ValuesIn(kWidths),
 TEST(PreloadedProcess, MayHaveBothWidthsInPlugins) {
   if (std::size(kWidths) < 2) GTEST_SKIP() << "built for one width of Bullet";
   for (const bool is_reversed : {false, true}) {
-    const Width& first = kWidths[is_reversed ? 1 : 0];
-    const Width& other = kWidths[is_reversed ? 0 : 1];
+    const Width& first = is_reversed ? *std::rbegin(kWidths) : *std::begin(kWidths);
+    const Width& other = is_reversed ? *std::begin(kWidths) : *std::rbegin(kWidths);
     const std::vector<std::string> arguments{first.plugin, other.plugin, "--", "--world",
                                              "derived"};
     const std::string bare = runBare(first.host, {"--world", "derived"}).out +

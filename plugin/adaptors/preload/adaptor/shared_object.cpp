@@ -61,6 +61,7 @@ void SharedObject::beforeStep() noexcept {
   try {
     if (!site_) lookForObject();
     if (remote_) remote_->beginStep(site_time_.now());
+    if (site_) seen_steps_ = site_->counters().host_steps;
   } catch (const std::exception& error) {
     giveUp(error.what());
   }
@@ -86,6 +87,7 @@ void SharedObject::attach(const ObjectChoice& choice) {
   if (remote_)
     site_->connect(config_.link->peer, *remote_,
                    config_.remote_start_W.value_or(config_.device.start_W));
+  choice_ = choice;
   body_ = choice.body;
   lookForTheSame(choice);
   site_time_ = {};
@@ -117,6 +119,7 @@ void SharedObject::afterStep(double dt, int max_sub_steps, double fixed_step,
               remote_ ? nameOf(site_->linkState(0)) : "none");
   try {
     report();
+    if (sub_steps > 0) attachAgainIfUnseated();
   } catch (const std::exception& error) {
     giveUp(error.what());
   }
@@ -128,6 +131,15 @@ void SharedObject::report() {
   if (const char* what = describeStatus(news)) say("%s", what);
   if (!remote_) return;
   if (const auto change = remote_->reportChange()) say("%s", change->c_str());
+}
+
+/// A world has one slot for a callback before a step, and the program may have put its own there
+/// since.
+void SharedObject::attachAgainIfUnseated() {
+  if (site_->counters().host_steps != seen_steps_) return;
+  say("the program has set a tick callback of its own, which comes first now");
+  site_.reset();
+  attach(choice_);
 }
 
 void SharedObject::objectLeaves(const void* object) noexcept {

@@ -41,6 +41,7 @@ class SharedObject {
   void lookForObject();
   void attach(const ObjectChoice& choice);
   void lookForTheSame(const ObjectChoice& choice);
+  void attachAgainIfUnseated();
   void letGo() noexcept;
   void giveUp(const char* why) noexcept;
   void report();
@@ -51,10 +52,11 @@ class SharedObject {
   std::unique_ptr<RemoteSite> remote_;
   std::unique_ptr<SimulatedDevice> device_;
   std::unique_ptr<Site> site_;
+  ObjectChoice choice_;
   btRigidBody* body_ = nullptr;
   std::vector<const void*> leave_alone_;  ///< others that were there when the object left
   HostTime time_, site_time_;
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_ = 0, seen_steps_ = 0;
   std::uint32_t reported_status_ = 0;
   bool is_in_step_ = false, has_left_ = false, is_waiting_told_ = false, has_given_up_ = false;
 };
