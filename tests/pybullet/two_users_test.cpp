@@ -1,5 +1,13 @@
 // Two servers in one process, each with the plugin: Experiment I of the README.
 
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include <unistd.h>
+
+#include "tandem/tandem.h"
+
 #include "plugin_rig.h"
 
 namespace tandem::test {
@@ -68,6 +76,45 @@ TEST(TwoUsers, CarryPacketsByHand) {
   EXPECT_EQ(carried, 256);  // 128 per second and user
   EXPECT_GT(second.host.engine.bodies.at(0).state.p_W.x(), 0.1);
   EXPECT_EQ(first.host.read()[kStatus], 0.0);
+}
+
+// Sealed datagrams over this machine's own network; each step takes in and sends what is due.
+TEST(TwoUsers, MeetOverAMesh) {
+  const std::string key = testing::TempDir() + "tandem_pybullet_pair.key";
+  std::remove(key.c_str());
+  User first(1, -0.03), second(2, 0.03);
+  first.host.command("key path=\"" + key + "\"");
+  const int port = 20000 + static_cast<int>(getpid() % 20000);
+  const std::string there = "127.0.0.1:" + std::to_string(port);
+  for (User* user : {&first, &second}) {
+    const bool calls = user == &first;  // the one of the lower number
+    user->host.command(std::string(calls ? "peer id=2 address=" + there : "peer id=1") + " key=\"" +
+                       key + "\"");
+    user->host.command("agree key=object.mass value=0.2");
+    user->host.command(calls ? "mesh self=1 bind=127.0.0.1:0" : "mesh self=2 bind=" + there);
+    user->host.command(calls ? "link kind=mesh peer=2" : "link kind=mesh peer=1");
+  }
+  first.connect(2, "0.03,0,0");
+  second.connect(1, "-0.03,0,0");
+  first.host.command("hand force=5,0,0");
+  const auto phase = [&] {
+    return static_cast<int>(first.host.ask("mesh_status peer=2").doubles().at(0));
+  };
+  constexpr int kPatience = 20000;  // steps of a millisecond; a handshake takes some ten
+  for (int step = 0; step < kPatience && first.host.read()[14] < 20; ++step) {
+    first.host.step();
+    second.host.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(phase(), TANDEM_PEER_LIVE) << first.host.ask("mesh_explain peer=2").bytes;
+  EXPECT_GE(first.host.read()[14], 20);
+  second.host.command("close");  // says farewell
+  for (int step = 0; step < kPatience && phase() == TANDEM_PEER_LIVE; ++step) {
+    first.host.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(phase(), TANDEM_PEER_LEFT);
+  std::remove(key.c_str());
 }
 
 TEST(TwoUsers, MayLeaveWithALinkOpen) {

@@ -41,16 +41,27 @@ std::uint32_t toId(Words& words, const char* key) {
 }  // namespace
 
 const Commands::Entry Commands::kTable[] = {
-    {"version", &Commands::version, false}, {"data", &Commands::data, true},
-    {"device", &Commands::device, false},   {"site", &Commands::site, false},
-    {"peer", &Commands::peer, false},       {"agree", &Commands::agree, false},
-    {"mesh", &Commands::mesh, false},       {"mesh_status", &Commands::meshStatus, false},
-    {"key", &Commands::key, false},         {"link", &Commands::link, false},
-    {"share", &Commands::share, true},      {"obstacle", &Commands::obstacle, true},
-    {"connect", &Commands::connect, false}, {"proxy", &Commands::proxy, false},
-    {"hand", &Commands::hand, false},       {"force", &Commands::force, false},
-    {"read", &Commands::read, false},       {"warnings", &Commands::warnings, false},
-    {"push", &Commands::push, true},        {"pop", &Commands::pop, false},
+    {"version", &Commands::version, false},
+    {"data", &Commands::data, true},
+    {"device", &Commands::device, false},
+    {"site", &Commands::site, false},
+    {"peer", &Commands::peer, false},
+    {"agree", &Commands::agree, false},
+    {"mesh", &Commands::mesh, false},
+    {"mesh_status", &Commands::meshStatus, false},
+    {"mesh_explain", &Commands::meshExplain, false},
+    {"key", &Commands::key, false},
+    {"link", &Commands::link, false},
+    {"share", &Commands::share, true},
+    {"obstacle", &Commands::obstacle, true},
+    {"connect", &Commands::connect, false},
+    {"proxy", &Commands::proxy, false},
+    {"hand", &Commands::hand, false},
+    {"force", &Commands::force, false},
+    {"read", &Commands::read, false},
+    {"warnings", &Commands::warnings, false},
+    {"push", &Commands::push, true},
+    {"pop", &Commands::pop, false},
     {"close", &Commands::close, false},
 };
 
@@ -271,6 +282,12 @@ void Commands::meshStatus(Words& words, Reply& reply) {
   put(reply, status.silence);
   put(reply, status.round_trip);
   put(reply, status.loss);
+}
+
+void Commands::meshExplain(Words& words, Reply& reply) {
+  const std::uint32_t peer = toId(words, "peer");
+  words.finish();
+  putText(reply, session_.explainPeer(peer));
 }
 
 void Commands::push(Words& words, Reply&) {

@@ -51,6 +51,7 @@ class Commands {
   void agree(Words&, Reply&);
   void mesh(Words&, Reply&);
   void meshStatus(Words&, Reply&);
+  void meshExplain(Words&, Reply&);
   void key(Words&, Reply&);
   void link(Words&, Reply&);
   void share(Words&, Reply&);

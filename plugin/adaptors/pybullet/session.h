@@ -78,6 +78,7 @@ class Session {
   TandemDevice* device() const { return device_.get(); }
   bool deviceIsMoved() const { return device_is_moved_; }
   TandemPeerStatus meshStatus(std::uint32_t peer) const;
+  std::string explainPeer(std::uint32_t peer) const;
   TandemLink* manualLink(int link) const;
   void read(SessionReading& reading) const;
   /// What a user should know, one line each: of set-up, and since.

@@ -70,6 +70,16 @@ TandemPeerStatus Session::meshStatus(std::uint32_t peer) const {
   return status;
 }
 
+std::string Session::explainPeer(std::uint32_t peer) const {
+  if (!mesh_) throw Refusal(kWrongOrder, "there is no mesh");
+  std::size_t length = 0;
+  check(tandem_mesh_explain(mesh_.get(), peer, nullptr, 0, &length));
+  std::string text(length + 1, '\0');
+  check(tandem_mesh_explain(mesh_.get(), peer, text.data(), text.size(), &length));
+  text.resize(length);
+  return text;
+}
+
 int Session::keepLink(Link link) {
   links_.push_back(std::move(link));
   return static_cast<int>(links_.size()) - 1;

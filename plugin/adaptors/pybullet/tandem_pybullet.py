@@ -44,7 +44,8 @@ Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash 
 #: A state as it goes from site to site by manual links; `objects`: (id, State) pairs.
 Packet = namedtuple("Packet", "sender is_idle sequence time position velocity port_energy objects")
 
-#: A remote of a mesh; `address` "host:port", or None if it is to call us; `key`: a file.
+#: A remote of a mesh; `address` "host:port", or None if its number is lower than ours: then it calls
+#: us; `key`: a file.
 Peer = namedtuple("Peer", "id address key")
 
 PeerStatus = namedtuple("PeerStatus", "phase silence round_trip loss")
@@ -124,11 +125,7 @@ class Site:
         self._client = client
         self._spheres = []
         self._radius = settings.get("proxy_radius")
-        self._plugin = pybullet.loadPlugin(plugin or find_plugin(), _POSTFIX,
-                                           physicsClientId=client)
-        if self._plugin < 0:
-            raise TandemError(-1, "PyBullet could not load the plugin; what it said is on the "
-                                  "standard output")
+        self._plugin = _load(client, plugin)
         self._command("device", **(device or Device()).words)
         self._command("site", self=self_id, peers=peers, **settings)
 
@@ -242,6 +239,12 @@ class Site:
         phase, silence, round_trip, loss = self._ask("mesh_status", peer=peer)
         return PeerStatus(PHASES[int(phase)], silence, round_trip, loss)
 
+    def mesh_explain(self, peer):
+        """Why a peer of the mesh does not become live, as far as is known: lines of text."""
+        answer = self._send(_line("mesh_explain", {"peer": peer}))
+        self._check(answer)
+        return answer[1].decode().splitlines()
+
     def warnings(self):
         """What to know about what was attached, and what has happened since: lines of text."""
         answer = self._send("warnings")
@@ -323,17 +326,14 @@ class Site:
         return status
 
     def _send(self, line, ints=()):
-        answer = pybullet.executePluginCommand(self._plugin, line, ints,
-                                               physicsClientId=self._client)
-        if isinstance(answer, int):
-            return answer, b""
-        status, _, data = answer
-        return status, array("b", data).tobytes()
+        return _execute(self._plugin, self._client, line, ints)
 
 
-def create_key(path, site):
-    """Makes a file with a new key for a pair of sites; `site`: any open one."""
-    site._command("key", path=path)
+def create_key(path, client=0):
+    """Makes a file with a new key for a pair of sites, that only its owner may read. Both need it."""
+    status, text = _execute(_load(client), client, _line("key", {"path": path}))
+    if status < 0:
+        raise TandemError(status, text.decode())
 
 
 def find_plugin():
@@ -350,6 +350,23 @@ def find_plugin():
         if os.path.isfile(place):
             return os.path.realpath(place)
     raise FileNotFoundError(f"{name}: not at {', '.join(places)}; set TANDEM_PYBULLET_PLUGIN")
+
+
+def _load(client, plugin=None):
+    number = pybullet.loadPlugin(plugin or find_plugin(), _POSTFIX, physicsClientId=client)
+    if number < 0:
+        raise TandemError(-1, "PyBullet could not load the plugin; it has said why on the terminal")
+    return number
+
+
+def _execute(plugin, client, line, ints=()):
+    """Status and bytes of a command. PyBullet gives bytes as signed numbers, and none if there are
+    none."""
+    answer = pybullet.executePluginCommand(plugin, line, ints, physicsClientId=client)
+    if isinstance(answer, int):
+        return answer, b""
+    status, _, data = answer
+    return status, array("b", data).tobytes()
 
 
 def _state_of(numbers):
