@@ -42,29 +42,33 @@ def time_steps(client, count):
 
 
 def compare(name, bare, other, blocks):
-    count = max(10, int(BLOCK * 1e6 / time_steps(other, 100)))
+    """One line of the table; `other`: a client, or a site."""
+    site = other if isinstance(other, tandem.Site) else None
+    client = site.client if site else other
+    count = max(10, int(BLOCK * 1e6 / time_steps(client, 100)))
     without, with_plugin = [], []
     for block in range(blocks):
-        turns = ((bare, without), (other, with_plugin))
-        for client, times in turns if block % 2 == 0 else reversed(turns):
-            times.append(time_steps(client, count))
+        turns = ((bare, without), (client, with_plugin))
+        for turn, times in turns if block % 2 == 0 else reversed(turns):
+            times.append(time_steps(turn, count))
     added = statistics.median(b - a for a, b in zip(without, with_plugin))
     print(f"{name:44} {statistics.median(without):8.2f} {statistics.median(with_plugin):8.2f} "
           f"{added:+8.3f}")
-    for client in (bare, other):
-        p.disconnect(client)
+    if site:
+        site.close()
+    p.disconnect(bare)
+    p.disconnect(client)
 
 
-def make_shared(bodies, shared, substeps=0, moving=False):
-    """A client with a site that shares the first bodies."""
+def make_site(bodies, shared, substeps=0, moving=False):
+    """A site in a client of its own, that shares the first bodies."""
     client = make_client(bodies, substeps)
-    site = tandem.Site(tandem.Device(start=(0, 10, 0)), client=client, link_loss=False)
+    site = tandem.Site(tandem.Device(start=(0, 10, 0)), client=client)
     for body in range(shared):
         site.share(body)
-    if moving:
-        for body in range(shared):
+        if moving:
             p.resetBaseVelocity(body, (0, 0.1, 0), physicsClientId=client)
-    return client
+    return site
 
 
 def main():
@@ -80,12 +84,12 @@ def main():
     for bodies in (1, 100):
         compare(f"{bodies} bodies, two clients without the plugin", make_client(bodies),
                 make_client(bodies), blocks)
-    compare("1 body, a site with nothing shared", make_client(1), make_shared(1, 0), blocks)
-    compare("1 body, shared, at rest", make_client(1), make_shared(1, 1), blocks)
-    compare("1 body, shared, moving", make_client(1), make_shared(1, 1, moving=True), blocks)
+    compare("1 body, a site with nothing shared", make_client(1), make_site(1, 0), blocks)
+    compare("1 body, shared, at rest", make_client(1), make_site(1, 1), blocks)
+    compare("1 body, shared, moving", make_client(1), make_site(1, 1, moving=True), blocks)
     compare("1 body, shared, moving, 4 sub-steps", make_client(1, 4),
-            make_shared(1, 1, 4, moving=True), blocks)
-    compare("8 bodies, all shared, moving", make_client(8), make_shared(8, 8, moving=True), blocks)
+            make_site(1, 1, 4, moving=True), blocks)
+    compare("8 bodies, all shared, moving", make_client(8), make_site(8, 8, moving=True), blocks)
 
 
 if __name__ == "__main__":

@@ -123,7 +123,7 @@ class Site:
 
     def __init__(self, device=None, self_id=1, peers=2, client=0, plugin=None, **settings):
         self._client = client
-        self._spheres = []
+        self._spheres = []  # (body, its info)
         self._radius = settings.get("proxy_radius")
         self._plugin = _load(client, plugin)
         self._command("device", **(device or Device()).words)
@@ -134,6 +134,11 @@ class Site:
 
     def __exit__(self, *_):
         self.close()
+
+    @property
+    def client(self):
+        """Number of the physics client."""
+        return self._client
 
     # Set-up.
 
@@ -256,8 +261,8 @@ class Site:
             return
         self._command("close")
         self._plugin = -1
-        for body, end in self._spheres:
-            if end == pybullet.getBodyInfo(body, physicsClientId=self._client):
+        for body, info in self._spheres:
+            if info == pybullet.getBodyInfo(body, physicsClientId=self._client):
                 pybullet.removeBody(body, physicsClientId=self._client)
         self._spheres = []
 
