@@ -4,17 +4,10 @@
 #include <vector>
 
 #include "b3_abi.h"
+#include "reply.h"
 #include "session.h"
 
 namespace tandem::pybullet {
-
-/// What a command gives back: a number, negative if it was refused, and bytes: the text of a
-/// refusal or a warning, or doubles.
-struct Reply {
-  int status = 0;
-  int type = b3::kBytes;
-  std::string bytes;
-};
 
 /// Runs the commands of one plugin instance; docs/pybullet.md has the table of them.
 class Commands {

@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <chrono>
 #include <set>
-#include <thread>
 
 #include "refusal.h"
 #include "session.h"
-#include "steady_time.h"
 
 namespace tandem::pybullet {
 namespace {
@@ -56,62 +53,6 @@ void Session::openSite(const TandemSiteSettings& settings) {
   peers_ = settings.peers;
   proxy_mass_ = settings.proxy_mass;
   followParameters();
-}
-
-void Session::addMesh(MeshHandle mesh) {
-  if (mesh_) throw Refusal(kWrongOrder, "there is a mesh already: `close` first");
-  mesh_ = std::move(mesh);
-}
-
-TandemPeerStatus Session::meshStatus(std::uint32_t peer) const {
-  if (!mesh_) throw Refusal(kWrongOrder, "there is no mesh");
-  TandemPeerStatus status{};
-  check(tandem_mesh_status(mesh_.get(), peer, now(), &status));
-  return status;
-}
-
-std::string Session::explainPeer(std::uint32_t peer) const {
-  if (!mesh_) throw Refusal(kWrongOrder, "there is no mesh");
-  std::size_t length = 0;
-  check(tandem_mesh_explain(mesh_.get(), peer, nullptr, 0, &length));
-  std::string text(length + 1, '\0');
-  check(tandem_mesh_explain(mesh_.get(), peer, text.data(), text.size(), &length));
-  text.resize(length);
-  return text;
-}
-
-int Session::keepLink(Link link) {
-  links_.push_back(std::move(link));
-  return static_cast<int>(links_.size()) - 1;
-}
-
-int Session::addManualLink() {
-  Link link;
-  check(tandem_link_create_manual(&link.handle));
-  link.manual.reset(link.handle);
-  return keepLink(std::move(link));
-}
-
-int Session::addMeshLink(std::uint32_t peer) {
-  if (!mesh_) throw Refusal(kWrongOrder, "a link of kind mesh needs a mesh: `mesh` first");
-  Link link;
-  check(tandem_mesh_link(mesh_.get(), peer, &link.handle));
-  return keepLink(std::move(link));
-}
-
-int Session::addSimulatedLink(const std::string& name, const TandemNetwork& network) {
-  Link link;
-  link.simulated = std::make_unique<SimulatedEnd>(name, network);
-  link.handle = link.simulated->link();
-  return keepLink(std::move(link));
-}
-
-TandemLink* Session::manualLink(int link) const {
-  if (link < 0 || link >= static_cast<int>(links_.size()) ||
-      !links_[static_cast<std::size_t>(link)].manual) {
-    throw Refusal(kBadCommand, "link=" + std::to_string(link) + " is no manual link");
-  }
-  return links_[static_cast<std::size_t>(link)].handle;
 }
 
 std::vector<Piece> Session::findPieces(const BorrowedBody& body, const Piece* shape) const {
@@ -201,18 +142,6 @@ void Session::addObstacle(int body, const Piece* shape) {
   standing_.push_back(std::move(standing));
 }
 
-int Session::connect(std::uint32_t peer, int link, const double start[3]) {
-  requireSite();
-  if (link < 0 || link >= static_cast<int>(links_.size())) {
-    throw Refusal(kBadCommand, "link=" + std::to_string(link) + ": no such link");
-  }
-  TandemBody proxy = TANDEM_NO_BODY;
-  check(tandem_site_connect(site_.get(), peer, links_[static_cast<std::size_t>(link)].handle, start,
-                            &proxy));
-  proxies_.push_back(proxy);
-  return static_cast<int>(proxies_.size()) - 1;
-}
-
 void Session::showProxy(int remote, int body) {
   requireSite();
   requireFree(body);
@@ -244,14 +173,6 @@ void Session::showProxy(int remote, int body) {
 void Session::stopContact(int body_a, int body_b) {
   engine_.setCollides(body_a, body_b, false);
   without_contact_.emplace_back(body_a, body_b);
-}
-
-void Session::sayFarewell(int rounds) {
-  if (!mesh_ || tandem_mesh_leave(mesh_.get(), now()) != TANDEM_OK) return;
-  for (int round = 0; round < rounds; ++round) {
-    if (round > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    (void)tandem_mesh_poll(mesh_.get(), now());
-  }
 }
 
 void Session::close() {
