@@ -242,6 +242,18 @@ TEST(PreloadedProcess, IsToldOfAStaticBullet) {
   EXPECT_EQ(runPreloaded(TANDEM_STATIC_HOST, {}, "").err, "");
 }
 
+TEST(PreloadedProcess, IsToldOfAnotherBulletThanDebians) {
+  const TempFolder folder;
+  const std::vector<std::string> arguments{TANDEM_OWN_BULLET_PLUGIN, "--"};
+  const Outcome outcome =
+      runPreloaded(TANDEM_TWO_WIDTHS_HOST, arguments, folder.write("push.toml", kPush));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, "3 steps\n");
+  expectLines(outcome.err, 1);
+  expectWords(outcome.err,
+              {"makes its worlds with", TANDEM_OWN_BULLET_PLUGIN, "libBulletDynamics.so.3"});
+}
+
 TEST(PreloadedProcess, IsToldThatItMadeNoWorld) {
   const TempFolder folder;
   const Outcome outcome =
