@@ -22,16 +22,15 @@ TEST(Mesh, JoinsTwoSites) {
   EXPECT_EQ(tandem_link_destroy(to_second), TANDEM_IN_USE);
   const TandemState moved = makeState(Vec3(0.0, 0.02, 0.0));
   ok(tandem_world_set_state(one.world, one.cube, &moved));
-  TandemState here{}, there{};
+  Meeting meeting;
   const bool have_met = meshes.pollUntil([&] {
     // The simulated time runs ahead of the clock, and behind it, as it does with a real host.
     for (const LinkedSite* site : {&one, &two})
       ok(tandem_world_step(site->world, 1.0 / 60.0, 0, 0.0));
     usleep(10000);
-    (void)one.read(&here), (void)two.read(&there);
-    return haveMet(here, there);
+    return meeting.look(one, two);
   });
-  EXPECT_TRUE(have_met) << here.position[1] << " " << there.position[1];
+  EXPECT_TRUE(have_met) << meeting.here.position[1] << " " << meeting.there.position[1];
   EXPECT_GT(two.read().packets_taken, 10u);
   EXPECT_EQ(two.read().status, 0u);
 

@@ -105,11 +105,17 @@ struct LinkedSite {
   }
 };
 
-/// Of two copies that began apart, the second at the origin. Where they meet is their way's delay
-/// to say.
-[[nodiscard]] inline bool haveMet(const TandemState& here, const TandemState& there) {
-  return std::abs(here.position[1] - there.position[1]) < 1e-4 &&
-         std::abs(there.position[1]) > 1e-3;
-}
+/// Of two copies, of which the second stood at the origin: whether it has ever moved, and they are
+/// at one place now. Where that is depends on the delays.
+struct Meeting {
+  TandemState here{}, there{};
+  bool has_moved = false;
+
+  [[nodiscard]] bool look(const LinkedSite& one, const LinkedSite& two) {
+    (void)one.read(&here), (void)two.read(&there);
+    has_moved |= std::abs(there.position[1]) > 1e-3;
+    return has_moved && std::abs(here.position[1] - there.position[1]) < 1e-4;
+  }
+};
 
 }  // namespace tandem::test

@@ -134,16 +134,15 @@ TEST(CDoor, LoopsMeetOverAMesh) {
       usleep(1000);
     }
   });
-  TandemState here{}, there{};
+  Meeting meeting;
   const double end = readClock() + kPatience;
   bool have_met = false;
   while (!have_met && readClock() < end) {
     for (const LinkedSite* site : {&one, &two}) ok(tandem_world_step(site->world, kStep, 0, 0.0));
     usleep(15000);
-    (void)one.read(&here), (void)two.read(&there);
-    have_met = haveMet(here, there);
+    have_met = meeting.look(one, two);
   }
-  EXPECT_TRUE(have_met) << here.position[1] << " " << there.position[1];
+  EXPECT_TRUE(have_met) << meeting.here.position[1] << " " << meeting.there.position[1];
   ends = true;
   network.join();
   EXPECT_GT(two.read().packets_taken, 10u);
