@@ -39,6 +39,7 @@ build() {
 
 if [[ "$preset" == install ]]; then
   build release -DTANDEM_BUILD_TESTS=ON
+  targets=()
   build install
   step "Testing"
   cmake -S "$checkout/tests/install" -B "$checkout/build/install_tests" -G Ninja >"$checkout/build/install_tests.log" \

@@ -53,10 +53,13 @@ ctest --test-dir "$work/consumer" --output-on-failure
 read -ra flags <<<"$(pkg-config --cflags --libs tandem-float64)"
 g++ -std=c++17 "$here/consumer/host17.cpp" "${flags[@]}" -o "$work/host17"
 "$work/host17"
+# A build that left the program out packs the udev rule alone.
 for program in tandem tandem-float; do
+  [[ -x $build/demos/$program ]] || { echo "$program was not built, so not packed"; continue; }
   "$program" run --json /usr/share/tandem/scenarios/experiment1.toml >"$work/$program.json"
   ! readelf -d "/usr/bin/$program" | grep -q 'R.*PATH' || fail "$program looks for libraries elsewhere first"
 done
+! readelf -d "$(find /usr/lib -name libtandem_plugin.so)" | grep -q 'R.*PATH' || fail "the libraries hold a RUNPATH"
 [[ -f /usr/lib/udev/rules.d/70-tandem-devices.rules ]] || fail "there is no udev rule"
 for package in "${packages[@]}"; do
   [[ -f /usr/share/doc/$package/copyright ]] || fail "$package has no licence"

@@ -1,12 +1,10 @@
-// Reaches the headers of each library, and calls the one that is compiled for this test.
+// Sees all headers of a host; calls nothing that would have to be linked.
 #include <cstdio>
 
-#include "tandem/coordination/simulated_link.h"
-#include "tandem/coordination/types.h"
 #include "tandem/plugin/site.h"
 
 int main() {
-  const auto [there, back] = tandem::makeSimulatedLinks({});
-  std::printf("%s, %zu-byte btScalar\n", there && back ? "two links" : "no link",
-              tandem::bulletAbiOfThisCode().scalar_bytes);
+  const tandem::SiteSettings settings;
+  std::printf("%zu-byte btScalar, %.0f ticks a second\n",
+              tandem::bulletAbiOfThisCode().scalar_bytes, settings.haptic_rate);
 }
