@@ -8,7 +8,9 @@ set -euo pipefail
 
 build=$1 work=$2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-packages=(tandem-tools libtandem-dev libtandem0.1)
+soversion=$(sed -n 's/^project(tandem VERSION \([0-9]*\.[0-9]*\)\..*/\1/p' "$here/../../CMakeLists.txt")
+library=libtandem$soversion
+packages=(tandem-tools libtandem-dev "$library")
 
 skip() { echo "skipped: $*"; exit 77; }
 fail() { echo "debian.sh: $*" >&2; exit 1; }
@@ -37,13 +39,13 @@ depends() {
   dpkg-query -W -f='${Depends}' "$1" | tr ',' '\n' | sed 's/^ *//; s/ .*//' | grep -qxF "$2" ||
     fail "$1 does not depend on $2: $(dpkg-query -W -f='${Depends}' "$1")"
 }
-for library in libbullet3.24 libsodium23 libftdi1-2 libhidapi-hidraw0 libc6 libstdc++6; do
-  depends libtandem0.1 "$library"
+for needed in libbullet3.24 libsodium23 libftdi1-2 libhidapi-hidraw0 libc6 libstdc++6; do
+  depends "$library" "$needed"
 done
-depends libtandem-dev libtandem0.1
+depends libtandem-dev "$library"
 depends libtandem-dev libbullet-dev
 depends libtandem-dev libeigen3-dev
-depends tandem-tools libtandem0.1
+depends tandem-tools "$library"
 
 # Nothing is said of where: all is in the system's own folders.
 cmake -G Ninja -S "$here/consumer" -B "$work/consumer" -DCMAKE_CXX_COMPILER=g++ \
