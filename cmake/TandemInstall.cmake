@@ -22,6 +22,12 @@ function(tandem_install_program name)
   install(TARGETS ${name} RUNTIME COMPONENT tools)
 endfunction()
 
+# tandem_install_adaptor(NAME): a library that is loaded by its path, out of the linker's way.
+function(tandem_install_adaptor name)
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
+  install(TARGETS ${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/tandem" COMPONENT tools)
+endfunction()
+
 # tandem_install_package(): what finds the libraries, once all of them are known.
 function(tandem_install_package)
   include(CMakePackageConfigHelpers)

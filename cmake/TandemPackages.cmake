@@ -45,7 +45,9 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox, fonts-dejavu-core")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "networked haptic cooperation in Bullet worlds - program
  The program tandem, which runs experiments with two users, live or in virtual
  time, plots and measures them; for Bullet in single precision it is
- tandem-float. With it the rule that gives the user at the machine access to
+ tandem-float. With it a plugin for PyBullet, a library that brings Tandem
+ into unmodified programs by LD_PRELOAD, and the rule that gives the user at
+ the machine access to
  haptic devices on USB and HID.")
 
 # The libraries are not installed while dpkg-shlibdeps looks at who needs them.

@@ -21,7 +21,8 @@ case "$preset" in
   tsan)  groups+=(ci); targets=(tandem_thread_tests tandem_device_tests tandem_hid_tests)
          selection=(--tests-regex '^tandem_(thread|device|hid)_tests\.') ;;
   fuzz)  groups+=(ci); targets=(tandem_fuzzers); selection=(--label-regex '^fuzz$') ;;
-  install) groups+=(ci package); targets=(tandem tandem-float) ;;
+  install) groups+=(ci package); targets=(tandem tandem-float tandem_pybullet tandem_preload
+             tandem_preload_float tandem_preload_float64) ;;
   -h|--help) sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
   *)     echo "test.sh: $preset: no such preset; allowed: release, dev, clang, tsan, fuzz, install" >&2; exit 2 ;;
 esac
