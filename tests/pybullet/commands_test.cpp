@@ -137,6 +137,19 @@ TEST(Order, IsSaidWhereItIsWrong) {
   EXPECT_NE(host.refusal("share body=0").find("attached already"), std::string::npos);
 }
 
+// PyBullet loads plugins for all to see: what shows could take the place of another's function.
+TEST(Exports, AreTheEntryPointsOnly) {
+  (void)PluginEntries::get();
+  void* const module = dlopen(TANDEM_PYBULLET_PLUGIN, RTLD_NOW | RTLD_NOLOAD);
+  ASSERT_NE(module, nullptr);
+  EXPECT_NE(dlsym(module, "initPlugin_tandem"), nullptr);
+  for (const char* name : {"tandem_world_create", "tandem_version", "processNotifications_tandem",
+                           "getCollisionInterface_tandem", "_ZN6tandem4SiteD1Ev"}) {
+    EXPECT_EQ(dlsym(module, name), nullptr) << name;
+  }
+  dlclose(module);
+}
+
 TEST(Answers, AreText) {
   PluginHost host;
   EXPECT_FALSE(host.ask("version").bytes.empty());
