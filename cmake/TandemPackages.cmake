@@ -47,8 +47,7 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION "networked haptic cooperation in Bullet world
  time, plots and measures them; for Bullet in single precision it is
  tandem-float. With it a plugin for PyBullet, a library that brings Tandem
  into unmodified programs by LD_PRELOAD, and the rule that gives the user at
- the machine access to
- haptic devices on USB and HID.")
+ the machine access to haptic devices on USB and HID.")
 
 # The libraries are not installed while dpkg-shlibdeps looks at who needs them.
 foreach(folder coordination falcon bullet_bridge plugin)

@@ -88,6 +88,11 @@ std::vector<Case> bodyCases() {
          const double force[3] = {1.0, 0.0, 0.0}, torque[3] = {kNan, 0.0, 0.0};
          return tandem_world_apply_force(scene.world, scene.cube, force, torque);
        }},
+      {"ForceOnStatic", TANDEM_INVALID_ARGUMENT, "is static: no force moves it",
+       [](Scene& scene) {
+         const double force[3] = {1.0, 0.0, 0.0};
+         return tandem_world_apply_force(scene.world, scene.wall, force, nullptr);
+       }},
       {"TakenOut", TANDEM_CANNOT, "was taken out of the world by the host",
        [](Scene& scene) {
          btRigidBody& rigid = scene.rig.addCube(1.0);

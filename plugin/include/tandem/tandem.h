@@ -145,7 +145,8 @@ TandemResult tandem_world_remove_body(TandemWorld* world, TandemBody body);
 TandemResult tandem_world_get_states(const TandemWorld* world, size_t count,
                                      const TandemBody* bodies, TandemState* states);
 
-/* Sets the state of a body; a shared one feels it as a change by the host. [host] */
+/* Sets the state of a body; a shared one feels it as a change by the host. A static one takes the
+   pose only. [host] */
 TandemResult tandem_world_set_state(TandemWorld* world, TandemBody body, const TandemState* state);
 
 /* A force for the next step [N], at the centre of mass, and a torque [N m]; null: none. [host] */

@@ -154,6 +154,9 @@ TandemResult tandem_world_apply_force(TandemWorld* world, TandemBody body, const
   return guarded([&] {
     const World& in = open(world);
     const WorldBody& pushed = in.body(body);
+    if (!isDynamic(*pushed.rigid))
+      throw std::invalid_argument("body " + std::to_string(body) +
+                                  " is static: no force moves it; use tandem_world_set_state()");
     const Vec3 f_W = readVec3OrZero("force", force), t_W = readVec3OrZero("torque", torque);
     applyForce(*pushed.rigid, f_W, t_W);
   });

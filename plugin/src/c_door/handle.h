@@ -34,10 +34,11 @@ struct Handle {
 /// Throws std::invalid_argument unless it is a live handle of this kind.
 template <typename Thing>
 [[nodiscard]] Thing& open(const Handle<Thing>* handle) {
-  const std::string name = Thing::kName;
-  if (!handle) throw std::invalid_argument("the " + name + " is null; create one first");
+  if (!handle)
+    throw std::invalid_argument(std::string("the ") + Thing::kName + " is null; create one first");
   if (handle->head.kind != Thing::kKind)
-    throw std::invalid_argument("the " + name + " is none, or has been destroyed already");
+    throw std::invalid_argument(std::string("the ") + Thing::kName +
+                                " is none, or has been destroyed already");
   return *handle->thing;
 }
 
