@@ -61,6 +61,7 @@ struct WorldSlots {
   Slot pre;
   Slot post;
   HostStepListener* begun = nullptr;  // who was told that the present step begins
+  bool is_left = false;               // nobody listens, but links of ours may still stand
 };
 
 /// All attached worlds of the process. The table is guarded; what it holds belongs to the world's
@@ -153,25 +154,22 @@ void tidyUp(btDynamicsWorld& world, WorldSlots& slots) {
   if (slots.pre.isUnused() && slots.post.isUnused()) attachedWorlds().forget(&world);
 }
 
-void tidyUpIfLeft(btDynamicsWorld& world, WorldSlots& slots) {
-  const auto is_left = [](const Slot& slot) {
-    return slot.links.empty() || slot.links.back().listener == nullptr;
-  };
-  if (is_left(slots.pre) || is_left(slots.post)) tidyUp(world, slots);
-}
-
 void preTick(btDynamicsWorld* world, btScalar dt) {
   WorldSlots* slots = attachedWorlds().find(world);
   if (slots == nullptr) return;
   {
     const Call call(slots->pre);
-    if (call.link().below != nullptr) call.link().below(world, dt);
-    if (HostStepListener* listener = call.link().listener) {
-      slots->begun = listener;
-      listener->beforeHostStep(dt);
+    Link link = call.link();
+    if (link.below != nullptr) {
+      link.below(world, dt);
+      link = call.link();
+    }
+    if (link.listener != nullptr) {
+      slots->begun = link.listener;
+      link.listener->beforeHostStep(dt);
     }
   }
-  tidyUpIfLeft(*world, *slots);
+  if (slots->is_left) tidyUp(*world, *slots);
 }
 
 void postTick(btDynamicsWorld* world, btScalar dt) {
@@ -179,14 +177,14 @@ void postTick(btDynamicsWorld* world, btScalar dt) {
   if (slots == nullptr) return;
   {
     const Call call(slots->post);
-    HostStepListener* listener = call.link().listener;
-    if (listener != nullptr && listener == slots->begun) {
+    const Link link = call.link();
+    if (link.listener != nullptr && link.listener == slots->begun) {
       slots->begun = nullptr;
-      listener->afterHostStep(dt);
+      link.listener->afterHostStep(dt);
     }
-    if (call.link().below != nullptr) call.link().below(world, dt);
+    if (link.below != nullptr) link.below(world, dt);
   }
-  tidyUpIfLeft(*world, *slots);
+  if (slots->is_left) tidyUp(*world, *slots);
 }
 
 /// Puts a link on top of the slot, or wakes our silent link if that is what stands there.
@@ -228,6 +226,7 @@ HostWorld::HostWorld(btDiscreteDynamicsWorld& world, HostStepListener& listener,
         "that one first");
   }
   impl_ = std::make_unique<Impl>(world, listener);
+  slots.is_left = false;
   attach(world, slots.pre, TickSlots::preTick(world), preTick, true, listener);
   attach(world, slots.post, TickSlots::postTick(world), postTick, false, listener);
 }
@@ -239,6 +238,7 @@ HostWorld::~HostWorld() {
   for (Slot* slot : {&slots->pre, &slots->post})
     for (Link& link : slot->links) link.listener = nullptr;
   slots->begun = nullptr;
+  slots->is_left = true;
   tidyUp(world_, *slots);
 }
 

@@ -19,12 +19,13 @@ NativeModel::NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& set
     : world_(world), settings_(settings), hand_(world, settings.hip_radius, hand_W) {}
 
 NativeModel::~NativeModel() {
-  for (btRigidBody* body : damped_) body->setDamping(0, 0);
+  for (const HapticBody* object : objects_)
+    if (object->isInWorld()) object->body().setDamping(0, 0);
 }
 
 void NativeModel::addObject(const HapticBody& object, double damping) {
   setNativeDamping(object.body(), damping);
-  damped_.push_back(&object.body());
+  objects_.push_back(&object);
   guide(object.body());
   soften(hand_.rigid());
 }

@@ -27,7 +27,8 @@ class NativeModel {
   NativeModel(const NativeModel&) = delete;
   NativeModel& operator=(const NativeModel&) = delete;
 
-  /// Set-up, once for each thing; may throw std::invalid_argument.
+  /// Set-up, once for each thing; may throw std::invalid_argument. Objects must outlive this; their
+  /// rigid bodies too unless they have left the world, but with joints and guides.
   void addObject(const HapticBody& object, double damping);
   void addProxy(BodyIndex body, const SphereBody& proxy);
   /// A proxy that is what it was told: a kinematic sphere that stands at the state of `body`.
@@ -74,7 +75,7 @@ class NativeModel {
   std::vector<Coupled> couplers_;
   std::vector<std::unique_ptr<NativeGuide>> guides_;
   Vec3 hand_force_W_ = Vec3::Zero();
-  std::vector<btRigidBody*> damped_;
+  std::vector<const HapticBody*> objects_;
 };
 
 }  // namespace tandem

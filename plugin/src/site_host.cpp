@@ -65,7 +65,7 @@ RigidState computeStart(RigidState end, double dt) noexcept {
 
 void Site::Impl::beforeHostStep(double dt) noexcept {
   ++counters.host_steps;
-  if (skipBeforeHostStep(dt)) return;
+  if (isWaiting() || skipBeforeHostStep(dt)) return;
   dropMissingNeighbours();
   if (!allBodiesPresent()) {
     // The hand still gets its fading force.
@@ -106,6 +106,7 @@ void Site::Impl::beforeHostStep(double dt) noexcept {
 }
 
 void Site::Impl::afterHostStep(double dt) noexcept {
+  if (isWaiting()) return waitOn(dt);
   if (skipAfterHostStep(dt)) return;
   dropMissingNeighbours();
   if (!allBodiesPresent()) return desk.run([&] { host_time += dt; });

@@ -220,6 +220,8 @@ struct Site::Impl final : HostStepListener {
   void parkIfItStood(SiteBody& body) noexcept;
   void unpark(SiteBody& body) noexcept;
   void noteWoken(SiteBody& body) noexcept;
+  [[nodiscard]] bool isWaiting() const noexcept;
+  void waitOn(double dt);
   bool skipBeforeHostStep(double dt) noexcept;
   bool skipAfterHostStep(double dt) noexcept;
   void fallQuiet();

@@ -18,6 +18,9 @@ namespace {
 /// A body that has stood for so many host steps may sleep.
 constexpr int kStepsToPark = 4;
 
+/// While nobody ticks.
+constexpr std::uint64_t kStepsBetweenLooks = 64;
+
 /// What stands farther away than this is not what bodies at rest stand on [m].
 constexpr double kWatchMargin = 0.04;
 
@@ -48,9 +51,25 @@ void Site::Impl::noteWoken(SiteBody& body) noexcept {
   ++counters.bodies_woken;
 }
 
+/// With nothing registered and nobody who ticks yet.
+bool Site::Impl::isWaiting() const noexcept {
+  // With a haptic thread the count of ticks is not to be read here.
+  return !desk.isOpen() && ticks == 0 && isBare() && !native &&
+         settings.tick_source == TickSource::kCaller;
+}
+
+/// What stands may be moved before the first tick: it is looked at now and then.
+void Site::Impl::waitOn(double dt) {
+  host_time += dt;
+  host_step = dt;
+  announceNextEnd(dt);
+  if (counters.host_steps % kStepsBetweenLooks == 0) updateSurroundings(dt);
+}
+
 /// Pre-tick of a host step in which nothing is to be done; false if something is.
 bool Site::Impl::skipBeforeHostStep(double dt) noexcept {
-  quiet = may_skip && dt == host_step && standing_watch.isGravityUnchanged() &&
+  quiet = may_skip && dt == host_step &&
+          (quiet_bodies.empty() || standing_watch.isGravityUnchanged()) &&
           std::all_of(quiet_bodies.begin(), quiet_bodies.end(), [](const HapticBody* body) {
             return body->isInWorld() && body->isUndisturbed();
           });

@@ -122,6 +122,25 @@ TEST(Misuse, ABodyTakenOutAndDeletedStopsTheSite) {
                    "taken out of its Bullet world"));
 }
 
+TEST(Misuse, SoItDoesWithANativeModel) {
+  for (const ContactModel model : {ContactModel::kNativeRigid, ContactModel::kNativeSoft}) {
+    AnyHost host(WorldKind::kDiscrete);
+    FakeDevice device(Vec3(-0.029, 0.0, 0.0));
+    FakeLink link;
+    SiteSettings settings;
+    settings.contact_model = model;
+    Site site(settings, *host.world, device);
+    site.share(host.addCube(0.2), 0.1);
+    site.connect(kRemote, link, kRemoteStart);
+    host.step(kStep);
+    host.world->removeRigidBody(host.bodies.back().get());
+    host.bodies.clear();
+    for (int i = 0; i < 10; ++i) host.step(kStep);
+    EXPECT_EQ(site.status(), kBodyMissing);
+    EXPECT_EQ(site.force(), Vec3::Zero());
+  }
+}
+
 TEST(Misuse, ABodyPutBackIsRestoredWhenTheSiteEnds) {
   Scene scene;
   scene.run(4);

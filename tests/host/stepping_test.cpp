@@ -43,7 +43,8 @@ Stepping makeGrouped(const char* name, int n) {
             const btScalar fixed = btScalar(1) / 240;
             // The small excess keeps rounding from losing a sub-step.
             const btScalar excess = btScalar(1e-6);
-            const int done = world.stepSimulation(n * fixed + excess, n, fixed);
+            const int done =
+                world.stepSimulation(static_cast<btScalar>(n) * fixed + excess, n, fixed);
             return done * static_cast<double>(fixed);
           }};
 }
