@@ -11,9 +11,9 @@ namespace {
 
 using namespace test;
 
-// What rounding leaves of 10 mm. Float: half a bit of 10 mm, and 6e-8 of a step of 17 ms, which
-// Bullet rounds, too, at 1 m/s.
-const double kExact = byDoorWidth(1e-12, 0.01 * 0x1p-24 + 1e-9);
+// What rounding leaves of 10 mm, some 1e-12. Float: half a bit of 10 mm, and 6e-8 of a step of 17
+// ms, which Bullet rounds, too, at 1 m/s.
+const double kExact = byDoorWidth(5e-12, 0.01 * 0x1p-24 + 1e-9);
 constexpr double kDuration = 0.5;
 
 class LoneCoupler : public ::testing::TestWithParam<std::tuple<double, int>> {
