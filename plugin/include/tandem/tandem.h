@@ -19,13 +19,20 @@
    meshes. A null handle, one of another kind and one that was destroyed lately are refused.
 
    Threads, said at each function:
-     [any]    from any thread at any time.
-     [setup]  one thread at a time for all handles that are tied together by a site; not while a
-   loop runs. [host]   the thread that steps the world, which may be another one than that of
-   [setup] but not at the same time. With a loop, too. [tick]   the thread that ticks the site:
-   [host] unless tick_source is TANDEM_TICK_CALLER. [carry]  the thread that carries packets:
-   [tick], or with a loop any one other. Sites of different worlds are independent, each may have
-   its own threads. */
+
+   - [any]: from any thread at any time.
+
+   - [setup]: one thread at a time for all handles that are tied together by a site; not while a
+   loop runs.
+
+   - [host]: the thread that steps the world, which may be another one than that of [setup] but not
+   at the same time. With a loop, too.
+
+   - [tick]: the thread that ticks the site: [host], unless tick_source is TANDEM_TICK_CALLER.
+
+   - [carry]: the thread that carries packets: [tick], or with a loop any one other.
+
+   Sites of different worlds are independent, each may have its own threads. */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -394,9 +401,8 @@ TandemSiteSettings tandem_default_site_settings(void);
 TandemResult tandem_site_create(const TandemSiteSettings* settings, TandemWorld* world,
                                 TandemDevice* device, TandemSite** site);
 
-/* Gives the host everything back as it was; ends a loop. Its proxies are no bodies any more.
- * [setup]
- */
+/* Gives the host everything back as it was, and ends a loop. Its proxies are bodies no more.
+ * [setup] */
 TandemResult tandem_site_destroy(TandemSite* site);
 
 /* Shares a dynamic box, sphere, capsule, cylinder or hull: its mass and inertia become m/N of what
