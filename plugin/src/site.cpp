@@ -18,6 +18,7 @@ void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
 std::uint32_t Site::tick(double now) noexcept { return impl_->tick(now); }
 void Site::betweenTicks(const std::function<void()>& work) { impl_->desk.run(work); }
 std::uint32_t Site::status() const noexcept { return impl_->status_ever | impl_->status_of_host; }
+bool Site::isWorldGone() const noexcept { return (impl_->status_of_host & kWorldGone) != 0; }
 const SiteCounters& Site::counters() const noexcept { return impl_->counters; }
 const IslandCounters& Site::islandCounters() const noexcept { return impl_->island.counters(); }
 std::uint64_t Site::tickCount() const noexcept { return impl_->ticks; }

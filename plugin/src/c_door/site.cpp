@@ -15,15 +15,19 @@ SiteEnd::SiteEnd(const SiteSettings& settings, TandemWorld& world, TandemDevice&
       world_use_(world.head),
       device_use_(device.head),
       ticks_itself_(settings.tick_source == TickSource::kHostStep),
-      site_(settings, world_.bullet(), device.thing->haptic, world_.abi()) {}
+      site_(settings, world_.bullet(), device.thing->haptic, world_.abi()) {
+  world_.watch(&site_);
+}
 
 SiteEnd::~SiteEnd() {
   stopLoop();
+  world_.watch(nullptr);
   for (const TandemBody body : shared_) world_.release(body);
   for (const TandemBody proxy : proxies_) world_.forget(proxy);
 }
 
 void SiteEnd::checkSetUp(const char* what) const {
+  (void)world_.bullet();
   if (loop_)
     throw Error(std::string(what) +
                 " is set-up; stop the loop first, and start another one afterwards");
@@ -85,6 +89,7 @@ std::uint32_t SiteEnd::tick(double now) {
 }
 
 void SiteEnd::startLoop(int priority) {
+  (void)world_.bullet();
   if (loop_) throw Error("the site has a loop already; stop that first");
   if (has_simulated_link_)
     throw Error(

@@ -14,6 +14,10 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+namespace tandem {
+class Site;
+}
+
 namespace tandem::c_door {
 
 struct WorldBody {
@@ -34,7 +38,8 @@ class World {
   World();
   World(btDiscreteDynamicsWorld& host, BulletAbi abi);
 
-  [[nodiscard]] btDiscreteDynamicsWorld& bullet() const noexcept { return *bullet_; }
+  /// Throws TANDEM_WORLD_GONE once the host has destroyed it, as far as a site has noticed.
+  [[nodiscard]] btDiscreteDynamicsWorld& bullet() const;
   [[nodiscard]] BulletAbi abi() const noexcept { return abi_; }
   /// Throws std::invalid_argument for a host's world: `what` is for those of Tandem's.
   [[nodiscard]] OwnWorld& own(const char* what) const;
@@ -51,6 +56,9 @@ class World {
   /// that the host has taken out of its world.
   [[nodiscard]] WorldBody& body(TandemBody body) const;
 
+  /// The site that is on it, which notices its end; null: none.
+  void watch(const Site* site) noexcept;
+
   /// The latest step of guests.
   struct GuestStep {
     std::uint64_t number = 0;
@@ -64,6 +72,8 @@ class World {
   std::unique_ptr<OwnWorld> own_;  ///< null: the host's
   btDiscreteDynamicsWorld* bullet_;
   BulletAbi abi_;
+  const Site* site_ = nullptr;
+  bool was_gone_ = false;                           ///< when the site before ended
   std::vector<std::unique_ptr<WorldBody>> bodies_;  ///< by number - 1; null: given up
 };
 

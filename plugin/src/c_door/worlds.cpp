@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tandem/bullet_bridge/world_access.h"
+#include "tandem/plugin/site.h"
 
 #include "c_door/values.h"
 #include "c_door/world.h"
@@ -15,6 +16,19 @@ World::World()
 
 World::World(btDiscreteDynamicsWorld& host, BulletAbi abi) : bullet_(&host), abi_(abi) {
   checkBulletAbi(abi);
+}
+
+btDiscreteDynamicsWorld& World::bullet() const {
+  if (was_gone_ || (site_ && site_->isWorldGone()))
+    throw Refusal(TANDEM_WORLD_GONE,
+                  "the host has destroyed this world; destroy the site and this handle, and attach "
+                  "to another world");
+  return *bullet_;
+}
+
+void World::watch(const Site* site) noexcept {
+  was_gone_ = was_gone_ || (site_ && site_->isWorldGone());
+  site_ = site;
 }
 
 OwnWorld& World::own(const char* what) const {
@@ -44,7 +58,7 @@ WorldBody& World::body(TandemBody body) const {
     throw std::invalid_argument("body " + std::to_string(body) +
                                 " is none of this world; add it, or find it");
   WorldBody& found = *bodies_[body - 1];
-  if (!findRigidBody(*bullet_, found.rigid, found.place))
+  if (!findRigidBody(bullet(), found.rigid, found.place))
     throw Error("body " + std::to_string(body) +
                 " was taken out of the world by the host; put it back, or forget it");
   return found;

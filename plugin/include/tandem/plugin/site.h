@@ -122,6 +122,8 @@ class Site {
 
   /// All status bits since the start.
   [[nodiscard]] std::uint32_t status() const noexcept;
+  /// True once the host has destroyed the world, as kWorldGone says. From any thread.
+  [[nodiscard]] bool isWorldGone() const noexcept;
   [[nodiscard]] const SiteCounters& counters() const noexcept;
   /// What the island did and what it could skip.
   [[nodiscard]] const IslandCounters& islandCounters() const noexcept;
