@@ -279,6 +279,10 @@ struct Site::Impl final : HostStepListener {
   /// The island stands still for good.
   [[nodiscard]] bool hasStopped() const noexcept { return (status_now & kForGood) != 0; }
   [[nodiscard]] double period() const noexcept { return 1.0 / settings.haptic_rate; }
+  /// The latest one, or a usual one until there is one [s].
+  [[nodiscard]] double expectedHostStep() const noexcept {
+    return host_step > 0.0 ? host_step : 1.0 / 60.0;
+  }
   [[nodiscard]] bool isHandoff() const noexcept {
     return !native && settings.injection == Injection::kHandoff;
   }

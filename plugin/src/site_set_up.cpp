@@ -10,9 +10,6 @@
 namespace tandem {
 namespace {
 
-/// Until the host's step is known [s].
-constexpr double kUsualHostStep = 1.0 / 60.0;
-
 SiteSettings checked(const SiteSettings& settings) {
   checkSiteSettings(settings);
   return settings;
@@ -93,8 +90,7 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
     if (findProxyBody(remote) == &rigid)
       throw Error("the body stands for a remote user; share a body of the host's own");
   const Shape shape = getShareableShape(rigid);
-  demoteAll();
-  neighbour_search.exclude(rigid);
+  demoteAll();  // it may be among them
 
   SharedObject object;
   object.id = static_cast<ObjectId>(objects.size());
@@ -117,6 +113,7 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
                        settings.contact.stiffness + settings.coordination.stiffness,
                        settings.contact.damping + settings.coordination.damping, body.mass);
   object.body.index = island.addBody(body);
+  neighbour_search.exclude(rigid);
   if (isHandoff() && !settings.guide) obstacles.addBody(object.body.index, rigid);
 
   if (native)
@@ -228,7 +225,7 @@ void Site::Impl::finishSetUp() {
     setWorldWrench(body.index, isHandoff() ? body.f_gravity_W : Vec3::Zero(), Vec3::Zero());
   });
   if (native) return;
-  const double step = host_step > 0.0 ? host_step : kUsualHostStep;
+  const double step = expectedHostStep();
   makeRoomFor(step);
   mirrorIsland();
   updateSurroundings(step);

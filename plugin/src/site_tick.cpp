@@ -38,8 +38,10 @@ bool isSame(const RigidState& a, const RigidState& b) noexcept {
 std::uint32_t Site::Impl::tick(double now) noexcept {
   if (ticks == 0) {
     start_time = island_time = host_force_settled = now;
-    handoff_due += now;
-    host_time += now;
+    // Steps that the host made before are not of this time, but for the one that may be under way.
+    const double shift = now - std::max(0.0, host_time - host_step);
+    handoff_due += shift;
+    host_time += shift;
   }
   status_now = (status_ever | status_of_host) & kForGood;
   sample = device.read(now);
@@ -62,6 +64,7 @@ std::uint32_t Site::Impl::tick(double now) noexcept {
 
 /// From now on a thread of its own ticks.
 void Site::Impl::beginLive() {
+  updateSurroundings(expectedHostStep());
   forEachBody([](SiteBody& body) { body.seen = body.bullet->state(); });
   // A live host's steps come as they like: room for all that it may ask for, made now.
   const double moments = (kLongestHorizon + settings.host_stall) * kFastestHost;

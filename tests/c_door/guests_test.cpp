@@ -153,6 +153,16 @@ TEST(Guest, DoesNotTakeRoundingForTheHostsDoing) {
   EXPECT_NEAR(guest.now.position[1], 242 * kStep * speed, byDoorWidth(1e-9, 1e-5));
 }
 
+TEST(Guest, IsMovedAndSteppedByItsOwnEngineOnly) {
+  Guest guest;
+  guest.step();
+  EXPECT_EQ(tandem_world_set_state(guest.world, guest.cube, &guest.now), TANDEM_INVALID_ARGUMENT);
+  TandemState given{};
+  ok(tandem_world_begin_step(guest.world, kStep, nullptr, 1, &guest.cube, &guest.now, &given));
+  EXPECT_EQ(tandem_world_step(guest.world, kStep, 0, 0.0), TANDEM_INVALID_ARGUMENT);
+  ok(tandem_world_end_step(guest.world, 1, &guest.cube, &given, &guest.now));
+}
+
 // The hand presses a cube that is a guest: the engine's body is where the island has it.
 TEST(Guest, IsPushedByTheHand) {
   FreeDoorCube pushed(makeWorld());

@@ -102,6 +102,17 @@ TEST(Misuse, BodiesThatCannotBeSharedAreRefusedWithTheReason) {
   EXPECT_EQ(scene.before, test::readSettings(scene.cube));
 }
 
+TEST(Misuse, ABodyThatWasRefusedIsANeighbourLikeAnyOther) {
+  Scene scene;
+  btRigidBody& box = scene.host.addCube(0.1, scene.site->object(0).p_W + Vec3(0.0405, 0.0, 0.0));
+  scene.host.world->removeRigidBody(&box);
+  EXPECT_TRUE(says(refusalOf([&] { scene.site->share(box); }), "not in this Bullet world"));
+  const int before = scene.site->neighbourCount();
+  scene.host.world->addRigidBody(&box);
+  scene.run(1);
+  EXPECT_EQ(scene.site->neighbourCount(), before + 1);
+}
+
 TEST(Misuse, ABodyOfAnotherWorldIsRefused) {
   Scene one, two;
   EXPECT_TRUE(says(refusalOf([&] { two.site->share(one.cube); }), "not in this Bullet world"));

@@ -122,5 +122,41 @@ INSTANTIATE_TEST_SUITE_P(Ways, HostStepping,
                                   std::get<1>(way.param).name;
                          });
 
+/// How far 0.1 N push a shared body in a second, after so many steps that nobody ticked in [m].
+double computePush(int steps_before, bool shares_first, double first_tick) {
+  AnyHost host(WorldKind::kDiscrete, Vec3::Zero());
+  btRigidBody& cube = host.addCube(0.2);
+  FakeDevice device(Vec3(0.0, 0.0, 5.0));
+  SiteSettings settings;
+  settings.peers = 1;
+  settings.tick_source = TickSource::kCaller;
+  Site site(settings, *host.world, device);
+  const auto wait = [&] {
+    for (int i = 0; i < steps_before; ++i) host.step(1.0 / 60.0);
+  };
+  if (!shares_first) wait();
+  site.share(cube);
+  if (shares_first) wait();
+  int ticks = 0;
+  for (int step = 1; step <= 60; ++step) {
+    while (ticks * 1e-3 < step / 60.0) site.tick(first_tick + 1e-3 * ticks++);
+    cube.applyCentralForce(btVector3(btScalar(0.1), 0, 0));
+    host.step(1.0 / 60.0);
+  }
+  return site.object(0).p_W.x();
+}
+
+TEST(HostClock, StepsBeforeTheFirstTickAreNotOfItsTime) {
+  const double push = computePush(0, false, 0.0);
+  ASSERT_NEAR(push, 0.25, 0.01);  // f t^2 / (2 m)
+  for (const bool shares_first : {false, true}) {
+    for (const double first_tick : {0.0, 10.0}) {
+      // A step that was made just before the clock began counts as the first.
+      EXPECT_NEAR(computePush(600, shares_first, first_tick), push, 0.01)
+          << shares_first << ' ' << first_tick;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tandem

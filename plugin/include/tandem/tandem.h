@@ -23,14 +23,15 @@
    - [any]: from any thread at any time.
 
    - [setup]: one thread at a time for all handles that are tied together by a site; not while a
-   loop runs.
+   loop runs, but tandem_site_stop_loop() and tandem_site_warnings(), which are for then.
 
    - [host]: the thread that steps the world, which may be another one than that of [setup] but not
    at the same time. With a loop, too.
 
    - [tick]: the thread that ticks the site: [host], unless tick_source is TANDEM_TICK_CALLER.
 
-   - [carry]: the thread that carries packets: [tick], or with a loop any one other.
+   - [carry]: the thread that carries packets: [tick], or with a loop any one other, from its start
+   to its end.
 
    Sites of different worlds are independent, each may have its own threads. */
 
@@ -90,7 +91,8 @@ typedef struct TandemGains {
 
 typedef struct TandemWorld TandemWorld;
 
-/* A body of a world; never given twice. */
+/* A body of a world. Of a world of Tandem's never given twice; in a host's world it goes by the
+   body's address. */
 typedef uint32_t TandemBody;
 #define TANDEM_NO_BODY 0u
 
@@ -153,7 +155,7 @@ TandemResult tandem_world_get_states(const TandemWorld* world, size_t count,
                                      const TandemBody* bodies, TandemState* states);
 
 /* Sets the state of a body; a shared one feels it as a change by the host. A static one takes the
-   pose only. [host] */
+   pose only; a guest is moved by its own engine. [host] */
 TandemResult tandem_world_set_state(TandemWorld* world, TandemBody body, const TandemState* state);
 
 /* A force for the next step [N], at the centre of mass, and a torque [N m]; null: none. [host] */

@@ -145,6 +145,10 @@ TandemResult tandem_world_set_state(TandemWorld* world, TandemBody body, const T
   return guarded([&] {
     const World& in = open(world);
     const WorldBody& moved = in.body(body);
+    if (moved.guest)
+      throw std::invalid_argument(
+          "body " + std::to_string(body) +
+          " is a guest: move it in the host's engine, and tell by tandem_world_begin_step()");
     putBody(in.bullet(), *moved.rigid, fromC("state", checkPointer(state, "state")));
   });
 }

@@ -104,6 +104,10 @@ TandemResult tandem_world_step(TandemWorld* world, double dt, int max_substeps, 
   return guarded([&] {
     const World& in = open(world);
     (void)in.own("tandem_world_step()");
+    if (in.guests.is_open)
+      throw std::invalid_argument(
+          "a step of guests has begun, and is the world's step; call tandem_world_end_step() "
+          "first");
     requireNotNegative("dt", dt);
     if (max_substeps < 0)
       refuseValue("max_substeps", max_substeps, "0 or more; 0 for one step of dt");

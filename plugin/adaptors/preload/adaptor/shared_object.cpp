@@ -119,6 +119,7 @@ void SharedObject::afterStep(double dt, int max_sub_steps, double fixed_step,
               remote_ ? nameOf(site_->linkState(0)) : "none");
   try {
     report();
+    if (site_->status() & kBodyMissing) return letGo();
     if (sub_steps > 0) attachAgainIfUnseated();
   } catch (const std::exception& error) {
     giveUp(error.what());

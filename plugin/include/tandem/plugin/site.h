@@ -34,8 +34,9 @@ enum TickStatus : std::uint32_t {
                              ///< make it, or hand off
   kStateNotFinite =
       1u << 4,           ///< the island blew up: lower gains or inner_step; the force stays at zero
-  kWorldGone = 1u << 5,  ///< the host has destroyed its world before this site: the force fades and
-                         ///< stays at zero; destroy a site before its world
+  kWorldGone = 1u << 5,  ///< the host has destroyed its world before this site: the force fades to
+                         ///< zero, if somebody else than its steps ticks; destroy a site before
+                         ///< its world
 };
 
 /// Counts since the start.
