@@ -100,24 +100,6 @@ TEST_P(Turning, KeepsItsAngularMomentum) {
 }
 INSTANTIATE_TEST_SUITE_P(Rates, Turning, ::testing::Values(60.0, 240.0, 1000.0));
 
-/// A cube on a floor, and a hand above that may press it. The hand's damping is above K T/2 = 1 N
-/// s/m, or the force that is held for each tick would let it bounce.
-struct Pressed {
-  PluginHost host;
-  int cube, floor;
-
-  Pressed() {
-    StubBody body = makeStubCube();
-    body.state.p_W.z() = 0.02;
-    cube = host.engine.add(body);
-    floor = host.engine.add(makeStubFloor());
-    host.engine.gravity = Vec3(0, 0, -9.81);
-    host.command("device kind=simulated start=0,0,0.05 damping=5");
-    host.command("site peers=1");
-    host.command("share body=" + std::to_string(cube));
-  }
-};
-
 TEST(Obstacle, CarriesAPress) {
   Pressed pressed;
   pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
@@ -156,74 +138,33 @@ TEST(Obstacle, MayBeOfSeveralPiecesOffItsCentre) {
   EXPECT_NEAR(pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(), 0.02, 2e-4);
 }
 
-TEST(RemovedBody, EndsTheSiteWithAMessage) {
-  SharedCube shared;
-  shared.host.step(2);
-  shared.host.engine.remove(shared.cube);
-  shared.host.step(2);
-  EXPECT_NE(shared.host.warnings().find("body 0 was removed"), std::string::npos);
-  EXPECT_EQ(shared.host.read()[kHasEnded], 1.0);
-  EXPECT_NE(shared.host.refusal("share body=0").find("close"), std::string::npos);
-  const int commands = shared.host.engine.commands;
-  shared.host.step(2);
-  EXPECT_EQ(shared.host.engine.commands, commands);
-  shared.host.command("close");
-}
-
-// Another body has the removed one's number, pose and velocity: it is neither moved nor changed.
-TEST(RemovedBody, IsNotMistakenForTheNextOfItsNumber) {
-  for (const bool at_once : {true, false}) {
-    SharedCube shared;
-    if (!at_once) shared.host.step(2);
-    StubBody other = makeStubCube();
-    other.mass = 3.0;
-    shared.host.engine.remove(shared.cube);
-    EXPECT_EQ(shared.host.engine.add(other), shared.cube);
-    shared.host.step(2);
-    EXPECT_EQ(shared.host.read()[kHasEnded], 1.0) << at_once;
-    shared.host.command("close");
-    EXPECT_EQ(shared.body().mass, 3.0);
-    EXPECT_EQ(shared.body().linear_damping, 0.04);
+// Guests of Tandem's world meet there, in whatever order they came, and nowhere else.
+TEST(NativeContact, IsStoppedBetweenAllThatTandemHas) {
+  for (const bool connects_first : {true, false}) {
+    PluginHost host;
+    StubEngine& engine = host.engine;
+    for (const StubBody& body : {makeStubCube(), makeStubCube(), makeStubFloor()}) engine.add(body);
+    const int sphere = engine.add(makeStubCube());
+    const int other = engine.add(makeStubCube());
+    host.command(kFarHand);
+    host.command("site");
+    host.command("link kind=manual");
+    const auto connect = [&] {
+      host.command("connect peer=2 link=0 start=0,0,1");
+      host.command("proxy remote=0 body=" + std::to_string(sphere));
+    };
+    if (connects_first) connect();
+    for (const char* command : {"share body=0", "obstacle body=2", "share body=1"}) {
+      host.command(command);
+    }
+    if (!connects_first) connect();
+    EXPECT_EQ(engine.without_contact.size(), 6u) << connects_first;  // all pairs of four
+    for (const auto& [a, b] : engine.without_contact) {
+      EXPECT_FALSE(a == other || b == other) << connects_first;
+    }
+    host.command("close");
+    EXPECT_TRUE(engine.without_contact.empty()) << connects_first;
   }
-}
-
-TEST(RemovedBody, ObstaclesAreMissedToo) {
-  Pressed pressed;
-  pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
-  pressed.host.engine.remove(pressed.floor);
-  pressed.host.step(4);
-  EXPECT_NE(pressed.host.warnings().find("body 1 was removed"), std::string::npos);
-}
-
-TEST(ResetSimulation, EndsTheSiteWithAMessage) {
-  SharedCube shared;
-  shared.host.engine.reset();
-  shared.host.step();
-  EXPECT_NE(shared.host.warnings().find("was removed"), std::string::npos);
-  shared.host.engine.add(makeStubCube());
-  shared.host.command("close");
-  EXPECT_EQ(shared.body().mass, 0.2);
-}
-
-TEST(ChangedBody, KeepsTheUsersDampingForLater) {
-  SharedCube shared;
-  shared.body().linear_damping = 0.2;
-  shared.body().state.v_W.x() = 0.1;
-  shared.host.step(2);
-  EXPECT_NE(shared.host.warnings().find("damping was set"), std::string::npos);
-  EXPECT_EQ(shared.host.read()[kHasEnded], 0.0);
-  EXPECT_LT(shared.body().linear_damping, 1e-29);
-  shared.host.command("close");
-  EXPECT_EQ(shared.body().linear_damping, 0.2);
-  EXPECT_EQ(shared.body().angular_damping, 0.04);
-}
-
-TEST(ChangedBody, KeepsItsShareOfTheMass) {
-  SharedCube shared;
-  shared.body().mass = 1.0;
-  shared.host.step(2);
-  EXPECT_NE(shared.host.warnings().find("mass was set"), std::string::npos);
-  EXPECT_DOUBLE_EQ(shared.body().mass, 0.1);
 }
 
 TEST(WrongTimeStep, IsNoticed) {

@@ -100,8 +100,8 @@ TEST(Arguments, IntsAreForDataOnly) {
   EXPECT_NE(host.ask("version", {1}).bytes.find("no intArgs"), std::string::npos);
   EXPECT_EQ(host.ask("data", {1, 2}).status, 2);
   EXPECT_EQ(host.ask("data", std::vector<int>(128)).status, 130);
-  for (int i = 0; i < 14; ++i) host.ask("data", std::vector<int>(128));
-  EXPECT_NE(host.ask("data", std::vector<int>(128)).bytes.find("more than 2048"),
+  for (int i = 0; i < 190; ++i) host.ask("data", std::vector<int>(128));
+  EXPECT_NE(host.ask("data", std::vector<int>(128)).bytes.find("4096 points: leave out points"),
             std::string::npos);
   EXPECT_EQ(host.ask("data").status, 0);  // a refusal throws the data away
 }
@@ -121,6 +121,36 @@ TEST(Arguments, AHullComesInPieces) {
   EXPECT_EQ(host.askDoubles("data", head).status, 30);
   const std::vector<double> tail(points.begin() + 15, points.end());
   EXPECT_EQ(host.askDoubles("share body=0 shape=hull", tail).status, 0);
+}
+
+// What was said for a mesh that failed is not there for the next one, nor after `close`.
+TEST(Mesh, CanBeTriedAgain) {
+  const std::string key = testing::TempDir() + "tandem_pybullet_again.key";
+  std::remove(key.c_str());
+  PluginHost host;
+  host.command("key path=\"" + key + "\"");
+  const auto sayPeer = [&host](const std::string& file) {
+    host.command("peer id=2 address=127.0.0.1:7999 key=\"" + file + "\"");
+    host.command("agree key=mass value=1");
+  };
+  sayPeer("/nonexistent.key");
+  EXPECT_NE(host.refusal("mesh self=1 bind=127.0.0.1:0").find("nonexistent"), std::string::npos);
+  sayPeer("/nonexistent.key");
+  host.command("close");
+  sayPeer(key);
+  host.command("mesh self=1 bind=127.0.0.1:0");
+  host.command("close");
+  std::remove(key.c_str());
+}
+
+TEST(Site, IsNotOpenWhenItWasRefused) {
+  PluginHost host;
+  host.engine.gravity.z() = std::nan("");
+  host.command(kFarHand);
+  EXPECT_NE(host.refusal("site").find("gravity"), std::string::npos);
+  EXPECT_NE(host.refusal("read").find("no site yet"), std::string::npos);
+  host.engine.gravity.z() = -9.81;
+  host.command("site");
 }
 
 TEST(Order, IsSaidWhereItIsWrong) {

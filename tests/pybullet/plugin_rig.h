@@ -46,4 +46,22 @@ struct SharedCube {
   StubBody& body() { return host.engine.bodies.at(cube); }
 };
 
+/// A cube on a floor, and a hand above that may press it. The hand's damping is above K T/2 = 1 N
+/// s/m, or the force that is held for each tick would let it bounce.
+struct Pressed {
+  PluginHost host;
+  int cube, floor;
+
+  Pressed() {
+    StubBody body = makeStubCube();
+    body.state.p_W.z() = 0.02;
+    cube = host.engine.add(body);
+    floor = host.engine.add(makeStubFloor());
+    host.engine.gravity = Vec3(0, 0, -9.81);
+    host.command("device kind=simulated start=0,0,0.05 damping=5");
+    host.command("site peers=1");
+    host.command("share body=" + std::to_string(cube));
+  }
+};
+
 }  // namespace tandem::test

@@ -6,8 +6,11 @@
 
 import itertools
 import math
+import os
 import sys
+import tempfile
 import unittest
+import warnings
 
 try:
     import pybullet as p
@@ -145,6 +148,26 @@ class Bodies(unittest.TestCase):
         local = [inertia[i] * sum(R[3 * j + i] * w[j] for j in range(3)) for i in range(3)]
         return [sum(R[3 * i + j] * local[j] for j in range(3)) for i in range(3)]
 
+    def test_meet_once(self):
+        """Shared cubes that stand on each other: contact is Tandem's alone, until the end."""
+        with Client(gravity=-9.81) as client:
+            low, high = client.add_cube((0, 0, 0.0205)), client.add_cube((0.003, 0, 0.0615))
+            client.add_floor()
+            for _ in range(60):  # so that they touch in PyBullet before
+                p.stepSimulation(physicsClientId=client.id)
+            self.assertGreater(len(p.getContactPoints(low, high, physicsClientId=client.id)), 0)
+            with tandem.Site(far_hand(), peers=1, client=client.id) as site:
+                site.share(low)
+                site.share(high)
+                site.obstacles()
+                for _ in range(120):
+                    site.step()
+                    self.assertEqual(p.getContactPoints(physicsClientId=client.id), ())
+                self.assertAlmostEqual(client.position(high)[2], 0.06, delta=1e-3)
+            for _ in range(2):
+                p.stepSimulation(physicsClientId=client.id)
+            self.assertGreater(len(p.getContactPoints(low, high, physicsClientId=client.id)), 0)
+
     def test_push_what_is_pybullets(self):
         """A shared cube runs into another that PyBullet alone knows: momentum is kept."""
         with Client() as client:
@@ -212,6 +235,35 @@ class TwoUsers(unittest.TestCase):
             for site in sites:
                 site.close()
 
+    def test_may_connect_before_they_share(self):
+        """At 240 Hz, where native contact of proxy and cube would take 3 mm away."""
+        at = [self.find_where_it_goes(order) for order in ("share first", "connect first")]
+        print(f"Experiment I at 240 Hz: cube at {at[0]:.4f} m, {at[1]:.4f} m if connected first")
+        self.assertAlmostEqual(at[0], 0.1266, delta=1e-4)
+        self.assertAlmostEqual(at[0], at[1], delta=1e-9)
+
+    @staticmethod
+    def find_where_it_goes(order):
+        with Client(240) as here, Client(240) as there:
+            cubes, sites, x = [], [], (-0.03, 0.03)
+            for i, client in enumerate((here, there)):
+                cubes.append(client.add_cube())
+                site = tandem.Site(tandem.SimulatedDevice(start=(x[i], 0, 0)), self_id=i + 1,
+                                   client=client.id, guide=(1, 0, 0))
+                way = site.simulated_link(order, delay=0.05)
+                steps = [lambda: site.share(cubes[i]),
+                         lambda: site.connect(2 - i, way, (x[1 - i], 0, 0))]
+                for step in steps if order == "share first" else reversed(steps):
+                    step()
+                sites.append(site)
+            sites[0].push((5, 0, 0))
+            for _ in range(240):
+                for site in sites:
+                    site.step()
+            for site in sites:
+                site.close()
+            return here.position(cubes[0])[0]
+
     def test_carry_packets_by_hand(self):
         with Client(60) as here, Client(60) as there:
             sites, links = [], []
@@ -237,6 +289,96 @@ class TwoUsers(unittest.TestCase):
 
 
 class WhatGoesWrong(unittest.TestCase):
+    def test_dampings_set_while_attached(self):
+        for maximal in (False, True):
+            with self.subTest(maximal=maximal), Client() as client:
+                cube, floor = client.add_cube(maximal=maximal), client.add_floor()
+                before = client.dynamics(cube)
+                with tandem.Site(far_hand(), client=client.id) as site:
+                    site.share(cube, shape=("box", HALF))
+                    site.obstacles()
+                    site.step()
+                    for body in (cube, floor):
+                        p.changeDynamics(body, -1, linearDamping=0.1, angularDamping=0.1,
+                                         physicsClientId=client.id)
+                    p.resetBaseVelocity(cube, (0, 0, 1), physicsClientId=client.id)
+                    for _ in range(4):
+                        site.step()
+                    said = site.warnings()
+                    self.assertFalse(site.read().has_ended, said)
+                    self.assertEqual(sorted(said), [
+                        f"body {body}: damping was set while attached; it acts again after close"
+                        for body in (cube, floor)])
+                after = client.dynamics(cube)
+                # Mass, friction, inertia; restitution is told of multibodies only.
+                for place in (0, 1, 2) if maximal else (0, 1, 2, 5):
+                    self.assertEqual(after[place], before[place])
+
+    def test_obstacles_of_all_kinds(self):
+        """Markers without a collision shape and what is attached are left out; the rest is tried."""
+        with Client() as client:
+            ball = p.createVisualShape(p.GEOM_SPHERE, radius=0.1, physicsClientId=client.id)
+            concave = p.createCollisionShape(
+                p.GEOM_MESH, vertices=[(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0.1)],
+                indices=[0, 1, 2, 1, 3, 2], flags=p.GEOM_FORCE_CONCAVE_TRIMESH,
+                physicsClientId=client.id)
+            first = client.add_cube((0, 0, -1), mass=0)
+            for maximal in (False, True):
+                p.createMultiBody(0, -1, ball, useMaximalCoordinates=maximal,
+                                  physicsClientId=client.id)
+            p.createMultiBody(0, concave, physicsClientId=client.id)
+            last = client.add_cube((0, 0, -2), mass=0)
+            with tandem.Site(far_hand(), client=client.id) as site:
+                with self.assertWarnsRegex(UserWarning, "mesh.*give shape=hull") as said:
+                    self.assertEqual(site.obstacles(), [first, last])
+                self.assertEqual(len(said.warnings), 1)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    self.assertEqual(site.obstacles(), [])
+
+    def test_mesh_that_fails_and_is_tried_again(self):
+        with tempfile.TemporaryDirectory() as folder, Client() as client:
+            key = os.path.join(folder, "pair.key")
+            tandem.create_key(key, client.id)
+            with self.assertRaisesRegex(tandem.TandemError, "pair.key"):
+                tandem.create_key(key, client.id)
+            with tandem.Site(far_hand(), client=client.id) as site:
+                for name in (os.path.join(folder, "none.key"), 'a"b'):
+                    with self.assertRaises((tandem.TandemError, ValueError)):
+                        site.mesh(1, "127.0.0.1:0", [tandem.Peer(2, "127.0.0.1:7999", key),
+                                                     tandem.Peer(3, "127.0.0.1:7998", name)])
+                ways = site.mesh(1, "127.0.0.1:0", [tandem.Peer(2, "127.0.0.1:7999", key)])
+                self.assertEqual(list(ways), [2])
+
+    def test_refused_site_leaves_nothing(self):
+        with Client(gravity=math.nan) as client:
+            with self.assertRaisesRegex(tandem.TandemError, "gravity"):
+                tandem.Site(far_hand(), client=client.id)
+            p.setGravity(0, 0, 0, physicsClientId=client.id)
+            tandem.Site(far_hand(), client=client.id).close()
+
+    def test_shown_proxy_is_gone_at_the_end(self):
+        with Client() as client:
+            site = tandem.Site(far_hand(), client=client.id)
+            site.connect(2, site.manual_link(), start=(0.2, 0, 0))
+            site.step()
+            p.resetSimulation(physicsClientId=client.id)
+            site.close()
+            with self.assertRaisesRegex(tandem.TandemError, "the site is closed"):
+                site.warnings()
+
+    def test_proxy_that_cannot_be_shown(self):
+        with Client() as client, tandem.Site(far_hand(), client=client.id) as site:
+            remote = site.connect(2, site.manual_link(), start=(0.2, 0, 0))
+            with self.assertRaisesRegex(tandem.TandemError, "shown already"):
+                site._show(remote, (0, 0, 0), (1, 1, 1, 1))
+            self.assertEqual(p.getNumBodies(physicsClientId=client.id), 1)
+
+    def test_answers_without_text(self):
+        for status, says in ((-1, "closed"), (-6, "memory"), (-7, "-7")):
+            with self.assertRaisesRegex(tandem.TandemError, says):
+                tandem._check((status, b""))
+
     def test_removed_body(self):
         with Client() as client, tandem.Site(far_hand(), client=client.id) as site:
             cube = client.add_cube()
@@ -302,6 +444,20 @@ class WhatGoesWrong(unittest.TestCase):
 
 
 class Shapes(unittest.TestCase):
+    def test_meshes_may_have_many_points(self):
+        with Client() as client, tandem.Site(far_hand(), client=client.id) as site:
+            def ball(count):  # points spread evenly over a sphere
+                turns = [(math.acos(1 - 2 * (i + 0.5) / count), i * 2.4) for i in range(count)]
+                return [(0.05 * math.sin(a) * math.cos(b), 0.05 * math.sin(a) * math.sin(b),
+                         0.05 * math.cos(a)) for a, b in turns]
+            shape = p.createCollisionShape(p.GEOM_MESH, vertices=ball(600),
+                                           physicsClientId=client.id)
+            body = p.createMultiBody(0.2, shape, physicsClientId=client.id)
+            self.assertEqual(site.share(body), 0)
+            other = client.add_cube((1, 0, 0), maximal=True)
+            with self.assertRaisesRegex(tandem.TandemError, f"body {other}: .*4097.*4096.*fewer"):
+                site.share(other, shape=("hull", ball(4097)))
+
     def test_all_rest_on_the_floor_as_tall_as_they_are(self):
         for name, kind, size, height in (
                 ("sphere", p.GEOM_SPHERE, {"radius": 0.02}, 0.02),

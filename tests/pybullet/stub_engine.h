@@ -18,6 +18,7 @@ struct StubBody {
   double mass = 0.2;
   Vec3 inertia = Vec3::Constant(0.2 * 0.04 * 0.04 / 6.0);  // [kg m^2]
   double linear_damping = 0.04, angular_damping = 0.04;    // as they come in PyBullet
+  double friction = 0.5, restitution = 0.0;
   bool is_multibody = true;
   bool may_sleep = true;
   int links = 0;

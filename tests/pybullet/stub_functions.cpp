@@ -24,8 +24,9 @@ struct Order {
   int other = -1;
   bool has_position = false, has_orientation = false, has_velocity = false, has_spin = false;
   bool has_mass = false, has_inertia = false, has_linear = false, has_angular = false;
+  bool has_friction = false, has_restitution = false;
   RigidState state;
-  double mass = 0.0, linear = 0.0, angular = 0.0;
+  double mass = 0.0, linear = 0.0, angular = 0.0, friction = 0.0, restitution = 0.0;
   Vec3 inertia{0, 0, 0};
   int activation = 0;
   bool collides = true;
@@ -69,6 +70,8 @@ void change(StubBody& body, const Order& by) {
   if (by.has_inertia) body.inertia = by.inertia;
   if (by.has_linear) body.linear_damping = by.linear;
   if (by.has_angular) body.angular_damping = by.angular;
+  if (by.has_friction) body.friction = by.friction;
+  if (by.has_restitution) body.restitution = by.restitution;
   if (by.activation & b3::kEnableSleeping) body.may_sleep = true;
   if (by.activation & b3::kDisableSleeping) body.may_sleep = false;
 }
@@ -171,7 +174,8 @@ int b3GetDynamicsInfo(b3::Status status, b3::DynamicsInfo* info) {
   const StubBody& body = *toAnswer(status).body;
   info->mass = body.mass;
   std::copy_n(body.inertia.data(), 3, info->inertia);
-  info->friction = 0.5;
+  info->friction = body.friction;
+  info->restitution = body.is_multibody ? body.restitution : 0.77;  // left from another answer
   info->activation_state = body.may_sleep ? 1 : b3::kNeverSleeps;
   info->body_type = body.is_multibody ? b3::kMultiBody : b3::kRigidBody;
   info->linear_damping = body.linear_damping;
@@ -202,6 +206,18 @@ int b3ChangeDynamicsInfoSetAngularDamping(b3::Command command, int body, double 
   toOrder(command).body = body;
   toOrder(command).has_angular = true;
   toOrder(command).angular = damping;
+  return 0;
+}
+int b3ChangeDynamicsInfoSetLateralFriction(b3::Command command, int body, int, double friction) {
+  toOrder(command).body = body;
+  toOrder(command).has_friction = true;
+  toOrder(command).friction = friction;
+  return 0;
+}
+int b3ChangeDynamicsInfoSetRestitution(b3::Command command, int body, int, double restitution) {
+  toOrder(command).body = body;
+  toOrder(command).has_restitution = true;
+  toOrder(command).restitution = restitution;
   return 0;
 }
 int b3ChangeDynamicsInfoSetActivationState(b3::Command command, int body, int bits) {

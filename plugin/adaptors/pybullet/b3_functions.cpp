@@ -52,6 +52,8 @@ std::string findB3Functions(const void* caller, B3Functions& functions) {
   in.find(functions.change_inertia, "b3ChangeDynamicsInfoSetLocalInertiaDiagonal");
   in.find(functions.change_linear_damping, "b3ChangeDynamicsInfoSetLinearDamping");
   in.find(functions.change_angular_damping, "b3ChangeDynamicsInfoSetAngularDamping");
+  in.find(functions.change_friction, "b3ChangeDynamicsInfoSetLateralFriction");
+  in.find(functions.change_restitution, "b3ChangeDynamicsInfoSetRestitution");
   in.find(functions.change_activation, "b3ChangeDynamicsInfoSetActivationState");
   in.find(functions.make_parameter_request, "b3InitRequestPhysicsParamCommand");
   in.find(functions.get_parameters, "b3GetStatusPhysicsSimulationParameters");

@@ -33,6 +33,8 @@ struct B3Functions {
   int (*change_inertia)(b3::Command, int body, int link, const double inertia[3]) = nullptr;
   int (*change_linear_damping)(b3::Command, int body, double damping) = nullptr;
   int (*change_angular_damping)(b3::Command, int body, double damping) = nullptr;
+  int (*change_friction)(b3::Command, int body, int link, double friction) = nullptr;
+  int (*change_restitution)(b3::Command, int body, int link, double restitution) = nullptr;
   int (*change_activation)(b3::Command, int body, int bits) = nullptr;
 
   b3::Command (*make_parameter_request)(b3::Client) = nullptr;

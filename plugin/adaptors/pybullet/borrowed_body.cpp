@@ -14,7 +14,18 @@ namespace {
 /// keep all 20 bits of the count.
 double makeMark() {
   static std::atomic<unsigned> count{0};
-  return 0x1p-100 * (1.0 + 0x1p-20 * (++count & 0xFFFFFU));
+  return 0x1p-100 * (1.0 + 0x1p-20 * (1U + count++ % 0xFFFFFU));
+}
+
+/// `value` with the count of `mark` in its low bits: within 6e-8 of it. The mark itself for 0.
+double addMark(double value, double mark) {
+  const double count = mark * 0x1p100 - 1.0;  // 2^-20 to 1
+  return value == 0.0 ? mark : value * (1.0 + 0x1p-24 * count);
+}
+
+void addLine(std::string& text, const std::string& line) {
+  if (!text.empty()) text += '\n';
+  text += line;
 }
 
 }  // namespace
@@ -32,7 +43,7 @@ BorrowedBody::BorrowedBody(const Engine& engine, int body) : body_(body) {
 
 void BorrowedBody::borrow(const Engine& engine, double share) {
   mark_ = makeMark();
-  engine.writeDamping(body_, mark_, mark_);
+  putMarks(engine);
   if (share > 0.0) {
     mass_ *= share;
     inertia_ *= share;
@@ -41,23 +52,54 @@ void BorrowedBody::borrow(const Engine& engine, double share) {
   }
 }
 
+BorrowedBody::Marks BorrowedBody::findMarks(const BodyFacts& facts) const {
+  return {facts.linear_damping == mark_, facts.angular_damping == mark_,
+          facts.friction == addMark(before_.friction, mark_),
+          before_.is_multibody && facts.restitution == addMark(before_.restitution, mark_)};
+}
+
+void BorrowedBody::putMarks(const Engine& engine) const {
+  engine.writeDamping(body_, mark_, mark_);
+  engine.writeFriction(body_, addMark(before_.friction, mark_));
+  if (before_.is_multibody) {
+    engine.writeRestitution(body_, addMark(before_.restitution, mark_));
+  }
+}
+
+void BorrowedBody::renewMarks(const Engine& engine, const BodyFacts& facts, const Marks& has,
+                              std::string& notice) {
+  const bool has_damping = has.linear_damping && has.angular_damping;
+  const bool has_surface = has.friction && (has.restitution || !before_.is_multibody);
+  if (has_damping && has_surface) return;
+  const std::string name = "body " + std::to_string(body_);
+  if (!has_damping) {
+    addLine(notice, name + ": damping was set while attached; it acts again after close");
+  }
+  if (!has_surface) {
+    addLine(notice, name +
+                        ": friction or restitution was set while attached; Tandem has what it "
+                        "was, close and attach the body again to change it");
+  }
+  if (!has.linear_damping) before_.linear_damping = facts.linear_damping;
+  if (!has.angular_damping) before_.angular_damping = facts.angular_damping;
+  if (!has.friction) before_.friction = facts.friction;
+  if (!has.restitution) before_.restitution = facts.restitution;
+  putMarks(engine);
+}
+
 bool BorrowedBody::isThere(const Engine& engine, std::string& notice) {
   const std::optional<BodyFacts> facts = engine.readFacts(body_);
   if (!facts) return false;
-  const bool has_linear = facts->linear_damping == mark_;
-  const bool has_angular = facts->angular_damping == mark_;
-  if (!has_linear && !has_angular) return false;
-  const std::string name = "body " + std::to_string(body_);
-  if (!has_linear || !has_angular) {
-    if (!has_linear) before_.linear_damping = facts->linear_damping;
-    if (!has_angular) before_.angular_damping = facts->angular_damping;
-    engine.writeDamping(body_, mark_, mark_);
-    notice = name + ": damping was set while attached; it acts again after close";
+  const Marks has = findMarks(*facts);
+  if (!has.linear_damping && !has.angular_damping && !has.friction && !has.restitution) {
+    return false;
   }
+  renewMarks(engine, *facts, has, notice);
   if (std::abs(facts->mass - mass_) > 1e-6 * mass_) {
     engine.writeMass(body_, mass_, inertia_.data());
-    notice =
-        name + ": mass was set while attached, and has been put back; close before you change it";
+    addLine(notice, "body " + std::to_string(body_) +
+                        ": mass was set while attached, and has been put back; close before you "
+                        "change it");
   }
   return true;
 }
@@ -67,6 +109,8 @@ bool BorrowedBody::giveBack(const Engine& engine) {
   if (!isThere(engine, notice)) return false;
   if (mass_ != before_.mass) engine.writeMass(body_, before_.mass, before_.inertia);
   engine.writeDamping(body_, before_.linear_damping, before_.angular_damping);
+  engine.writeFriction(body_, before_.friction);
+  if (before_.is_multibody) engine.writeRestitution(body_, before_.restitution);
   // Of a multibody PyBullet does not tell whether it may sleep.
   if (!before_.is_multibody && before_.may_sleep) engine.letSleep(body_, true);
   return true;

@@ -9,8 +9,9 @@
 namespace tandem::pybullet {
 namespace {
 
-/// Coordinates that may wait for their command: a hull of 341 points.
-constexpr std::size_t kMostWords = 2048;
+/// What may wait for its command: x, y, z of each point of a hull, each two words.
+constexpr std::size_t kMostPoints = 4096;
+constexpr std::size_t kMostWords = kMostPoints * 3 * 2;
 
 }  // namespace
 
@@ -74,7 +75,9 @@ Reply Commands::runWords(const b3::PluginArguments& arguments) {
     }
     data_.insert(data_.end(), arguments.ints, arguments.ints + arguments.int_count);
     if (data_.size() > kMostWords) {
-      throw Refusal(kBadCommand, "data: more than " + std::to_string(kMostWords) + " words");
+      throw Refusal(kBadCommand, "data: more than " + std::to_string(kMostWords) +
+                                     " words, a hull of " + std::to_string(kMostPoints) +
+                                     " points: leave out points");
     }
     Reply reply;
     (this->*entry.function)(words, reply);
@@ -179,6 +182,8 @@ void Commands::warnings(Words& words, Reply& reply) {
 
 void Commands::close(Words& words, Reply&) {
   words.finish();
+  peers_.clear();
+  agreements_.clear();
   session_.close();
 }
 

@@ -14,7 +14,8 @@ class Commands {
  public:
   explicit Commands(Session& session) : session_(session) {}
 
-  /// Never throws. What was refused has changed nothing.
+  /// Never throws. What was refused has changed nothing, but what waited for it is gone: `data`,
+  /// and the peers and agreements of a mesh.
   Reply run(const b3::PluginArguments& arguments) noexcept;
 
  private:
@@ -60,8 +61,8 @@ class Commands {
   void close(Words&, Reply&);
 
   Session& session_;
-  std::vector<int> data_;  // sent before the command that uses them
-  std::vector<Peer> peers_;
+  std::vector<int> data_;    // sent before the command that uses them
+  std::vector<Peer> peers_;  // sent before the mesh that they are for
   std::vector<Item> agreements_;
 };
 

@@ -57,10 +57,11 @@ std::optional<BodyFacts> Engine::readFacts(int body) const {
   facts.mass = info.mass;
   std::copy_n(info.inertia, 3, facts.inertia);
   facts.friction = info.friction;
-  facts.restitution = info.restitution;
   facts.linear_damping = info.linear_damping;
   facts.angular_damping = info.angular_damping;
   facts.is_multibody = info.body_type == b3::kMultiBody;
+  // Of others the answer holds what was there before.
+  if (facts.is_multibody) facts.restitution = info.restitution;
   facts.may_sleep = info.activation_state != b3::kNeverSleeps;
   return facts;
 }
@@ -77,6 +78,18 @@ void Engine::writeDamping(int body, double linear, double angular) const {
   const b3::Command command = b3_.make_dynamics_change(client_);
   b3_.change_linear_damping(command, body, linear);
   b3_.change_angular_damping(command, body, angular);
+  b3_.submit(client_, command);
+}
+
+void Engine::writeFriction(int body, double friction) const {
+  const b3::Command command = b3_.make_dynamics_change(client_);
+  b3_.change_friction(command, body, kBase, friction);
+  b3_.submit(client_, command);
+}
+
+void Engine::writeRestitution(int body, double restitution) const {
+  const b3::Command command = b3_.make_dynamics_change(client_);
+  b3_.change_restitution(command, body, kBase, restitution);
   b3_.submit(client_, command);
 }
 

@@ -14,7 +14,7 @@ struct BodyFacts {
   double mass = 0.0;    // [kg]; 0: static
   double inertia[3]{};  // principal moments [kg m^2]
   double friction = 0.0;
-  double restitution = 0.0;
+  double restitution = 0.0;     // 0 for a btRigidBody: PyBullet does not tell
   double linear_damping = 0.0;  // v (1 - d)^dt, or -m d v for a multibody
   double angular_damping = 0.0;
   bool is_multibody = true;  // else a btRigidBody, "maximal coordinates"
@@ -43,6 +43,8 @@ class Engine {
   std::optional<BodyFacts> readFacts(int body) const;
   void writeMass(int body, double mass, const double inertia[3]) const;
   void writeDamping(int body, double linear, double angular) const;
+  void writeFriction(int body, double friction) const;
+  void writeRestitution(int body, double restitution) const;
   void letSleep(int body, bool may_sleep) const;
 
   /// Whether the bases of two bodies collide from now on, whatever their groups and masks.

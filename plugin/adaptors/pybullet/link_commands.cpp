@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "commands.h"
 #include "packet_doubles.h"
 #include "refusal.h"
@@ -31,23 +33,24 @@ void Commands::key(Words& words, Reply&) {
   check(tandem_key_create(path.c_str()));
 }
 
+// What has been said for this mesh is for this one only, also when it fails.
 void Commands::mesh(Words& words, Reply&) {
+  const std::vector<Peer> said_peers = std::exchange(peers_, {});
+  const std::vector<Item> said_items = std::exchange(agreements_, {});
   const std::uint32_t self = readId(words, "self");
   const std::string bind = words.text("bind");
   words.finish();
   std::vector<TandemMeshPeer> peers;
-  for (const Peer& peer : peers_) {
+  for (const Peer& peer : said_peers) {
     peers.push_back(
         {peer.id, peer.address.empty() ? nullptr : peer.address.c_str(), peer.key.c_str()});
   }
   std::vector<TandemAgreement> items;
-  for (const Item& item : agreements_) items.push_back({item.key.c_str(), item.value.c_str()});
+  for (const Item& item : said_items) items.push_back({item.key.c_str(), item.value.c_str()});
   TandemMesh* mesh = nullptr;
   check(tandem_mesh_create(self, bind.c_str(), peers.size(), peers.data(), items.size(),
                            items.data(), &mesh));
   session_.addMesh(MeshHandle(mesh));
-  peers_.clear();
-  agreements_.clear();
 }
 
 void Commands::meshStatus(Words& words, Reply& reply) {

@@ -59,6 +59,9 @@ int executePluginCommand_tandem(b3::PluginContext* context, const b3::PluginArgu
   } catch (const std::exception& error) {
     tandem::pybullet::say("not loaded: ", error.what());
     return kNotLoaded;
+  } catch (...) {
+    tandem::pybullet::say("not loaded: ", "of an unknown kind of error");
+    return kNotLoaded;
   }
 }
 

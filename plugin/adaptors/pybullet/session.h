@@ -85,8 +85,8 @@ class Session {
   std::string warnings() const;
 
   /// Before and after each internal step of PyBullet. What fails ends the site with a warning.
-  void preTick();
-  void postTick();
+  void preTick() noexcept;
+  void postTick() noexcept;
 
  private:
   struct Moving {
@@ -110,11 +110,12 @@ class Session {
   void requireSite() const;
   void requireFree(int body) const;
   void stopContact(int body_a, int body_b);
+  void stopContactWithAll(int body);
   std::vector<Piece> findPieces(const BorrowedBody& body, const Piece* shape) const;
   TandemBody addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state);
   void addMoving(BorrowedBody body, TandemBody id, const TandemState& state);
   int keepLink(Link link);
-  void followParameters();
+  EngineParameters askParameters() const;
   void begin();
   void finish();
   void sayFarewell(int rounds);
@@ -123,6 +124,7 @@ class Session {
   void watchStep(const TandemState& before, const TandemState& after);
   void warn(const std::string& text);
   void end(const std::string& why);
+  void runSafely(void (Session::*part)()) noexcept;
 
   Engine engine_;
   EngineParameters parameters_;

@@ -43,16 +43,24 @@ void Session::takeDevice(DeviceHandle device, bool is_moved) {
 void Session::openSite(const TandemSiteSettings& settings) {
   if (site_) throw Refusal(kWrongOrder, "there is a site already: `close` first");
   if (!device_) throw Refusal(kWrongOrder, "a site needs a device: `device` first");
+  const EngineParameters parameters = askParameters();
   TandemWorld* world = nullptr;
   check(tandem_world_create(&world));
   WorldHandle own_world(world);
+  check(tandem_world_set_gravity(world, parameters.gravity));
   TandemSite* site = nullptr;
   check(tandem_site_create(&settings, world, device_.get(), &site));
   site_.reset(site);
   world_ = std::move(own_world);
   peers_ = settings.peers;
   proxy_mass_ = settings.proxy_mass;
-  followParameters();
+  parameters_ = parameters;
+}
+
+EngineParameters Session::askParameters() const {
+  const std::optional<EngineParameters> asked = engine_.readParameters();
+  if (!asked) throw Refusal(kPyBulletSays, "PyBullet does not tell its time step");
+  return *asked;
 }
 
 std::vector<Piece> Session::findPieces(const BorrowedBody& body, const Piece* shape) const {
@@ -112,9 +120,7 @@ int Session::share(int body, double damping, const Piece* shape) {
     throw why;
   }
   borrowed.borrow(engine_, 1.0 / peers_);
-  for (const Standing& other : standing_) {
-    stopContact(body, other.body.number());
-  }
+  stopContactWithAll(body);
   addMoving(std::move(borrowed), id, state);
   return static_cast<int>(object);
 }
@@ -163,16 +169,19 @@ void Session::showProxy(int remote, int body) {
   check(tandem_world_get_states(world_.get(), 1, &id, &state));
   borrowed.borrow(engine_, proxy_mass_ / borrowed.before().mass);
   engine_.writeState(body, state);
-  for (const Standing& other : standing_) {
-    stopContact(body, other.body.number());
-  }
-  for (const Moving& other : moving_) stopContact(body, other.body.number());
+  stopContactWithAll(body);
   addMoving(std::move(borrowed), id, state);
 }
 
 void Session::stopContact(int body_a, int body_b) {
   engine_.setCollides(body_a, body_b, false);
   without_contact_.emplace_back(body_a, body_b);
+}
+
+// Guests of Tandem's world meet there: contact in PyBullet as well would count twice.
+void Session::stopContactWithAll(int body) {
+  for (const Standing& other : standing_) stopContact(body, other.body.number());
+  for (const Moving& other : moving_) stopContact(body, other.body.number());
 }
 
 void Session::close() {

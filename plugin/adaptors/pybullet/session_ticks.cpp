@@ -42,14 +42,19 @@ void Session::warn(const std::string& text) {
 void Session::end(const std::string& why) {
   is_between_ = false;
   ended_ = why;
-  warn(why + ": the site has ended");
 }
 
-void Session::followParameters() {
-  const std::optional<EngineParameters> asked = engine_.readParameters();
-  if (!asked) throw Refusal(kPyBulletSays, "PyBullet does not tell its time step");
-  parameters_ = *asked;
-  check(tandem_world_set_gravity(world_.get(), parameters_.gravity));
+void Session::runSafely(void (Session::*part)()) noexcept {
+  try {
+    try {
+      (this->*part)();
+    } catch (const Refusal& why) {
+      end(why.what());
+    }
+  } catch (...) {
+    is_between_ = false;
+    ended_ = "out of memory";  // short enough for a string without heap
+  }
 }
 
 bool Session::isSame(BorrowedBody& body) {
@@ -82,23 +87,15 @@ void Session::lookAtOne() {
   }
 }
 
-void Session::preTick() {
+void Session::preTick() noexcept {
   if (!site_ || !ended_.empty()) return;
-  try {
-    begin();
-  } catch (const Refusal& why) {
-    end(why.what());
-  }
+  runSafely(&Session::begin);
 }
 
-void Session::postTick() {
+void Session::postTick() noexcept {
   if (!is_between_) return;
   is_between_ = false;
-  try {
-    finish();
-  } catch (const Refusal& why) {
-    end(why.what());
-  }
+  runSafely(&Session::finish);
 }
 
 void Session::begin() {
@@ -184,10 +181,12 @@ std::string Session::warnings() const {
     check(tandem_site_warnings(site_.get(), text.data(), text.size(), &length));
     text.resize(length);
   }
-  for (const std::string& line : warnings_) {
+  const auto add = [&text](const std::string& line) {
     if (!text.empty() && text.back() != '\n') text += '\n';
     text += line;
-  }
+  };
+  for (const std::string& line : warnings_) add(line);
+  if (!ended_.empty()) add(ended_ + ": the site has ended");
   return text;
 }
 

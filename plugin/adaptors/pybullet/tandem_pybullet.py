@@ -20,6 +20,7 @@ one physics client belong to one thread.
 
 import glob
 import os
+import warnings
 from array import array
 from collections import namedtuple
 
@@ -32,6 +33,8 @@ __all__ = ["Device", "Link", "LINK_STATES", "Packet", "Peer", "PeerStatus", "PHA
 _POSTFIX = "_tandem"
 _WORDS_PER_COMMAND = 128
 _MULTIBODY = 2  # body type
+_MOST_POINTS = 4096  # of a hull
+_CLOSED, _NO_MEMORY, _BAD_COMMAND, _WRONG_ORDER = -1, -6, -10, -11
 
 #: Pose of a centre of mass and its velocities, each a tuple.
 State = namedtuple("State", "position orientation velocity angular_velocity")
@@ -124,10 +127,15 @@ class Site:
     def __init__(self, device=None, self_id=1, peers=2, client=0, plugin=None, **settings):
         self._client = client
         self._spheres = []  # (body, its info)
+        self._obstacles = set()
         self._radius = settings.get("proxy_radius")
         self._plugin = _load(client, plugin)
         self._command("device", **(device or Device()).words)
-        self._command("site", self=self_id, peers=peers, **settings)
+        try:
+            self._command("site", self=self_id, peers=peers, **settings)
+        except Exception:
+            self._command("close")  # or its device would be the next site's
+            raise
 
     def __enter__(self):
         return self
@@ -153,17 +161,26 @@ class Site:
         """Makes a static body one that shared bodies, proxies and the hand meet in Tandem, and no
         longer in PyBullet. `shape` as of share(), or ("plane",) for all below z = 0 of the body."""
         self._command_with_shape("obstacle", body, shape)
+        self._obstacles.add(body)
 
     def obstacles(self):
-        """Makes all static bodies without joints obstacles; returns their numbers."""
+        """Makes all static bodies without joints obstacles that are none yet; returns their numbers.
+        What has no collision shape is left out; what cannot be an obstacle as well, with a warning
+        that says what it lacks."""
         found = []
         for index in range(pybullet.getNumBodies(physicsClientId=self._client)):
             body = pybullet.getBodyUniqueId(index, physicsClientId=self._client)
             mass = pybullet.getDynamicsInfo(body, -1, physicsClientId=self._client)[0]
             joints = pybullet.getNumJoints(body, physicsClientId=self._client)
-            if mass == 0 and joints == 0:
+            if mass != 0 or joints != 0 or body in self._obstacles or not self._collides(body):
+                continue
+            try:
                 self.obstacle(body)
                 found.append(body)
+            except TandemError as why:
+                if why.status == _WRONG_ORDER or self._plugin < 0:  # the site's fault
+                    raise
+                warnings.warn(f"no obstacle: {why}", stacklevel=2)
         return found
 
     def connect(self, peer, link, start=(0, 0, 0), show=(0.2, 0.6, 0.9, 0.7)):
@@ -193,11 +210,13 @@ class Site:
         """Sealed UDP ways to all `peers` over one socket bound to `bind`, "0.0.0.0:7001". Returns
         {peer's id: Link}. `agreements`: {key: value} that must be the same at all sites. Step in
         real time."""
-        for peer in peers:
-            address = {} if peer.address is None else {"address": peer.address}
-            self._command("peer", id=peer.id, key=peer.key, **address)
-        for key, value in (agreements or {}).items():
-            self._command("agree", key=key, value=value)
+        # All lines first: what cannot be said must not leave half of it waiting.
+        lines = [_line("peer", {"id": peer.id, "key": peer.key, "address": peer.address})
+                 for peer in peers]
+        lines += [_line("agree", {"key": key, "value": value})
+                  for key, value in (agreements or {}).items()]
+        for line in lines:
+            self._check(self._send(line))
         self._command("mesh", self=self_id, bind=bind)
         return {peer.id: Link(self, self._command("link", kind="mesh", peer=peer.id))
                 for peer in peers}
@@ -253,6 +272,7 @@ class Site:
     def warnings(self):
         """What to know about what was attached, and what has happened since: lines of text."""
         answer = self._send("warnings")
+        self._check(answer)
         return answer[1].decode().splitlines()
 
     def close(self):
@@ -261,10 +281,13 @@ class Site:
             return
         self._command("close")
         self._plugin = -1
-        for body, info in self._spheres:
-            if info == pybullet.getBodyInfo(body, physicsClientId=self._client):
-                pybullet.removeBody(body, physicsClientId=self._client)
-        self._spheres = []
+        spheres, self._spheres = self._spheres, []
+        for body, info in spheres:
+            try:
+                if info == pybullet.getBodyInfo(body, physicsClientId=self._client):
+                    pybullet.removeBody(body, physicsClientId=self._client)
+            except pybullet.error:
+                pass  # the script has removed it
 
     # Inside.
 
@@ -275,7 +298,11 @@ class Site:
         visual = pybullet.createVisualShape(pybullet.GEOM_SPHERE, radius=radius, rgbaColor=colour,
                                             **client)
         body = pybullet.createMultiBody(1, shape, visual, basePosition=position, **client)
-        self._command("proxy", remote=remote, body=body)
+        try:
+            self._command("proxy", remote=remote, body=body)
+        except TandemError:
+            pybullet.removeBody(body, **client)
+            raise
         self._spheres.append((body, pybullet.getBodyInfo(body, **client)))
 
     def _command_with_shape(self, name, body, shape, /, **words):
@@ -287,13 +314,27 @@ class Site:
         kind, *size = shape
         words["shape"] = kind
         if kind == "hull":
-            return self._send_doubles(name, [x for point in size[0] for x in point], **words)
+            points = list(size[0])
+            if len(points) > _MOST_POINTS:
+                raise TandemError(_BAD_COMMAND,
+                                  f"body {body}: a hull of {len(points)} points, and there may be "
+                                  f"{_MOST_POINTS}: give shape=(\"hull\", points) with fewer")
+            return self._send_doubles(name, [x for point in points for x in point], **words)
         if size:
             words["size"] = size[0] if kind == "box" else size
         return self._command(name, **words)
 
+    def _collides(self, body):
+        """Whether the base has a collision shape."""
+        client = {"physicsClientId": self._client}
+        if pybullet.getDynamicsInfo(body, -1, **client)[10] == _MULTIBODY:
+            return bool(pybullet.getCollisionShapeData(body, -1, **client))
+        low, high = pybullet.getAABB(body, -1, **client)
+        return low != high
+
     def _hull_of(self, body):
-        """Points of a body that is one mesh, which the plugin cannot ask for; else None."""
+        """Points of a body that is one mesh, which the plugin cannot ask for; else None, as of a
+        mesh whose points PyBullet does not tell."""
         client = {"physicsClientId": self._client}
         try:
             if pybullet.getDynamicsInfo(body, -1, **client)[10] != _MULTIBODY:
@@ -304,7 +345,7 @@ class Site:
             points = pybullet.getMeshData(body, -1, **client)[1]
         except pybullet.error:
             return None
-        return ("hull", sorted(set(points)))
+        return ("hull", sorted(set(points))) if points else None
 
     def _send_doubles(self, name, numbers, /, **words):
         """A command with doubles, which PyBullet carries exactly only as pairs of 32-bit words."""
@@ -325,10 +366,7 @@ class Site:
         return array("d", answer[1])
 
     def _check(self, answer):
-        status, text = answer
-        if status < 0:
-            raise TandemError(status, text.decode() or "the site is closed")
-        return status
+        return _check(answer)
 
     def _send(self, line, ints=()):
         return _execute(self._plugin, self._client, line, ints)
@@ -336,9 +374,7 @@ class Site:
 
 def create_key(path, client=0):
     """Makes a file with a new key for a pair of sites, that only its owner may read. Both need it."""
-    status, text = _execute(_load(client), client, _line("key", {"path": path}))
-    if status < 0:
-        raise TandemError(status, text.decode())
+    _check(_execute(_load(client), client, _line("key", {"path": path})))
 
 
 def find_plugin():
@@ -372,6 +408,17 @@ def _execute(plugin, client, line, ints=()):
         return answer, b""
     status, _, data = answer
     return status, array("b", data).tobytes()
+
+
+def _check(answer):
+    """The status of an answer; what was refused raises. Without words PyBullet says that it has no
+    such plugin, and the plugin that it has no memory for them."""
+    status, text = answer
+    if status < 0:
+        otherwise = {_CLOSED: "the site is closed", _NO_MEMORY: "no memory is left"}
+        raise TandemError(status, text.decode() or
+                          otherwise.get(status, f"refused, without a word why ({status})"))
+    return status
 
 
 def _state_of(numbers):
