@@ -8,6 +8,7 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
+#include "tandem/bullet_bridge/world_access.h"
 
 #include "attach_warnings.h"
 #include "mass_restore.h"
@@ -171,10 +172,7 @@ Vec3 HapticBody::gravityForce() const noexcept {
                     body_.getLinearFactor());
 }
 
-RigidState HapticBody::state() const noexcept {
-  return {fromBullet(body_.getCenterOfMassPosition()), fromBullet(body_.getOrientation()),
-          fromBullet(body_.getLinearVelocity()), fromBullet(body_.getAngularVelocity())};
-}
+RigidState HapticBody::state() const noexcept { return readState(body_); }
 
 bool HapticBody::hasLeftItsRest(const RigidState& at) const noexcept {
   btVector3 middle;

@@ -4,6 +4,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/bullet_bridge/native_coupling.h"
+#include "tandem/bullet_bridge/world_access.h"
 
 #include "own_body.h"
 #include "world_lookup.h"
@@ -46,11 +47,7 @@ btRigidBody& KinematicSphere::rigid() const noexcept { return impl_->own.rigid()
 
 bool KinematicSphere::isInWorld() const noexcept { return impl_->isInWorld(); }
 
-RigidState KinematicSphere::state() const noexcept {
-  const btRigidBody& own = rigid();
-  return {fromBullet(own.getCenterOfMassPosition()), fromBullet(own.getOrientation()),
-          fromBullet(own.getLinearVelocity()), fromBullet(own.getAngularVelocity())};
-}
+RigidState KinematicSphere::state() const noexcept { return readState(rigid()); }
 
 void KinematicSphere::moveTo(const Vec3& end_W, double dt) noexcept {
   impl_->end.setOrigin(toBullet(end_W));

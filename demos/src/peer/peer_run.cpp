@@ -21,20 +21,11 @@ constexpr double kFarewell = 0.15;   ///< time to say it [s]
 constexpr double kCountdown = 1.0;
 constexpr double kCountdownTrips = 6.0;
 
-const char* describe(RefuseCode code) {
-  switch (code) {
-    case RefuseCode::kVersion:
-      return "it speaks another version; install the same release on both sides";
-    case RefuseCode::kUnknownPeer:
-      return "it does not expect this site; compare --site and --peer on both sides";
-    case RefuseCode::kCookie:
-      return "our datagrams reach it too late";
-    case RefuseCode::kKey:
-      return "it has another key; give both sides the same key file";
-    case RefuseCode::kBusy:
-      return "it is busy";
-  }
-  return "";
+/// In the words of the command line.
+const char* explainRefusal(RefuseCode code) {
+  if (code == RefuseCode::kUnknownPeer)
+    return "it does not expect this site; compare --site and --peer on both sides";
+  return explain(code);
 }
 
 }  // namespace
@@ -174,7 +165,7 @@ void PeerRun::checkAnswer(double waited, double patience) const {
   if (waited < patience) return;
   const std::string where = status.address ? toString(*status.address) : "its address";
   const std::string why =
-      status.refused ? fmt::format("it answers, but {}", describe(*status.refused))
+      status.refused ? fmt::format("it answers, but {}", explainRefusal(*status.refused))
                      : "is it running, is the address right, does a firewall let UDP pass?";
   throw Error(fmt::format("site {} at {} did not join within {} s: {}",
                           static_cast<std::uint32_t>(other_), where, patience, why));

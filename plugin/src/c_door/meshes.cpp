@@ -42,22 +42,6 @@ static_assert(TANDEM_PEER_LEFT == static_cast<int>(PeerPhase::kLeft));
   return ids;
 }
 
-[[nodiscard]] const char* describe(RefuseCode code) noexcept {
-  switch (code) {
-    case RefuseCode::kVersion:
-      return "it speaks another version; install the same release on both sides";
-    case RefuseCode::kUnknownPeer:
-      return "it does not expect this site; compare the ids on both sides";
-    case RefuseCode::kCookie:
-      return "our datagrams reach it too late";
-    case RefuseCode::kKey:
-      return "it has another key; give both sides the same key file";
-    case RefuseCode::kBusy:
-      return "it is busy";
-  }
-  return "it says no reason";
-}
-
 }  // namespace
 
 MeshEnd::MeshEnd(const UdpMeshSettings& settings, std::vector<UdpPeer> peers)
@@ -112,7 +96,8 @@ std::vector<std::string> MeshEnd::explain(std::uint32_t peer) const {
   if (const auto& d = status.difference)
     lines.push_back(d->key + " is " + show(d->here) + " here and " + show(d->there) +
                     " there; make it the same");
-  if (status.refused) lines.push_back(std::string("it refuses us: ") + describe(*status.refused));
+  if (status.refused)
+    lines.push_back(std::string("it refuses us: ") + tandem::explain(*status.refused));
   return lines;
 }
 

@@ -297,4 +297,20 @@ const char* name(PeerPhase phase) noexcept {
   return "";
 }
 
+const char* explain(RefuseCode code) noexcept {
+  switch (code) {
+    case RefuseCode::kVersion:
+      return "it speaks another version; install the same release on both sides";
+    case RefuseCode::kUnknownPeer:
+      return "it does not expect this site; compare the ids on both sides";
+    case RefuseCode::kCookie:
+      return "our datagrams reach it too late";
+    case RefuseCode::kKey:
+      return "it has another key; give both sides the same key file";
+    case RefuseCode::kBusy:
+      return "it is busy";
+  }
+  return "it says no reason";
+}
+
 }  // namespace tandem

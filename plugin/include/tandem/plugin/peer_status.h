@@ -23,6 +23,9 @@ enum class PeerPhase {
 
 [[nodiscard]] const char* name(PeerPhase phase) noexcept;
 
+/// Why a peer refuses, and what to do: "it has another key; give both sides the same key file".
+[[nodiscard]] const char* explain(RefuseCode code) noexcept;
+
 /// What a user may want to know of the connection to one peer.
 struct PeerStatus {
   PeerId peer{};
