@@ -1,4 +1,4 @@
-#include "raw_hid_client.h"
+#include "hid/raw_hid_client.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "force_recording.h"
+#include "simulated/force_recording.h"
 
 namespace tandem::falcon_detail {
 namespace {

@@ -28,7 +28,8 @@ def text_files(checkout):
         names[:] = sorted(name for name in names
                           if name not in SKIPPED_FOLDERS and here / name not in SKIPPED_TREES)
         for name in sorted(files):
-            yield here / name
+            if name not in SKIPPED_FOLDERS:  # in a linked work tree .git is a file
+                yield here / name
 
 
 def read_lines(path):

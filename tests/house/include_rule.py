@@ -5,8 +5,9 @@
                        +--------------------+--> coordination      (arrow: may include)
                        +--> falcon ---------+          tests --> everything
 
-An adaptor (plugin/adaptors) brings a site into a host that does not know of it: what it may use is wider
-than plugin's, and nobody includes it but tests.
+A library may include private headers of those it may use, by their path from the checkout. Programs and
+adaptors may not. An adaptor (plugin/doors/pybullet, plugin/doors/preload) brings a site into a host that does
+not know of it: it may use more than plugin/, and only tests include it.
 
 Usage: include_rule.py CHECKOUT     Ends with 1 when a line breaks a rule.
 """
@@ -18,7 +19,8 @@ from pathlib import Path
 
 LIBRARIES = ("coordination", "bullet_bridge", "falcon", "plugin")
 FOLDERS = LIBRARIES + ("demos", "tests")
-ADAPTORS = "plugin/adaptors"
+ADAPTORS = "plugin/doors/"   # a rule for all doors but the C door, which is part of plugin's library
+C_DOOR = "plugin/doors/c/"
 SUFFIXES = {".h", ".cpp", ".in"}
 
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token",
@@ -92,7 +94,8 @@ class Break:
 
 def folder_of(file):
     """The folder whose rule a file of the checkout goes by."""
-    return ADAPTORS if file.as_posix().startswith(ADAPTORS + "/") else file.parts[0]
+    name = file.as_posix()
+    return ADAPTORS if name.startswith(ADAPTORS) and not name.startswith(C_DOOR) else file.parts[0]
 
 
 def dependency_of(header):
@@ -164,12 +167,18 @@ class House:
         if owner == "tests":
             return f"{folder}/ may not include tests/"
         if owner in ("demos", ADAPTORS):
-            return f"nothing but tests/ includes {owner}/"
-        return f"{owner}'s private header: other folders see include/tandem/{owner} only"
+            return f"nothing but tests/ includes {owner.rstrip('/')}/"
+        if folder not in LIBRARIES:
+            return f"{owner}'s private header: {folder.rstrip('/')}/ sees include/tandem/{owner} only"
+        if owner not in RULES[folder].libraries:
+            return f"{folder}/ may not include {owner}/"
+        if not header.startswith(f"{owner}/src/"):
+            return f'a private header of {owner}/ is included as "{owner}/src/..."'
+        return None
 
     def find_private(self, path, folder, header):
         """The file behind a quoted include: beside the includer, in the folder's sources, then anywhere."""
-        places = [path.parent, self.checkout / folder / "src", self.checkout / folder]
+        places = [path.parent, self.checkout, self.checkout / folder / "src", self.checkout / folder]
         places += [self.checkout / other / "src" for other in FOLDERS] + [self.checkout / ADAPTORS]
         for place in places:
             target = (place / header).resolve()

@@ -113,18 +113,32 @@ class IncludeRuleTest(unittest.TestCase):
         self.assertEqual(breaks_of({"tests/unit/a.cpp": '#include "scenario.h"\n', **demo}), [])
 
     def test_adaptors_may_read_bullet_and_files_but_no_private_headers(self):
-        adaptor = "plugin/adaptors/preload/a.cpp"
+        adaptor = "plugin/doors/preload/a.cpp"
         for include in ("<toml++/toml.h>", "<BulletDynamics/Dynamics/btRigidBody.h>", '"tandem/plugin/plugin.h"',
                         '"tandem/falcon/falcon.h"'):
             self.assert_kept(adaptor, include)
         self.assert_broken("plugin/src/a.cpp", "<toml++/toml.h>", "may not use toml++")
-        self.assert_kept(adaptor, '"preload/inner/b.h"', **{"plugin/adaptors/preload/inner/b.h": ""})
-        self.assert_kept("tests/a.cpp", '"preload/inner/b.h"', **{"plugin/adaptors/preload/inner/b.h": ""})
+        self.assert_kept(adaptor, '"preload/inner/b.h"', **{"plugin/doors/preload/inner/b.h": ""})
+        self.assert_kept("tests/a.cpp", '"preload/inner/b.h"', **{"plugin/doors/preload/inner/b.h": ""})
         self.assert_broken(adaptor, "<fmt/format.h>", "may not use fmt")
         found = breaks_of({adaptor: '#include "site_impl.h"\n', "plugin/src/site_impl.h": ""})
         self.assertIn("plugin's private header", found[0].rule)
-        found = breaks_of({"plugin/src/a.cpp": '#include "../adaptors/b.h"\n', "plugin/adaptors/b.h": ""})
-        self.assertIn("nothing but tests/ includes plugin/adaptors/", found[0].rule)
+        found = breaks_of({"plugin/src/a.cpp": '#include "preload/b.h"\n', "plugin/doors/preload/b.h": ""})
+        self.assertIn("nothing but tests/ includes plugin/doors", found[0].rule)
+
+    def test_the_c_door_is_part_of_the_plugin(self):
+        inner = {"plugin/src/live/b.h": "", "plugin/doors/c/d.h": ""}
+        self.assertEqual(breaks_of({"plugin/doors/c/a.cpp": '#include "live/b.h"\n#include "c/d.h"\n', **inner}), [])
+
+    def test_libraries_reach_into_those_below_by_full_path(self):
+        inner = {"bullet_bridge/src/b.h": "", "plugin/src/c.h": ""}
+        self.assertEqual(breaks_of({"plugin/src/a.cpp": '#include "bullet_bridge/src/b.h"\n', **inner}), [])
+        found = breaks_of({"plugin/src/a.cpp": '#include "b.h"\n', **inner})
+        self.assertIn('is included as "bullet_bridge/src/..."', found[0].rule)
+        found = breaks_of({"falcon/src/a.cpp": '#include "plugin/src/c.h"\n', **inner})
+        self.assertIn("falcon/ may not include plugin/", found[0].rule)
+        found = breaks_of({"plugin/doors/preload/a.cpp": '#include "plugin/src/c.h"\n', **inner})
+        self.assertIn("plugin's private header", found[0].rule)
 
     def test_headers_that_are_not_there(self):
         self.assert_broken("plugin/src/a.cpp", '"nowhere.h"', "no such header")

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../plugin/adaptors/pybullet/session.h"
+#include "plugin/doors/pybullet/session.h"
 #include "stub_engine.h"
 
 namespace tandem::test {

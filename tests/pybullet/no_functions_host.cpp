@@ -5,7 +5,7 @@
 
 #include <dlfcn.h>
 
-#include "../plugin/adaptors/pybullet/b3_abi.h"
+#include "plugin/doors/pybullet/b3_abi.h"
 
 int main() {
   void* const module = dlopen(TANDEM_PYBULLET_PLUGIN, RTLD_NOW | RTLD_LOCAL);

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "../plugin/adaptors/pybullet/gyroscope.h"
-#include "../plugin/adaptors/pybullet/packet_doubles.h"
-#include "../plugin/adaptors/pybullet/refusal.h"
-#include "../plugin/adaptors/pybullet/words.h"
+#include "plugin/doors/pybullet/gyroscope.h"
+#include "plugin/doors/pybullet/packet_doubles.h"
+#include "plugin/doors/pybullet/refusal.h"
+#include "plugin/doors/pybullet/words.h"
 #include "support/random.h"
 
 namespace tandem::pybullet {

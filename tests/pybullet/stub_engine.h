@@ -7,7 +7,7 @@
 
 #include "tandem/coordination/types.h"
 
-#include "../plugin/adaptors/pybullet/b3_abi.h"
+#include "plugin/doors/pybullet/b3_abi.h"
 
 namespace tandem::test {
 

@@ -1,4 +1,4 @@
-#include "island_desk.h"
+#include "live/island_desk.h"
 
 #include <atomic>
 #include <thread>

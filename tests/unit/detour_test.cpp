@@ -1,5 +1,5 @@
 // A private header of the plugin: the way back of an object's target.
-#include "../../plugin/src/detour.h"
+#include "plugin/src/site/detour.h"
 
 #include <gtest/gtest.h>
 

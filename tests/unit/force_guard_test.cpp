@@ -1,5 +1,5 @@
 // A private header of the plugin: the last hand on the force.
-#include "../../plugin/src/force_guard.h"
+#include "plugin/src/site/force_guard.h"
 
 #include <cmath>
 #include <limits>

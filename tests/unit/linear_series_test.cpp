@@ -1,12 +1,12 @@
 // Private headers of coordination: both ways to move coupled degrees of freedom exactly.
-#include "../../coordination/src/linear_series.h"
+#include "coordination/src/island/linear_series.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "../../coordination/src/linear_map.h"
+#include "coordination/src/island/linear_map.h"
 #include "support/random.h"
 
 namespace tandem {

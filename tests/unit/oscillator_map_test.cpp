@@ -1,5 +1,5 @@
 // A private header of coordination: the map that everything alone moves by.
-#include "../../coordination/src/oscillator_map.h"
+#include "coordination/src/island/oscillator_map.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // A private header of the plugin: where a remote user counts as being.
-#include "../../plugin/src/user_track.h"
+#include "plugin/src/site/user_track.h"
 
 #include <gtest/gtest.h>
 

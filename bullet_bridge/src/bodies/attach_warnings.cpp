@@ -1,0 +1,98 @@
+#include "bodies/attach_warnings.h"
+
+#include <sstream>
+
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+
+namespace tandem {
+namespace {
+
+/// Above this part of a shape's smallest half extent, a margin shows: a body rests that much too
+/// high.
+constexpr btScalar kLargeMargin = btScalar(0.1);
+
+/// Shapes around which Bullet lays the margin as an extra skin; it takes the others' margin from
+/// inside.
+bool hasMarginOutside(const btCollisionShape& shape) {
+  switch (shape.getShapeType()) {
+    case CONVEX_HULL_SHAPE_PROXYTYPE:
+    case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE:
+    case CONVEX_POINT_CLOUD_SHAPE_PROXYTYPE:
+    case TETRAHEDRAL_SHAPE_PROXYTYPE:
+    case TRIANGLE_SHAPE_PROXYTYPE:
+    case GIMPACT_SHAPE_PROXYTYPE:
+      return true;
+    default:
+      return false;
+  }
+}
+
+btScalar computeSmallestHalfExtent(const btCollisionShape& shape) {
+  btVector3 low, high;
+  shape.getAabb(btTransform::getIdentity(), low, high);
+  const btVector3 half = (high - low) * btScalar(0.5);
+  return half[half.minAxis()];
+}
+
+void warnOfMargin(const btCollisionShape& shape, std::vector<std::string>& warnings) {
+  if (shape.isCompound()) {
+    const auto& compound = static_cast<const btCompoundShape&>(shape);
+    for (int i = 0; i < compound.getNumChildShapes(); ++i) {
+      warnOfMargin(*compound.getChildShape(i), warnings);
+    }
+    return;
+  }
+  if (!hasMarginOutside(shape)) return;
+  const btScalar margin = shape.getMargin();
+  const btScalar bare = computeSmallestHalfExtent(shape) - margin;
+  if (margin <= kLargeMargin * bare) return;
+  std::ostringstream line;
+  line << "collision margin " << margin << " m is large for a " << shape.getName()
+       << " whose smallest half extent is " << bare
+       << " m: it rests that far above what it stands on; set a margin of "
+       << kLargeMargin * btScalar(0.5) * bare << " m or less";
+  warnings.push_back(line.str());
+}
+
+}  // namespace
+
+bool hasAdditionalDamping(btRigidBody& body) {
+  const btVector3 linear = body.getLinearVelocity();
+  const btVector3 angular = body.getAngularVelocity();
+  const btVector3 slow(btScalar(1e-3), 0, 0);
+  body.setLinearVelocity(slow);
+  body.setAngularVelocity(slow);
+  body.applyDamping(btScalar(1));
+  const bool damped = body.getLinearVelocity().x() != slow.x();
+  body.setLinearVelocity(linear);
+  body.setAngularVelocity(angular);
+  return damped;
+}
+
+std::vector<std::string> describeSurprises(const btRigidBody& body, btScalar linear_damping,
+                                           btScalar angular_damping, bool has_additional_damping) {
+  std::vector<std::string> warnings;
+  if (linear_damping != btScalar(0) || angular_damping != btScalar(0)) {
+    std::ostringstream line;
+    line << "built-in damping (linear " << linear_damping << ", angular " << angular_damping
+         << ") is off while attached; give the island's body a damping in N s/m instead";
+    warnings.push_back(line.str());
+  }
+  if (has_additional_damping) {
+    warnings.emplace_back(
+        "additional damping cannot be switched off: native contacts see the body slower than it is "
+        "below "
+        "0.1 m/s; build the body without m_additionalDamping");
+  }
+  warnOfMargin(*body.getCollisionShape(), warnings);
+  if ((body.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING) != 0) {
+    std::ostringstream line;
+    line << "native contact stiffness " << body.getContactStiffness()
+         << " N/m per contact point and damping " << body.getContactDamping()
+         << " N s/m are not used by the island, whose contacts have their own gains";
+    warnings.push_back(line.str());
+  }
+  return warnings;
+}
+
+}  // namespace tandem

@@ -1,0 +1,395 @@
+#include "tandem/bullet_bridge/haptic_body.h"
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+#include "tandem/bullet_bridge/convert.h"
+#include "tandem/bullet_bridge/world_access.h"
+
+#include "bodies/attach_warnings.h"
+#include "bodies/mass_restore.h"
+#include "bodies/rotation_vector.h"
+#include "world/world_lookup.h"
+
+// One step of the host in hand-off mode, x over time:
+//
+//   pre-tick            Bullet's step                post-tick
+//   x0 known     ─► v_avg = (end - x0) / dt ─►   pose and velocity := end
+//
+// Bullet adds its accumulated forces to the velocity we give it before it moves the body, so they
+// are taken off beforehand. What its velocity differs by afterwards came from its solver: contact
+// with neighbours.
+
+namespace tandem {
+namespace {
+
+/// What counts as standing: a thousandth of what hand-off promises [m, rad], [m/s, rad/s].
+constexpr double kSamePlace = 1e-12;
+constexpr double kSlow = 1e-9;
+
+constexpr int kGyroscopicFlags = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT |
+                                 BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
+                                 BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+
+bool equalBits(const btVector3& a, const btVector3& b) {
+  return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
+}
+
+bool equalBits(const btTransform& a, const btTransform& b) {
+  const btMatrix3x3 &m = a.getBasis(), &n = b.getBasis();
+  return equalBits(a.getOrigin(), b.getOrigin()) && equalBits(m[0], n[0]) &&
+         equalBits(m[1], n[1]) && equalBits(m[2], n[2]);
+}
+
+bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
+
+/// Without a branch for each number.
+template <typename... Vectors>
+bool areZero(const Vectors&... vectors) {
+  btScalar sum = 0;
+  ((sum += std::abs(vectors.x()) + std::abs(vectors.y()) + std::abs(vectors.z())), ...);
+  return sum == 0;
+}
+
+/// All bytes of it: quick, and never true of different ones. Minus zero differs from zero.
+template <typename Value>
+bool isSame(const Value& a, const Value& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// A body that sleeps in Bullet is not woken for less than this [m], at its middle and its surface.
+constexpr double kTooLittleToWake = 5e-5;
+/// One that moves faster than this is not tired [m/s].
+constexpr double kTiredSpeed = 1e-4;
+
+bool isFinite(const HostChange& change) {
+  return change.f_W.allFinite() && change.t_W.allFinite() && change.impulse_W.allFinite() &&
+         change.angular_impulse_W.allFinite() && change.offset_W.allFinite() &&
+         change.rotation_W.coeffs().allFinite();
+}
+
+void checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& body,
+                     double mass_share) {
+  std::ostringstream message;
+  if (findInWorld(world, &body) < 0) {
+    message << "the body is not in this Bullet world; call addRigidBody() before attaching it";
+  } else if (body.isStaticOrKinematicObject()) {
+    message << "the body is " << (body.isStaticObject() ? "static" : "kinematic")
+            << "; only a dynamic body can be moved by forces: give it a mass and clear that "
+               "collision flag";
+  } else if (!(body.getInvMass() > 0)) {
+    message << "the body has no mass; set one with setMassProps()";
+  } else if (!(mass_share > 0.0 && mass_share <= 1.0)) {
+    message << "mass share " << mass_share << " is not in (0, 1]; use 1/N for an object of N peers";
+  } else {
+    return;
+  }
+  throw Error(message.str());
+}
+
+}  // namespace
+
+HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double mass_share,
+                       Sleep sleep)
+    : world_(world), body_(body), sleep_(sleep), world_index_(findInWorld(world, &body)) {
+  checkAttachable(world, body, mass_share);
+  original_ = {body.getInvMass(),          body.getInvInertiaDiagLocal(), measureWeight(body),
+               body.getLinearDamping(),    body.getAngularDamping(),      body.getActivationState(),
+               body.getDeactivationTime(), body.getWorldTransform()};
+  body.setDamping(0, 0);
+  has_additional_damping_ = hasAdditionalDamping(body);
+  warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
+                                has_additional_damping_);
+  if (sleep_ == Sleep::kNever) body.forceActivationState(DISABLE_DEACTIVATION);
+  if (mass_share != 1.0) scaleMass(mass_share);
+  inverse_mass_ = body.getInvMass();
+  inverse_inertia_ = body.getInvInertiaDiagLocal();
+  // Weight computed in one known way, so that takeHostChanges() can tell it from the host's forces
+  // to the bit.
+  body.setGravity(body.getGravity());
+  remember();
+}
+
+HapticBody::~HapticBody() {
+  if (!isInWorld()) return;
+  if (handed_.pending) body_.setFlags(handed_.flags);
+  if (sleep_ == Sleep::kAsHost) takeDamping();
+  body_.setDamping(original_.linear_damping, original_.angular_damping);
+  if (hasItsMass())
+    restoreMass(body_, original_.inverse_mass, original_.inverse_inertia, original_.weight);
+  if (sleep_ == Sleep::kNever) restoreActivation();
+}
+
+bool HapticBody::hasItsMass() const noexcept {
+  return body_.getInvMass() == inverse_mass_ &&
+         equalBits(body_.getInvInertiaDiagLocal(), inverse_inertia_);
+}
+
+/// The host may set another damping while we have it off.
+void HapticBody::takeDamping() noexcept {
+  if (body_.getLinearDamping() != 0) original_.linear_damping = body_.getLinearDamping();
+  if (body_.getAngularDamping() != 0) original_.angular_damping = body_.getAngularDamping();
+  body_.setDamping(0, 0);
+}
+
+double HapticBody::linearDamping() const noexcept {
+  return static_cast<double>(original_.linear_damping);
+}
+double HapticBody::angularDamping() const noexcept {
+  return static_cast<double>(original_.angular_damping);
+}
+
+void HapticBody::scaleMass(double share) {
+  const auto factor = static_cast<btScalar>(share);
+  body_.setMassProps(body_.getMass() * factor, body_.getLocalInertia() * factor);
+  body_.updateInertiaTensor();
+}
+
+void HapticBody::restoreActivation() {
+  const bool slept = original_.activation_state == ISLAND_SLEEPING ||
+                     original_.activation_state == WANTS_DEACTIVATION;
+  const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
+  // A body put back to sleep in mid-air would hang there.
+  body_.forceActivationState(slept && !untouched ? ACTIVE_TAG : original_.activation_state);
+  body_.setDeactivationTime(slept && !untouched ? 0 : original_.deactivation_time);
+}
+
+bool HapticBody::isInWorld() const noexcept {
+  world_index_ = findInWorld(world_, &body_, world_index_);
+  return world_index_ >= 0;
+}
+
+double HapticBody::mass() const noexcept { return 1.0 / static_cast<double>(body_.getInvMass()); }
+
+Vec3 HapticBody::inertia() const noexcept { return fromBullet(body_.getLocalInertia()); }
+
+Vec3 HapticBody::gravityForce() const noexcept {
+  return fromBullet(body_.getGravity() * (btScalar(1) / body_.getInvMass()) *
+                    body_.getLinearFactor());
+}
+
+RigidState HapticBody::state() const noexcept { return readState(body_); }
+
+bool HapticBody::hasLeftItsRest(const RigidState& at) const noexcept {
+  btVector3 middle;
+  btScalar radius = 0;
+  body_.getCollisionShape()->getBoundingSphere(middle, radius);
+  const Vec3 turn_W = computeRotationVector(rest_.q_WB, at.q_WB);
+  return (at.p_W - rest_.p_W).norm() > kTooLittleToWake ||
+         static_cast<double>(radius) * turn_W.norm() > kTooLittleToWake;
+}
+
+/// Bullet gives awake bodies their weight at the start of stepSimulation(). One that woke between
+/// its sub-steps has none yet.
+void HapticBody::replaceMissingWeight() noexcept {
+  const bool woke = slept_ && !isAsleep();
+  if (isAsleep() && !slept_) rest_ = state();
+  slept_ = isAsleep();
+  if (woke && body_.getTotalForce().isZero()) body_.applyGravity();
+}
+
+Vec3 HapticBody::computeAngularMomentum(const Quat& q_WB, const Vec3& w_W) const noexcept {
+  const Vec3 w_B = q_WB.conjugate() * w_W;
+  return q_WB * inertia().cwiseProduct(w_B);
+}
+
+HostChange HapticBody::takeHostChanges(double dt) noexcept {
+  HostChange change;
+  if (!isInWorld()) return change;
+  if (sleep_ == Sleep::kAsHost) takeDamping();
+  replaceMissingWeight();
+  const RigidState now = state();
+  const bool asleep = isAsleep();
+  if (!asleep) {
+    change.f_W = fromBullet(body_.getTotalForce()) - gravityForce();
+    change.t_W = fromBullet(body_.getTotalTorque());
+    change.impulse_W = change.f_W * dt + (now.v_W - fromBullet(known_v_)) * mass();
+    change.angular_impulse_W =
+        change.t_W * dt + computeAngularMomentum(now.q_WB, now.w_W - fromBullet(known_w_));
+  }
+  if (!equalBits(body_.getWorldTransform(), known_pose_)) {
+    change.moved = true;
+    change.offset_W = now.p_W - fromBullet(known_pose_.getOrigin());
+    change.rotation_W = now.q_WB * fromBullet(known_pose_.getRotation()).conjugate();
+  }
+  if (asleep) {
+    known_pose_ = body_.getWorldTransform();
+    if (change.moved) rest_ = now;
+  } else {
+    remember();
+  }
+  return isFinite(change) ? change : HostChange{};
+}
+
+void HapticBody::handOff(const RigidState& end, double dt) noexcept {
+  if (!isInWorld() || !(dt > 0.0)) return;
+  handed_.asleep = isAsleep() && !hasLeftItsRest(end);
+  if (isAsleep() && !handed_.asleep) {
+    body_.activate(true);
+    replaceMissingWeight();
+  }
+  const RigidState start = state();
+  if (!handed_.pending) handed_.flags = body_.getFlags();
+  handed_.end = end;
+  handed_.q_WB_start = start.q_WB;
+  handed_.pending = true;
+  if (handed_.asleep) {
+    handed_.expected_v = body_.getLinearVelocity();
+    handed_.expected_w = body_.getAngularVelocity();
+    return;
+  }
+  body_.setFlags(handed_.flags & ~kGyroscopicFlags);
+
+  // In Bullet's own arithmetic, so that a free body comes out without a trace of an impulse.
+  const auto step = static_cast<btScalar>(dt);
+  const btVector3 by_force = body_.getTotalForce() * body_.getInvMass() * step;
+  const btVector3 by_torque = body_.getTotalTorque() * body_.getInvInertiaTensorWorld() * step;
+  const btVector3 v = toBullet(Vec3((end.p_W - start.p_W) / dt)) - by_force;
+  const btVector3 w = toBullet(Vec3(computeRotationVector(start.q_WB, end.q_WB) / dt)) - by_torque;
+  body_.setLinearVelocity(v);
+  body_.setAngularVelocity(w);
+  if (has_additional_damping_) body_.applyDamping(step);
+  handed_.expected_v = body_.getLinearVelocity() + by_force;
+  handed_.expected_w = body_.getAngularVelocity() + by_torque;
+  body_.setLinearVelocity(v);
+  body_.setAngularVelocity(w);
+}
+
+HostChange HapticBody::restore() noexcept {
+  HostChange change;
+  if (!handed_.pending || !isInWorld()) return change;
+  handed_.pending = false;
+  body_.setFlags(handed_.flags);
+  if (handed_.asleep && isAsleep()) {
+    body_.setCenterOfMassTransform(toBullet(handed_.end.p_W, handed_.end.q_WB));
+    known_pose_ = body_.getWorldTransform();
+    return change;
+  }
+  // That Bullet took the velocity of a body that it has put to sleep was no force.
+  if (!isAsleep()) {
+    change.impulse_W = fromBullet(body_.getLinearVelocity() - handed_.expected_v) * mass();
+    change.angular_impulse_W = computeAngularMomentum(
+        handed_.q_WB_start, fromBullet(body_.getAngularVelocity() - handed_.expected_w));
+  }
+  // Bullet calls a body slow, and soon tired, that a hand would not.
+  const double speed = handed_.end.v_W.norm() + fromBullet(handed_.expected_v).norm();
+  const double turning = handed_.end.w_W.norm() + fromBullet(handed_.expected_w).norm();
+  if (speed > kTiredSpeed || turning > kTiredSpeed) body_.setDeactivationTime(0);
+  setPoseAndVelocity(handed_.end);
+  return isFinite(change) ? change : HostChange{};
+}
+
+bool HapticBody::standsAt(const RigidState& state) const noexcept {
+  if (parked_ && sleep_ == Sleep::kAsHost) return !hasLeftItsRest(state);
+  const auto is_below = [](const auto& v, double limit) { return v.squaredNorm() < limit * limit; };
+  return is_below(state.p_W - handed_.end.p_W, kSamePlace) &&
+         is_below(state.q_WB.coeffs() - handed_.end.q_WB.coeffs(), kSamePlace) &&
+         is_below(state.v_W, kSlow) && is_below(state.w_W, kSlow);
+}
+
+void HapticBody::park() noexcept {
+  if (parked_ || !isInWorld()) return;
+  // Whether it may sleep there is Bullet's to say, for all that it touches.
+  if (sleep_ == Sleep::kAsHost && body_.isActive()) return;
+  parked_ = slept_ = true;
+  rest_ = handed_.end;
+  standStill();
+  known_gravity_ = body_.getGravity();
+  known_world_gravity_ = world_.getGravity();
+  body_.forceActivationState(ISLAND_SLEEPING);
+}
+
+bool HapticBody::isUndisturbed() const noexcept {
+  // A sleeping body has no weight among its forces.
+  return body_.getActivationState() == ISLAND_SLEEPING &&
+         areZero(body_.getTotalForce(), body_.getTotalTorque(), body_.getLinearVelocity(),
+                 body_.getAngularVelocity()) &&
+         isSame(body_.getGravity(), known_gravity_) &&
+         isSame(body_.getWorldTransform(), known_pose_);
+}
+
+bool HapticBody::hasMissedWorldGravity() const noexcept {
+  return hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_);
+}
+
+bool HapticBody::hasWorldGravity() const noexcept {
+  return (body_.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0;
+}
+
+void HapticBody::standStill() noexcept {
+  RigidState standing = handed_.end;
+  standing.v_W.setZero();
+  standing.w_W.setZero();
+  setPoseAndVelocity(standing);
+}
+
+void HapticBody::unpark() noexcept {
+  parked_ = false;
+  if (!isInWorld()) return;
+  // The world's new gravity goes to those that are awake then.
+  if (hasMissedWorldGravity()) body_.setGravity(world_.getGravity());
+  // Bullet gives weight to those that are awake when a stepSimulation() begins.
+  if (!body_.isActive()) body_.applyGravity();
+  keepAwake();
+}
+
+void HapticBody::keepAwake() noexcept {
+  body_.forceActivationState(sleep_ == Sleep::kNever ? DISABLE_DEACTIVATION : ACTIVE_TAG);
+  body_.setDeactivationTime(0);
+  slept_ = false;
+}
+
+bool HapticBody::sleepsOn() noexcept {
+  if (!body_.isActive()) return true;
+  // Bullet wakes whatever has something awake near it; that alone moves nothing.
+  if (!isZero(body_.getLinearVelocity()) || !isZero(body_.getAngularVelocity())) return false;
+  standStill();
+  body_.forceActivationState(ISLAND_SLEEPING);
+  return true;
+}
+
+bool HapticBody::wakeIfHit(HostChange& change) noexcept {
+  if (!parked_ || !isInWorld() || sleepsOn()) return false;
+  parked_ = false;
+  change = {};
+  change.impulse_W = fromBullet(body_.getLinearVelocity()) * mass();
+  change.angular_impulse_W =
+      computeAngularMomentum(handed_.end.q_WB, fromBullet(body_.getAngularVelocity()));
+  standStill();
+  keepAwake();
+  // For the sub-steps that may follow in this stepSimulation(), which forgets it at its end.
+  body_.applyGravity();
+  if (!isFinite(change)) change = {};
+  return true;
+}
+
+void HapticBody::applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexcept {
+  if (!isInWorld()) return;
+  body_.applyCentralImpulse(toBullet(Vec3(f_W * dt)));
+  body_.applyTorqueImpulse(toBullet(Vec3(t_W * dt)));
+}
+
+void HapticBody::remember() noexcept {
+  if (!isInWorld()) return;
+  known_pose_ = body_.getWorldTransform();
+  known_v_ = body_.getLinearVelocity();
+  known_w_ = body_.getAngularVelocity();
+}
+
+void HapticBody::setState(const RigidState& state) noexcept {
+  if (isInWorld()) setPoseAndVelocity(state);
+}
+
+void HapticBody::setPoseAndVelocity(const RigidState& state) noexcept {
+  // Velocities first: setting the pose copies them to where the motion state is interpolated from.
+  body_.setLinearVelocity(toBullet(state.v_W));
+  body_.setAngularVelocity(toBullet(state.w_W));
+  body_.setCenterOfMassTransform(toBullet(state.p_W, state.q_WB));
+  remember();
+}
+
+}  // namespace tandem

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+
+#include "tandem/coordination/contact_finder.h"
+
+#include "surroundings/private_copies.h"
+
+namespace tandem {
+
+/// Bullet's narrowphase on private copies: pairs of a few bodies with each other and with what
+/// stands near them.
+///
+/// Two sides use it, which may be two threads. The host's side says who is there: addBody ...
+/// showSurfaces, then draw(). Nothing of it acts before commit(), which is the tick's side, and
+/// neither allocates nor looks at the host's world; what it replaces is freed by the next draw().
+class ContactSearch {
+ public:
+  /// Restitution acts from this approach speed on [m/s], as in the host's world.
+  explicit ContactSearch(double min_bounce_speed);
+  ~ContactSearch();
+  ContactSearch(const ContactSearch&) = delete;
+  ContactSearch& operator=(const ContactSearch&) = delete;
+
+  /// @name The host's side; may allocate.
+  /// @{
+  [[nodiscard]] const Vec3& origin() const noexcept { return wanted_origin_W_; }
+  /// All copies go along: bodies to `states`, standing ones by placeStanding().
+  void setOrigin(const Vec3& origin_W, const std::vector<RigidState>& states);
+
+  [[nodiscard]] const std::vector<std::unique_ptr<PrivateCopy>>& standing() const {
+    return standing_;
+  }
+  [[nodiscard]] const std::vector<std::unique_ptr<PrivateCopy>>& bodies() const { return bodies_; }
+
+  /// Each makes pairs with all copies that `meets` says.
+  template <typename Meets>
+  void addBody(BodyIndex index, btCollisionObject& original, Meets meets) {
+    auto copy = std::make_unique<PrivateCopy>(original, index);
+    for (const auto& body : bodies_)
+      if (meets(*copy, *body)) addPair(*copy, *body);
+    for (const auto& object : standing_)
+      if (meets(*copy, *object)) addPair(*copy, *object);
+    bodies_.push_back(std::move(copy));
+    is_changed_ = true;
+  }
+  template <typename Meets>
+  void addStanding(btCollisionObject& original, Meets meets) {
+    auto copy = std::make_unique<PrivateCopy>(original, kStanding);
+    copy->place(copy->findOriginal(wanted_origin_W_));
+    for (const auto& body : bodies_)
+      if (meets(*body, *copy)) addPair(*body, *copy);
+    standing_.push_back(std::move(copy));
+    is_changed_ = true;
+  }
+  /// Puts a standing copy where its original is. Returns whether that moves it.
+  bool placeStanding(PrivateCopy& copy);
+  /// Calls `visit` with its copy and that of each partner it was paired with.
+  template <typename Visit>
+  void remove(const btCollisionObject* original, Visit visit) {
+    for (const Link& link : links_) {
+      if (link.a->original == original) visit(*link.a, *link.b);
+      if (link.b->original == original) visit(*link.b, *link.a);
+    }
+    erase(original);
+  }
+  /// Friction and restitution as the originals have them now, all in the world.
+  void showSurfaces();
+  /// Ends a change.
+  void draw();
+  /// @}
+
+  /// @name The tick's side; real-time safe.
+  /// @{
+  /// What was drawn last is so from now on.
+  void commit() noexcept;
+  void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
+                  std::vector<char>& awake, std::vector<char>& near) noexcept;
+  void find(const std::vector<RigidState>& states, std::vector<RigidContact>& contacts) noexcept;
+  /// Pairs handed to Bullet's narrowphase so far.
+  [[nodiscard]] std::uint64_t searches() const noexcept { return searches_; }
+  /// @}
+
+ private:
+  /// Two copies that may touch, as the host's side knows them.
+  struct Link {
+    PrivateCopy* a;     ///< a body
+    PrivateCopy* b;     ///< a body or standing
+    std::size_t place;  ///< of its pair in the book of now; kNowhere: in none
+  };
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+  struct Pair {
+    PrivateCopy* a;
+    PrivateCopy* b;
+    btCollisionAlgorithm* algorithm = nullptr;
+    bool near = false;
+  };
+  /// What the tick goes by.
+  struct Book {
+    std::vector<Pair> pairs;
+    std::vector<PrivateCopy*> copy_of;               ///< by body; null: not held
+    std::vector<std::vector<std::size_t>> pairs_of;  ///< by body: places in pairs
+    std::vector<std::size_t> near, were_near;        ///< the same of near pairs, ascending
+    std::vector<BodyIndex> awake;                    ///< in the last lookAround()
+  };
+  /// With room for all its manifolds from the start.
+  struct Dispatcher final : btCollisionDispatcher {
+    Dispatcher(btCollisionConfiguration* configuration, int room)
+        : btCollisionDispatcher(configuration) {
+      m_manifoldsPtr.reserve(room);
+    }
+  };
+  struct Placing {
+    PrivateCopy* copy;
+    btTransform pose;
+  };
+  struct Surfacing {
+    PrivateCopy* copy;
+    Surface surface;
+  };
+
+  void addPair(PrivateCopy& a, PrivateCopy& b) { links_.push_back({&a, &b, kNowhere}); }
+  void sortLinks();
+  void fillDraft();
+  void erase(const btCollisionObject* original);
+  void place(BodyIndex body, const RigidState& state) noexcept;
+  template <typename Visit>
+  void forEachPairOf(BodyIndex body, Visit visit);
+  void release(Pair& pair) noexcept;
+  void search(Pair& pair, std::vector<RigidContact>& contacts) noexcept;
+  void slideAlong(const Pair& pair) noexcept;
+  [[nodiscard]] bool overlaps(const Pair& pair, const Region& a, const Region& b) const noexcept;
+
+  btDefaultCollisionConfiguration configuration_;
+  Dispatcher dispatcher_;
+  btDispatcherInfo dispatch_;
+  double min_bounce_speed_;
+
+  // The host's side.
+  std::vector<std::unique_ptr<PrivateCopy>> bodies_, standing_;
+  std::vector<std::unique_ptr<PrivateCopy>> removed_;  ///< since the last draw()
+  std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< the book of now has them, the next not
+  std::vector<Link> links_;
+  Vec3 wanted_origin_W_ = Vec3::Zero();
+  bool is_changed_ = false;  ///< since the last draw()
+
+  // Drawn, and taken by commit().
+  Book draft_;
+  bool is_drawn_ = false;
+  std::vector<Placing> placings_;
+  std::vector<Surfacing> surfacings_;
+  std::vector<RigidState> moved_states_;  ///< of bodies, after a change of origin; else empty
+
+  // The tick's side.
+  Book book_;
+  Vec3 origin_W_ = Vec3::Zero();
+  btManifoldArray manifolds_;  // work space
+  std::uint64_t searches_ = 0;
+};
+
+}  // namespace tandem

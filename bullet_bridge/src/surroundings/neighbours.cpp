@@ -1,0 +1,141 @@
+#include "tandem/bullet_bridge/neighbours.h"
+
+#include <algorithm>
+
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "tandem/bullet_bridge/convert.h"
+
+#include "surroundings/regions.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kMargin = 2e-3;        // [m]
+constexpr double kAcceleration = 20.0;  // [m/s^2]
+constexpr double kSafety = 1.5;
+/// Held bodies stay up to this many D.
+constexpr double kHysteresis = 1.5;
+/// Who flies faster than this at a body at rest is seen later than D says [m/s].
+constexpr double kFastestComer = 3.0;
+
+double computeDistance(double speed, double horizon) {
+  return kMargin + 0.5 * kAcceleration * horizon * horizon + kSafety * speed * horizon;
+}
+
+double computeGap(const NeighbourSeed& a, const NeighbourSeed& b) {
+  const Vec3 apart = (a.low_W - b.high_W).cwiseMax(b.low_W - a.high_W).cwiseMax(0.0);
+  return apart.norm();
+}
+
+NeighbourSeed makeSeed(const btRigidBody& body) {
+  const Region box = computeRegion(*body.getCollisionShape(), body.getWorldTransform());
+  return {fromBullet(box.low), fromBullet(box.high), fromBullet(body.getLinearVelocity())};
+}
+
+/// Fastest that turning moves any point of it [m/s].
+double computeTurningSpeed(const btRigidBody& body, const NeighbourSeed& seed) {
+  return fromBullet(body.getAngularVelocity()).norm() * 0.5 * (seed.high_W - seed.low_W).norm();
+}
+
+template <typename Visit>
+class Visitor final : public btBroadphaseAabbCallback {
+ public:
+  explicit Visitor(Visit visit) : visit_(visit) {}
+  bool process(const btBroadphaseProxy* proxy) override {
+    visit_(static_cast<btCollisionObject*>(proxy->m_clientObject));
+    return true;
+  }
+
+ private:
+  Visit visit_;
+};
+
+template <typename Body>
+bool contains(const std::vector<Body*>& bodies, const btRigidBody* body) {
+  return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+}
+
+}  // namespace
+
+NeighbourSearch::NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity)
+    : host_(host), capacity_(capacity) {}
+
+const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<NeighbourSeed>& seeds,
+                                                       double horizon) {
+  held_.swap(found_);
+  found_.clear();
+  findJointed();
+  wave_ = seeds;
+  while (!wave_.empty() && found_.size() < capacity_) {
+    candidates_.clear();
+    for (const NeighbourSeed& seed : wave_) findAround(seed, horizon);
+    wave_.clear();
+    takeNearest();
+  }
+  return found_;
+}
+
+void NeighbourSearch::findAround(const NeighbourSeed& seed, double horizon) {
+  const double widest = kHysteresis * computeDistance(seed.v_W.norm() + kFastestComer, horizon);
+  const Vec3 skin = Vec3::Constant(widest);
+  Visitor visitor([&](btCollisionObject* object) {
+    btRigidBody* body = btRigidBody::upcast(object);
+    if (body == nullptr || !mayBeNeighbour(*body) || contains(found_, body)) return;
+    const NeighbourSeed other = makeSeed(*body);
+    const double speed = (seed.v_W - other.v_W).norm() + computeTurningSpeed(*body, other);
+    const double gap = computeGap(seed, other);
+    const double stay = contains(held_, body) ? kHysteresis : 1.0;
+    if (gap < stay * computeDistance(speed, horizon)) candidates_.push_back({body, gap});
+  });
+  host_.getBroadphase()->aabbTest(toBullet(Vec3(seed.low_W - skin)),
+                                  toBullet(Vec3(seed.high_W + skin)), visitor);
+}
+
+/// The next wave: each candidate once, nearest first, equal ones in the order in which the host
+/// added them.
+void NeighbourSearch::takeNearest() {
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.gap != b.gap) return a.gap < b.gap;
+    return a.body->getWorldArrayIndex() < b.body->getWorldArrayIndex();
+  });
+  for (const Candidate& candidate : candidates_) {
+    if (found_.size() == capacity_) return;
+    if (contains(found_, candidate.body)) continue;
+    found_.push_back(candidate.body);
+    // What the host moves by hand passes no push on.
+    if (!candidate.body->isKinematicObject()) wave_.push_back(makeSeed(*candidate.body));
+  }
+}
+
+bool NeighbourSearch::isAnythingDriven() const {
+  const btCollisionObjectArray& objects = host_.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i)
+    if (objects[i]->isKinematicObject() && objects[i]->isActive()) return true;
+  return false;
+}
+
+/// A body counts its joints only if they keep its partner from touching it.
+void NeighbourSearch::findJointed() {
+  jointed_.clear();
+  for (int i = 0; i < host_.getNumConstraints(); ++i) {
+    jointed_.push_back(&host_.getConstraint(i)->getRigidBodyA());
+    jointed_.push_back(&host_.getConstraint(i)->getRigidBodyB());
+  }
+  std::sort(jointed_.begin(), jointed_.end());
+}
+
+bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
+  const btCollisionShape& shape = *body.getCollisionShape();
+  if (!body.hasContactResponse() || std::binary_search(excluded_.begin(), excluded_.end(), &body))
+    return false;
+  if (body.isKinematicObject()) return shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
+  return !body.isStaticObject() && body.getInvMass() > 0 &&
+         body.getActivationState() != DISABLE_SIMULATION &&
+         !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
+         (shape.isConvex() || shape.isCompound());
+}
+
+}  // namespace tandem

@@ -1,0 +1,280 @@
+#include "tandem/bullet_bridge/obstacles.h"
+
+#include <algorithm>
+#include <string>
+
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+#include "tandem/bullet_bridge/convert.h"
+#include "tandem/bullet_bridge/haptic_body.h"
+
+#include "surroundings/contact_search.h"
+#include "surroundings/known_shapes.h"
+#include "surroundings/obstacle_search.h"
+#include "world/world_lookup.h"
+
+namespace tandem {
+namespace {
+
+/// Beyond this distance from the first body the private origin follows it [m].
+constexpr double kOriginReach = 0.25;
+
+/// Whether the host lets the two touch, by groups, masks and ignored pairs.
+bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btCollisionObject& a,
+                   const btCollisionObject& b) {
+  auto* proxy_a = const_cast<btBroadphaseProxy*>(a.getBroadphaseHandle());
+  auto* proxy_b = const_cast<btBroadphaseProxy*>(b.getBroadphaseHandle());
+  if (proxy_a == nullptr || proxy_b == nullptr) return false;
+  return host.getPairCache()->needsBroadphaseCollision(proxy_a, proxy_b) &&
+         a.checkCollideWith(&b) && b.checkCollideWith(&a);
+}
+
+/// Which of two copies' originals remembers that native contact is off: what stands, else who came
+/// later.
+bool isKeeper(const PrivateCopy& copy, const PrivateCopy& other) {
+  return copy.index == kStanding || (other.index != kStanding && copy.index > other.index);
+}
+
+/// Filters whose keeper left the host's world are kept for its return, the latest of them.
+constexpr std::size_t kMostOrphans = 64;
+
+}  // namespace
+
+struct Obstacles::Impl {
+  struct Ball {
+    BodyIndex index;
+    btScalar radius;
+  };
+  /// A filter that could not be taken back: its keeper is not in the world. Addresses only.
+  struct Orphan {
+    btCollisionObject* keeper;
+    btCollisionObject* other;
+  };
+
+  explicit Impl(btDiscreteDynamicsWorld& world)
+      : host(world),
+        search(static_cast<double>(world.getSolverInfo().m_restitutionVelocityThreshold)) {}
+
+  [[nodiscard]] btCollisionObject* findBody(BodyIndex index) const;
+  void remove(btCollisionObject* original);
+  void unfilter(const PrivateCopy& keeper, const PrivateCopy& other);
+  void forgetOrphans();
+  void moveOrigin(const std::vector<RigidState>& states);
+  void findForBodies(const std::vector<RigidState>& states, btScalar margin,
+                     const std::vector<char>* moves);
+  void findForSpheres(const std::vector<RigidState>& states, btScalar margin);
+  void dropMissingBodies();
+  void dropLost();
+  void takeFound();
+  /// Pairs that the host lets touch are the island's from now on.
+  [[nodiscard]] auto takeOver() {
+    return [this](const PrivateCopy& a, const PrivateCopy& b) {
+      if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
+      // Of two that no force moves, neither can be pushed.
+      if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
+        return false;
+      if (!hostLetsTouch(host, *a.original, *b.original)) return false;
+      const bool a_keeps = isKeeper(a, b);
+      filterNativeContact(host, *(a_keeps ? a : b).original, *(a_keeps ? b : a).original, true);
+      return true;
+    };
+  }
+
+  btDiscreteDynamicsWorld& host;
+  ContactSearch search;
+  std::vector<Ball> balls;
+  std::vector<Obstacle> near_spheres, next_near_spheres;
+  bool has_next = false;  ///< of the two
+  KnownShapes known_shapes;
+  std::vector<Orphan> orphans;
+  bool changed = false;
+  // Work space of update().
+  std::vector<btCollisionObject*> found;
+  std::vector<Region> regions;
+};
+
+Obstacles::Obstacles(btDiscreteDynamicsWorld& host) : impl_(std::make_unique<Impl>(host)) {}
+
+Obstacles::~Obstacles() {
+  while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
+}
+
+void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
+  if (impl_->findBody(index) != nullptr)
+    throw Error("island body " + std::to_string(index) + " has a rigid body already; add it once");
+  if (index < 0 || body.isStaticObject())
+    throw Error("only a moving body with an index of its island can be held by obstacles");
+  const btCollisionShape& shape = *body.getCollisionShape();
+  const bool is_driven = body.isKinematicObject();
+  if (!shape.isConvex() && !shape.isCompound() &&
+      !(is_driven && shape.getShapeType() != STATIC_PLANE_PROXYTYPE))
+    throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
+                "; use a convex shape or a compound of them");
+  impl_->search.addBody(index, body, impl_->takeOver());
+  impl_->search.draw();
+}
+
+void Obstacles::removeBody(BodyIndex index) {
+  if (btCollisionObject* body = impl_->findBody(index)) impl_->remove(body);
+  impl_->search.draw();
+}
+
+void Obstacles::forgetWorld() {
+  while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
+  while (!impl_->search.standing().empty())
+    impl_->remove(impl_->search.standing().back()->original);
+  impl_->search.draw();
+  impl_->next_near_spheres.clear();
+  impl_->has_next = true;
+}
+
+void Obstacles::addSphere(BodyIndex index, double radius) {
+  impl_->balls.push_back({index, static_cast<btScalar>(radius)});
+}
+
+bool Obstacles::search(const std::vector<RigidState>& states, double margin,
+                       const std::vector<char>* moves) {
+  const auto reach = static_cast<btScalar>(margin);
+  impl_->changed = false;
+  impl_->dropMissingBodies();
+  impl_->forgetOrphans();
+  impl_->moveOrigin(states);
+  impl_->findForBodies(states, reach, moves);
+  impl_->dropLost();
+  impl_->takeFound();
+  impl_->search.showSurfaces();
+  impl_->search.draw();
+  impl_->findForSpheres(states, reach);
+  return impl_->changed;
+}
+
+void Obstacles::commit() noexcept {
+  impl_->search.commit();
+  if (impl_->has_next) impl_->near_spheres.swap(impl_->next_near_spheres);
+  impl_->has_next = false;
+}
+
+const std::vector<Obstacle>& Obstacles::nearSpheres() const noexcept { return impl_->near_spheres; }
+
+void Obstacles::lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
+                           std::vector<char>& awake, std::vector<char>& near) noexcept {
+  impl_->search.lookAround(states, reach, awake, near);
+}
+
+void Obstacles::find(const std::vector<RigidState>& states,
+                     std::vector<RigidContact>& contacts) noexcept {
+  impl_->search.find(states, contacts);
+}
+
+std::uint64_t Obstacles::searches() const noexcept { return impl_->search.searches(); }
+
+btCollisionObject* Obstacles::Impl::findBody(BodyIndex index) const {
+  for (const auto& body : search.bodies())
+    if (body->index == index) return body->original;
+  return nullptr;
+}
+
+void Obstacles::Impl::remove(btCollisionObject* original) {
+  changed = true;
+  search.remove(original, [&](const PrivateCopy& removed, const PrivateCopy& partner) {
+    const bool it_keeps = isKeeper(removed, partner);
+    unfilter(it_keeps ? removed : partner, it_keeps ? partner : removed);
+  });
+}
+
+/// Gives native contact back. Either may have left the host's world, and be deleted.
+void Obstacles::Impl::unfilter(const PrivateCopy& keeper, const PrivateCopy& other) {
+  if (findInWorld(host, keeper.original) < 0) {
+    if (orphans.size() == kMostOrphans) orphans.erase(orphans.begin());
+    orphans.push_back({keeper.original, other.original});
+  } else if (findInWorld(host, other.original) < 0) {
+    keeper.original->setIgnoreCollisionCheck(other.original, false);
+  } else {
+    filterNativeContact(host, *keeper.original, *other.original, false);
+  }
+}
+
+/// Who is back in the world still remembers what was filtered when it left.
+void Obstacles::Impl::forgetOrphans() {
+  std::erase_if(orphans, [&](const Orphan& orphan) {
+    if (findInWorld(host, orphan.keeper) < 0) return false;
+    orphan.keeper->setIgnoreCollisionCheck(orphan.other, false);
+    return true;
+  });
+}
+
+void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {
+  if (search.bodies().empty()) return;
+  const Vec3& p_W = states[static_cast<std::size_t>(search.bodies().front()->index)].p_W;
+  if ((p_W - search.origin()).norm() > kOriginReach) search.setOrigin(p_W, states);
+}
+
+void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btScalar margin,
+                                    const std::vector<char>* moves) {
+  found.clear();
+  // What is known already stays near those that stand.
+  if (moves)
+    for (const auto& copy : search.standing())
+      if (findInWorld(host, copy->original, copy->world_index) >= 0)
+        found.push_back(copy->original);
+  for (const auto& body : search.bodies()) {
+    if (body->original->isKinematicObject()) continue;
+    if (moves && !(*moves)[static_cast<std::size_t>(body->index)]) continue;
+    const RigidState& state = states[static_cast<std::size_t>(body->index)];
+    const Region region = computeRegion(*body->host_shape, toBullet(state.p_W, state.q_WB));
+    findStaticObjects(host, growRegion(region, margin), found);
+  }
+  sortAsAdded(found);
+}
+
+/// The host may take a body out of its world, and delete it.
+void Obstacles::Impl::dropMissingBodies() {
+  for (std::size_t i = search.bodies().size(); i-- > 0;) {
+    PrivateCopy& copy = *search.bodies()[i];
+    copy.world_index = findInWorld(host, copy.original, copy.world_index);
+    if (copy.world_index < 0) remove(copy.original);
+  }
+}
+
+void Obstacles::Impl::dropLost() {
+  const auto& standing = search.standing();
+  for (std::size_t i = standing.size(); i-- > 0;) {
+    btCollisionObject* original = standing[i]->original;
+    const bool is_found = std::find(found.begin(), found.end(), original) != found.end();
+    if (!is_found || original->getCollisionShape() != standing[i]->host_shape) remove(original);
+  }
+}
+
+void Obstacles::Impl::takeFound() {
+  for (btCollisionObject* object : found) {
+    const auto& known = search.standing();
+    const auto copy = std::find_if(known.begin(), known.end(),
+                                   [&](const auto& entry) { return entry->original == object; });
+    if (copy != known.end()) {
+      changed |= search.placeStanding(**copy);
+    } else {
+      changed = true;
+      search.addStanding(*object, takeOver());
+    }
+  }
+}
+
+void Obstacles::Impl::findForSpheres(const std::vector<RigidState>& states, btScalar margin) {
+  known_shapes.forgetLost(host);
+  found.clear();
+  regions.clear();
+  for (const Ball& ball : balls) {
+    const btVector3 p = toBullet(states[static_cast<std::size_t>(ball.index)].p_W);
+    regions.push_back(growRegion({p, p}, ball.radius + margin));
+    findStaticObjects(host, regions.back(), found);
+  }
+  sortAsAdded(found);
+  next_near_spheres.clear();
+  for (const btCollisionObject* object : found) {
+    appendObstacles(*object, *object->getCollisionShape(), object->getWorldTransform(), regions,
+                    known_shapes, next_near_spheres);
+  }
+  has_next = true;
+}
+
+}  // namespace tandem

@@ -1,0 +1,15 @@
+#include "tandem/coordination/contact_geometry.h"
+
+#include "geometry/separation.h"
+
+namespace tandem {
+
+SphereContact findSphereContact(const Vec3& p_W, double radius, const Shape& shape,
+                                const Vec3& p_WB, const Quat& q_WB) noexcept {
+  const PlainRotation rotation(q_WB);
+  const Separation found = separate(rotation.toBody(PlainVec(p_W) - PlainVec(p_WB)), shape);
+  const Vec3 n_W = rotation.toWorld(found.n).toVec3();
+  return {found.distance - radius, n_W, p_W - found.distance * n_W};
+}
+
+}  // namespace tandem

@@ -1,0 +1,225 @@
+#include <array>
+#include <limits>
+
+#include "geometry/mesh_pieces.h"
+
+// A feature of a triangle (its face, an edge or a corner that it owns) pushes a centre that is in
+// the feature's region: where all of some margins are positive.
+//
+//                |  face of A  |  edge  /
+//                |    region   |  of A / face of B
+//         -------+-------------+      /
+//                      A        \    /
+//                              B \  /
+
+namespace tandem {
+namespace {
+
+using Meeting = TriangleMesh::Meeting;
+
+/// Nearer than this to the plane between two regions, a centre is in the one that a fixed tiny move
+/// would take it to [m]: exactly one, however many planes meet there.
+constexpr double kOnPlane = 1e-12;
+
+/// What rounding may do to a depth [m].
+constexpr double kSameDepth = 1e-12;
+
+/// Height of c over the plane through p, never 0; `normal` and its opposite give opposite heights.
+double computeMargin(const PlainVec& c, const Vec3& p, const Vec3& normal) noexcept {
+  const double height = dot(PlainVec(normal), c - PlainVec(p));
+  if (std::abs(height) > kOnPlane) return height;
+  const double moved =
+      normal.x() != 0.0 ? normal.x() : (normal.y() != 0.0 ? normal.y() : normal.z());
+  return moved > 0.0 ? kOnPlane : -kOnPlane;
+}
+
+double heightOver(const TriangleMesh::Triangle& triangle, const PlainVec& c) noexcept {
+  return dot(PlainVec(triangle.normal), c) - triangle.offset;
+}
+
+const TriangleMesh::Triangle& triangleAt(const TriangleMesh& mesh, int place) noexcept {
+  return mesh.triangles()[static_cast<std::size_t>(place)];
+}
+
+const TriangleMesh::Edge& edgeAt(const TriangleMesh& mesh, int place) noexcept {
+  return triangleAt(mesh, place / 3).edges[static_cast<std::size_t>(place % 3)];
+}
+
+/// True for a concave edge that the centre is beyond: the face goes on there, behind the wall.
+bool goesOnBehind(const TriangleMesh::Edge& edge, const PlainVec& c) noexcept {
+  return edge.meeting == Meeting::kConcave && computeMargin(c, edge.start, edge.inward) < 0.0;
+}
+
+/// How far the centre is in the region of the face, were there no other triangles but neighbours.
+double computeOwnMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
+                        const PlainVec& c) noexcept {
+  std::array<bool, 3> behind;
+  for (std::size_t k = 0; k < 3; ++k) behind[k] = goesOnBehind(triangle.edges[k], c);
+  const bool is_beyond = behind[0] || behind[1] || behind[2];
+  double margin = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const TriangleMesh::Edge& edge = triangle.edges[k];
+    if (behind[k]) {
+      margin = std::min(margin, -heightOver(triangleAt(mesh, edge.mate / 3), c));
+      // From one end of the edge to the other, unless it goes on behind the next wall there, too.
+      const bool is_turned = edge.start != triangle.corners[k].p;
+      if (!behind[(k + (is_turned ? 1 : 2)) % 3])
+        margin = std::min(margin, computeMargin(c, edge.start, edge.along));
+      if (!behind[(k + (is_turned ? 2 : 1)) % 3])
+        margin = std::min(margin, -computeMargin(c, edge.end, edge.along));
+    } else if (edge.meeting != Meeting::kConcave &&
+               !(is_beyond && edge.meeting == Meeting::kFlat)) {
+      margin = std::min(margin, computeMargin(c, edge.start, edge.inward));
+    }
+  }
+  if (!mesh.isClosed()) margin = std::min(margin, heightOver(triangle, c) + TriangleMesh::kDeepest);
+  return margin;
+}
+
+double computeEdgeMargin(const TriangleMesh& mesh, const TriangleMesh::Edge& edge,
+                         const PlainVec& c) noexcept {
+  double margin =
+      std::min(computeMargin(c, edge.start, edge.along), -computeMargin(c, edge.end, edge.along));
+  margin = std::min(margin, -computeMargin(c, edge.start, edge.inward));
+  if (edge.mate >= 0) {
+    const TriangleMesh::Edge& mate = edgeAt(mesh, edge.mate);
+    margin = std::min(margin, -computeMargin(c, mate.start, mate.inward));
+  }
+  return margin;
+}
+
+double computeCornerMargin(const TriangleMesh& mesh, const TriangleMesh::Corner& corner,
+                           const PlainVec& c) noexcept {
+  double margin = std::numeric_limits<double>::infinity();
+  const Vec3* direction = mesh.directions(corner);
+  for (int i = 0; i < corner.count; ++i)
+    margin = std::min(margin, -computeMargin(c, corner.p, direction[i]));
+  return margin;
+}
+
+/// Margin of a feature of a triangle; no feature of its own has none.
+double computeFeatureMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
+                            int feature, const PlainVec& c) noexcept {
+  if (feature == kMeshFace) return computeOwnMargin(mesh, triangle, c);
+  if (feature < kMeshCorner) {
+    const auto& edge = triangle.edges[static_cast<std::size_t>(feature - kMeshEdge)];
+    return edge.is_owner ? computeEdgeMargin(mesh, edge, c) : -HUGE_VAL;
+  }
+  const auto& corner = triangle.corners[static_cast<std::size_t>(feature - kMeshCorner)];
+  return corner.is_owner ? computeCornerMargin(mesh, corner, c) : -HUGE_VAL;
+}
+
+/// Distance by a feature's own law, wherever the centre is.
+Separation leaveByFeature(const TriangleMesh::Triangle& triangle, int feature,
+                          const PlainVec& c) noexcept {
+  const PlainVec normal(triangle.normal);
+  if (feature == kMeshFace) return {heightOver(triangle, c), normal, feature};
+  PlainVec way;
+  if (feature < kMeshCorner) {
+    const auto& edge = triangle.edges[static_cast<std::size_t>(feature - kMeshEdge)];
+    const PlainVec along(edge.along), from_start = c - PlainVec(edge.start);
+    way = from_start - dot(along, from_start) * along;
+  } else {
+    way = c - PlainVec(triangle.corners[static_cast<std::size_t>(feature - kMeshCorner)].p);
+  }
+  const double distance = std::sqrt(dot(way, way));
+  if (distance < detail::kOnCore) return {distance, normal, feature};
+  return {distance, way / distance, feature};
+}
+
+struct Claim {
+  int feature = -1;
+  double margin = -HUGE_VAL;  ///< of the feature, or of the one it is nearest to
+};
+
+/// Which of its features has the centre, were there no other triangles but neighbours.
+Claim findClaim(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
+                const PlainVec& c) noexcept {
+  Claim claim;
+  for (int feature = kMeshFace; feature < kMeshFeatures; ++feature) {
+    const double margin = computeFeatureMargin(mesh, triangle, feature, c);
+    if (margin > claim.margin) claim.margin = margin;
+    if (margin > 0.0) return {feature, margin};
+  }
+  return claim;
+}
+
+/// How much nearer the plane of `behind`, which the centre is `depth` behind, is than other
+/// triangles there that have the centre. Negative: it leaves by another.
+double computeLeadOverOthers(const TriangleMesh& mesh, int piece,
+                             const TriangleMesh::Triangle& behind, double depth,
+                             const PlainVec& c) noexcept {
+  double lead = std::numeric_limits<double>::infinity();
+  // Somewhat farther, so that one that comes nearer is seen before it is the nearest.
+  mesh.forEachNear(c.toVec3(), 1.1 * depth + kSameDepth, [&](int place, double) {
+    const TriangleMesh::Triangle& other = triangleAt(mesh, place);
+    // What stands before that plane is the other side of a groove: both push.
+    if (place == piece || !(heightOver(behind, PlainVec(other.middle)) < -kSameDepth)) return;
+    const Claim claim = findClaim(mesh, other, c);
+    if (claim.feature < 0) return;
+    const double theirs = std::abs(leaveByFeature(other, claim.feature, c).distance);
+    // By the last bit, so that of any number of faces that are about equally near one is first.
+    double ahead = theirs - depth;
+    if (ahead == 0.0) ahead = piece < place ? kSameDepth : -kSameDepth;
+    lead = std::min(lead, ahead);
+  });
+  return lead;
+}
+
+/// Margin of the face's region among all triangles: a centre inside leaves by the nearest.
+double computeFaceMargin(const TriangleMesh& mesh, int piece, const PlainVec& c) noexcept {
+  const TriangleMesh::Triangle& triangle = triangleAt(mesh, piece);
+  double margin = computeOwnMargin(mesh, triangle, c);
+  if (!(margin > 0.0)) return margin;
+  const double height = heightOver(triangle, c);
+  if (height < 0.0)
+    margin = std::min(margin, computeLeadOverOthers(mesh, piece, triangle, -height, c));
+  for (const TriangleMesh::Edge& edge : triangle.edges) {
+    if (!goesOnBehind(edge, c)) continue;
+    const TriangleMesh::Triangle& wall = triangleAt(mesh, edge.mate / 3);
+    margin = std::min(margin, computeLeadOverOthers(mesh, piece, wall, -heightOver(wall, c), c));
+  }
+  return margin;
+}
+
+}  // namespace
+
+Separation separate(const PlainVec& c, const Mesh& mesh, int piece) noexcept {
+  const TriangleMesh& surface = *mesh.surface;
+  const TriangleMesh::Triangle& triangle = triangleAt(surface, piece);
+  Claim claim = findClaim(surface, triangle, c);
+  if (claim.feature == kMeshFace) {
+    claim.margin = computeFaceMargin(surface, piece, c);
+    if (!(claim.margin > 0.0)) claim.feature = -1;
+  }
+  Separation found = leaveByFeature(triangle, std::max(claim.feature, int{kMeshFace}), c);
+  found.distance -= mesh.skin;
+  found.face = claim.feature;
+  found.aside = -claim.margin;
+  return found;
+}
+
+Separation leaveByFace(const PlainVec& c, const Mesh& mesh, int piece, int feature) noexcept {
+  Separation found = leaveByFeature(triangleAt(*mesh.surface, piece), feature, c);
+  found.distance -= mesh.skin;
+  return found;
+}
+
+double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece, int feature) noexcept {
+  if (feature == kMeshFace) return computeFaceMargin(*mesh.surface, piece, c);
+  return computeFeatureMargin(*mesh.surface, triangleAt(*mesh.surface, piece), feature, c);
+}
+
+Separation separate(const PlainVec& c, const Mesh& mesh) noexcept {
+  const double far = std::numeric_limits<double>::infinity();
+  const double nearest = mesh.surface->findNearest(c.toVec3(), far);
+  Separation found{far, {1.0, 0.0, 0.0}};
+  mesh.surface->forEachNear(c.toVec3(), nearest * (1.0 + 1e-9) + kSameDepth,
+                            [&](int piece, double) {
+                              const Separation at = separate(c, mesh, piece);
+                              if (at.face >= 0 && at.distance < found.distance) found = at;
+                            });
+  return found;
+}
+
+}  // namespace tandem

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "tandem/coordination/shape.h"
+
+#include "geometry/plain_vec.h"
+
+/// \file
+/// Signed distance and way out of a shape, worked out in the body's frame, where a centre c has a
+/// signed distance to the surface and a direction out of the shape:
+///
+///         shape          sphere
+///      +---------+
+///      |         |  distance = gap + radius
+///      |         p---------+-----c          p = c - distance n
+///      |         |   gap     radius
+///      +---------+   n ->
+namespace tandem {
+
+/// A centre's signed distance to a surface [m], below 0 inside, and the direction out (unit
+/// length).
+struct Separation {
+  double distance = 0.0;
+  PlainVec n;
+  /// By which a centre inside leaves, where there are several: of a box 2 axis + (side < 0), of a
+  /// cylinder a LeaveCylinder, of a hull its place in faces(). Of a piece of a mesh its
+  /// MeshFeature, inside or not.
+  int face = -1;
+  /// Of a piece of a mesh: at least so far is it to where it pushes [m]; not above 0 where it does.
+  double aside = 0.0;
+};
+
+namespace detail {
+
+/// A centre this near to a core [m] stands on it: below rounding there is no direction to leave by.
+inline constexpr double kOnCore = 1e-12;
+
+/// Squares below this have lost digits to underflow, and no direction can be had from them.
+inline constexpr double kSmallestSquare = 1e-290;
+
+/// A core point, `offset` away from the centre, fattened by `radius`.
+inline Separation separateFromCore(const PlainVec& offset, double radius) noexcept {
+  const double length = std::sqrt(dot(offset, offset));
+  // x is also across a capsule's core, so the way out is as short as it looks.
+  if (length < kOnCore) return {length - radius, {1.0, 0.0, 0.0}};
+  return {length - radius, offset / length};
+}
+
+/// A vector with the components of this axis as y, and back.
+inline PlainVec layAlongY(const PlainVec& v, Axis axis) noexcept {
+  if (axis == Axis::kX) return {v.z, v.x, v.y};
+  return axis == Axis::kZ ? PlainVec{v.y, v.z, v.x} : v;
+}
+inline PlainVec layBack(const PlainVec& v, Axis axis) noexcept {
+  if (axis == Axis::kX) return {v.y, v.z, v.x};
+  return axis == Axis::kZ ? PlainVec{v.z, v.x, v.y} : v;
+}
+
+/// Way out of a box through one of its faces, wherever the centre is.
+inline Separation leaveByFace(const PlainVec& c, const Vec3& half_extents, int face) noexcept {
+  const double side = (face & 1) != 0 ? -1.0 : 1.0;
+  switch (face >> 1) {
+    case 0:
+      return {side * c.x - half_extents.x(), {side, 0.0, 0.0}, face};
+    case 1:
+      return {side * c.y - half_extents.y(), {0.0, side, 0.0}, face};
+    default:
+      return {side * c.z - half_extents.z(), {0.0, 0.0, side}, face};
+  }
+}
+
+/// Way out of a box, for a centre inside or on the surface, by the nearest face.
+inline Separation leaveBox(const PlainVec& c, const Vec3& half_extents) noexcept {
+  const double depth_x = half_extents.x() - std::abs(c.x);
+  const double depth_y = half_extents.y() - std::abs(c.y);
+  const double depth_z = half_extents.z() - std::abs(c.z);
+  if (depth_x <= depth_y && depth_x <= depth_z) return leaveByFace(c, half_extents, c.x < 0.0);
+  if (depth_y <= depth_z) return leaveByFace(c, half_extents, 2 + (c.y < 0.0));
+  return leaveByFace(c, half_extents, 4 + (c.z < 0.0));
+}
+
+}  // namespace detail
+
+inline Separation separate(const PlainVec& c, const Sphere& sphere) noexcept {
+  return detail::separateFromCore(c, sphere.radius);
+}
+
+inline Separation separate(const PlainVec& c, const Capsule& capsule) noexcept {
+  if (capsule.axis != Axis::kY) {
+    Separation found =
+        separate(detail::layAlongY(c, capsule.axis), Capsule{capsule.radius, capsule.half_length});
+    found.n = detail::layBack(found.n, capsule.axis);
+    return found;
+  }
+  const double core_y = std::clamp(c.y, -capsule.half_length, capsule.half_length);
+  return detail::separateFromCore({c.x, c.y - core_y, c.z}, capsule.radius);
+}
+
+[[nodiscard]] Separation separate(const PlainVec& c, const Cylinder& cylinder) noexcept;
+[[nodiscard]] Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept;
+/// To a mesh as a whole: its nearest point, inside or outside as its piece there is turned.
+[[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh) noexcept;
+
+inline Separation separate(const PlainVec& c, const Box& box) noexcept {
+  const Vec3& h = box.half_extents;
+  const PlainVec outwards{c.x - std::clamp(c.x, -h.x(), h.x()),  //
+                          c.y - std::clamp(c.y, -h.y(), h.y()),
+                          c.z - std::clamp(c.z, -h.z(), h.z())};
+  // Over a face, the usual place: no root, no division, the normal to the last bit.
+  const auto over_face = [](double way, const PlainVec& n) noexcept {
+    return way < 0.0 ? Separation{-way, {-n.x, -n.y, -n.z}} : Separation{way, n};
+  };
+  const bool over_x = outwards.x != 0.0, over_y = outwards.y != 0.0, over_z = outwards.z != 0.0;
+  if (over_x && !over_y && !over_z) return over_face(outwards.x, {1.0, 0.0, 0.0});
+  if (!over_x && over_y && !over_z) return over_face(outwards.y, {0.0, 1.0, 0.0});
+  if (!over_x && !over_y && over_z) return over_face(outwards.z, {0.0, 0.0, 1.0});
+  const double square = dot(outwards, outwards);
+  if (square < detail::kSmallestSquare) return detail::leaveBox(c, h);
+  const double distance = std::sqrt(square);
+  return {distance, outwards / distance};
+}
+
+/// How much nearer this face is than any other to a centre inside the box [m]; negative: the centre
+/// leaves by another.
+inline double computeFaceLead(const PlainVec& c, const Box& box, int face) noexcept {
+  const Vec3& h = box.half_extents;
+  const double depth[] = {h.x() - std::abs(c.x), h.y() - std::abs(c.y), h.z() - std::abs(c.z)};
+  const int axis = face >> 1;
+  const double others = std::min(depth[(axis + 1) % 3], depth[(axis + 2) % 3]);
+  const double own = -detail::leaveByFace(c, h, face).distance;
+  // Out of the box through this face: it stays the nearest as long as the centre is over it.
+  return own > 0.0 ? std::min(others, 2.0 * h[axis] - own) - own : others;
+}
+
+inline Separation separate(const PlainVec& c, const Plane& plane) noexcept {
+  // The normal is unit only within checkShape's tolerance; the half-space is the same at any
+  // length.
+  const PlainVec n(plane.normal_B);
+  const double length = std::sqrt(dot(n, n));
+  return {(dot(n, c) - plane.offset) / length, n / length};
+}
+
+inline Separation separate(const PlainVec& c, const Shape& shape) noexcept {
+  return std::visit([&c](const auto& s) noexcept { return separate(c, s); }, shape);
+}
+
+/// Faces of a cylinder by which a centre inside leaves.
+enum LeaveCylinder { kSide, kUpperEnd, kLowerEnd };
+
+/// Way out through one face, wherever the centre is; see computeFaceLead().
+[[nodiscard]] Separation leaveByFace(const PlainVec& c, const Cylinder& cylinder,
+                                     int face) noexcept;
+[[nodiscard]] Separation leaveByFace(const PlainVec& c, const ConvexHull& hull, int face) noexcept;
+[[nodiscard]] double computeFaceLead(const PlainVec& c, const Cylinder& cylinder,
+                                     int face) noexcept;
+[[nodiscard]] double computeFaceLead(const PlainVec& c, const ConvexHull& hull, int face) noexcept;
+
+/// One piece of a mesh, by its place in TriangleMesh: face, edge or corner that pushes a centre at
+/// c. Where none of them does, as far as the face, with `aside` above 0.
+[[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh, int piece) noexcept;
+[[nodiscard]] Separation leaveByFace(const PlainVec& c, const Mesh& mesh, int piece,
+                                     int feature) noexcept;
+[[nodiscard]] double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece,
+                                     int feature) noexcept;
+
+/// The same for any shape that has faces; `piece` counts for a mesh only.
+[[nodiscard]] Separation leaveAnyByFace(const PlainVec& c, const Shape& shape, int piece,
+                                        int face) noexcept;
+[[nodiscard]] double computeAnyFaceLead(const PlainVec& c, const Shape& shape, int piece,
+                                        int face) noexcept;
+
+}  // namespace tandem

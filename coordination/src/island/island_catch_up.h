@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "tandem/coordination/island.h"
+
+#include "island/island_model.h"
+#include "island/spatial_motion.h"
+
+namespace tandem {
+
+/// Moves some bodies of an island on by themselves, through a time that the others have behind
+/// them; see Island::catchUp(). The others take part with their mass and their known way, so that
+/// whom the newcomers touch gets the momentum, but nothing pulls at them a second time.
+class IslandCatchUp {
+ public:
+  /// May allocate.
+  void prepare(const IslandModel& model);
+
+  void run(IslandModel& model, SpatialMotion& motion, IslandCounters& counters,
+           const std::vector<BodyIndex>& slots, const std::vector<RigidState>& from,
+           const std::vector<RigidState>& to, double duration, std::vector<Aside>& asides) noexcept;
+
+ private:
+  void setAside(IslandModel& model, const std::vector<BodyIndex>& slots) noexcept;
+  void takeBack(IslandModel& model) noexcept;
+  void swapPast(IslandModel& model) noexcept;
+  void sendAlong(IslandModel& model, BodyIndex b, const Aside& steady, const RigidState& from,
+                 const Aside& aside) noexcept;
+  void bringBack(IslandModel& model, BodyIndex b, const Aside& steady, const RigidState& to,
+                 Aside& aside) noexcept;
+
+  std::vector<ModelBody> bodies_;
+  std::vector<ModelCoupler> couplers_;
+  std::vector<IslandContact> contacts_;
+  std::vector<BodyIndex> slots_;
+  const std::vector<Obstacle>* obstacles_ = nullptr;
+};
+
+}  // namespace tandem

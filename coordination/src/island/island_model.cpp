@@ -1,0 +1,103 @@
+#include "island/island_model.h"
+
+#include <algorithm>
+
+#include "geometry/turn.h"
+
+namespace tandem {
+namespace {
+
+/// Squares of the longest arms about the axes that a point of the surface may have [m^2].
+Vec3 computeArms(const Shape& shape, double bounding_radius) noexcept {
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    const Vec3 h = box->half_extents.cwiseAbs2();
+    return {h.y() + h.z(), h.x() + h.z(), h.x() + h.y()};
+  }
+  const double square = bounding_radius * bounding_radius;
+  const auto around = [square](double radius, Axis axis) {
+    Vec3 arms = Vec3::Constant(square);
+    arms[static_cast<int>(axis)] = radius * radius;
+    return arms;
+  };
+  if (const auto* capsule = std::get_if<Capsule>(&shape))
+    return around(capsule->radius, capsule->axis);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    return around(cylinder->radius, cylinder->axis);
+  return Vec3::Constant(square);
+}
+
+}  // namespace
+
+ModelBody ModelBody::make(const IslandBody& settings, bool is_guided) noexcept {
+  ModelBody body;
+  body.settings = settings;
+  body.state = settings.start;
+  body.bounding_radius = computeBoundingRadius(settings.shape);
+  if (!body.isDynamic()) return body;
+  body.inverse_mass = body.mobility = 1.0 / settings.mass;
+  if (is_guided) return body;
+  for (int axis = 0; axis < 3; ++axis)
+    if (settings.inertia_B[axis] > 0.0)
+      body.inverse_inertia_B[axis] = 1.0 / settings.inertia_B[axis];
+  const double radius = body.bounding_radius;
+  body.mobility += std::min(body.inverse_inertia_B.maxCoeff() * radius * radius,
+                            body.inverse_inertia_B.dot(computeArms(settings.shape, radius)));
+  return body;
+}
+
+void IslandModel::reserveLists() {
+  present.reserve(bodies.size());
+  present_contacts.reserve(contacts.size());
+  present_couplers.reserve(couplers.size());
+}
+
+void IslandModel::listPresent() noexcept {
+  present.clear();
+  present_contacts.clear();
+  present_couplers.clear();
+  asleep_count = 0;
+  for (BodyIndex b = 0; b < static_cast<BodyIndex>(bodies.size()); ++b) {
+    if (bodies[b].isPresent()) present.push_back(b);
+    asleep_count += bodies[b].is_asleep;
+  }
+  const auto meets = [&](BodyIndex b) { return bodies[b].isPresent() && !bodies[b].is_ghost; };
+  for (const IslandContact& contact : contacts)
+    if (meets(contact.sphere) && meets(contact.other)) present_contacts.push_back(contact);
+  for (std::size_t c = 0; c < couplers.size(); ++c)
+    if (bodies[couplers[c].follower].isPresent()) present_couplers.push_back(static_cast<int>(c));
+  is_listed = true;
+}
+
+Wrench computeCouplerWrench(const ModelCoupler& coupler, const RigidState& follower) noexcept {
+  Wrench wrench;
+  wrench.f_W = computeCouplerForce(coupler.now.linear, coupler.target.point(), follower.point());
+  const CouplerGains& angular = coupler.now.angular;
+  if (angular.stiffness != 0.0 || angular.damping != 0.0)
+    wrench.t_W = angular.stiffness *
+                     computeTurn(follower.q_WB.coeffs().data(), coupler.target.q_WB.coeffs().data())
+                         .toVec3() +
+                 angular.damping * (coupler.target.w_W - follower.w_W);
+  return wrench;
+}
+
+Vec3 computeAngularDamping(const IslandBody& body, const RigidState& state) noexcept {
+  if (body.angular_damping == 0.0) return Vec3::Zero();
+  const Vec3 spin_B = body.inertia_B.cwiseProduct(state.q_WB.conjugate() * state.w_W);
+  return -body.angular_damping * (state.q_WB * spin_B);
+}
+
+void goOn(RigidState& state, double dt) noexcept {
+  state.p_W += dt * state.v_W;
+  const double speed = state.w_W.norm();
+  if (speed == 0.0) return;
+  const Quat turn(Eigen::AngleAxisd(dt * speed, state.w_W / speed));
+  state.q_WB = (turn * state.q_WB).normalized();
+}
+
+RigidState extrapolate(const ModelBody& body, double dt) noexcept {
+  RigidState state = body.state;
+  if (body.settings.motion == Motion::kPrescribed) goOn(state, dt);
+  return state;
+}
+
+}  // namespace tandem

@@ -1,0 +1,103 @@
+#include "island/rest.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace tandem {
+namespace {
+
+constexpr double kSlow = 1e-9;    // [m/s, rad/s]
+constexpr double kSteady = 1e-6;  // [m/s^2, rad/s^2]
+constexpr double kToGo = 5e-13;   // left of the way to rest [m]
+
+// What nothing pulls back must not drift for hours: rounding only.
+constexpr double kStill = 1e-15;          // [m/s, rad/s]
+constexpr double kUnaccelerated = 1e-14;  // [m/s^2, rad/s^2]
+
+/// Translation or turning of a body.
+struct Freedom {
+  double inertia, stiffness, damping, force, speed;
+};
+
+/// How far the body may still go, at the most; infinite if nothing ties it and it does not stand
+/// still.
+double computeWayLeft(const Freedom& m) noexcept {
+  if (m.stiffness > 0.0)
+    return (m.force + m.damping * m.speed) / m.stiffness +
+           m.speed * std::sqrt(m.inertia / m.stiffness);
+  const bool stands = m.speed <= kStill && m.force <= kUnaccelerated * m.inertia;
+  return stands ? 0.0 : HUGE_VAL;
+}
+
+/// FNV-1a over 64-bit words.
+class Hash {
+ public:
+  void add(double value) noexcept {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    value_ = (value_ ^ bits) * 0x100000001b3u;
+  }
+  void add(Axis axis) noexcept { add(static_cast<double>(axis)); }
+  /// Of what is shared and never changes: another is elsewhere.
+  void add(const void* address) noexcept {
+    value_ = (value_ ^ reinterpret_cast<std::uintptr_t>(address)) * 0x100000001b3u;
+  }
+  void add(const Vec3& v) noexcept { add(v.x()), add(v.y()), add(v.z()); }
+  void add(const Sphere& s) noexcept { add(s.radius); }
+  void add(const Box& b) noexcept { add(b.half_extents); }
+  void add(const Capsule& c) noexcept { add(c.radius), add(c.half_length), add(c.axis); }
+  void add(const Cylinder& c) noexcept { add(c.radius), add(c.half_length), add(c.axis); }
+  void add(const ConvexHull& h) noexcept { add(h.solid.get()), add(h.rounding); }
+  void add(const Mesh& m) noexcept { add(m.surface.get()), add(m.skin); }
+  void add(const Plane& p) noexcept { add(p.normal_B), add(p.offset); }
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace
+
+bool seemsAtRest(const ModelBody& before, const RigidState& after, double dt) noexcept {
+  if (!before.is_active || before.is_ghost || before.settings.motion == Motion::kHeld) return true;
+  if (before.settings.motion == Motion::kPrescribed)
+    return after.v_W == Vec3::Zero() && after.w_W == Vec3::Zero();
+  const auto is_below = [](const Vec3& v, double limit) { return v.squaredNorm() < limit * limit; };
+  return is_below(after.v_W, kSlow) && is_below(after.v_W - before.state.v_W, kSteady * dt) &&
+         is_below(after.w_W, kSlow) && is_below(after.w_W - before.state.w_W, kSteady * dt);
+}
+
+bool isSettled(const IslandModel& model, BodyIndex b, const Wrench& wrench) noexcept {
+  const ModelBody& body = model.bodies[b];
+  if (!body.isDynamic()) return true;
+  Freedom way{body.settings.mass, 0.0, body.damping(), wrench.f_W.norm(), body.state.v_W.norm()};
+  const double inertia = body.settings.inertia_B.maxCoeff();
+  Freedom turn{inertia, 0.0, body.settings.angular_damping * inertia, wrench.t_W.norm(),
+               body.state.w_W.norm()};
+  for (const int c : model.present_couplers) {
+    const ModelCoupler& coupler = model.couplers[c];
+    if (coupler.follower != b) continue;
+    way.stiffness += coupler.now.linear.stiffness;
+    way.damping += coupler.now.linear.damping;
+    turn.stiffness += coupler.now.angular.stiffness;
+    turn.damping += coupler.now.angular.damping;
+  }
+  if (way.force >= kSteady * way.inertia || !(computeWayLeft(way) < kToGo)) return false;
+  if (!body.rotates()) return true;
+  return turn.force < kSteady * turn.inertia && computeWayLeft(turn) * body.bounding_radius < kToGo;
+}
+
+std::uint64_t computeHash(const std::vector<Obstacle>* obstacles) noexcept {
+  Hash hash;
+  if (!obstacles) return hash.value();
+  for (const Obstacle& obstacle : *obstacles) {
+    hash.add(static_cast<double>(obstacle.shape.index()));
+    std::visit([&](const auto& shape) { hash.add(shape); }, obstacle.shape);
+    hash.add(obstacle.p_WB);
+    hash.add(obstacle.q_WB.w());
+    hash.add(Vec3(obstacle.q_WB.vec()));
+  }
+  return hash.value();
+}
+
+}  // namespace tandem

@@ -1,0 +1,65 @@
+#include "island/rigid_row.h"
+
+namespace tandem {
+namespace {
+
+/// Two directions across n and each other.
+void makeTangents(const PlainVec& n, PlainVec& s, PlainVec& t) noexcept {
+  // The axis of W that leans most across n makes the first.
+  const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+  const PlainVec axis = x <= y && x <= z ? PlainVec(1, 0, 0)
+                        : y <= z         ? PlainVec(0, 1, 0)
+                                         : PlainVec(0, 0, 1);
+  s = cross(n, axis);
+  s = s / std::sqrt(dot(s, s));
+  t = cross(n, s);
+}
+
+}  // namespace
+
+RigidMover::RigidMover(const ModelBody& body, const RigidState& state) noexcept
+    : v(state.v_W),
+      w(state.w_W),
+      inverse_mass(body.inverse_mass),
+      radius_squared(body.bounding_radius * body.bounding_radius),
+      ready(true) {
+  const Eigen::Matrix3d R = state.q_WB.toRotationMatrix();
+  const Eigen::Matrix3d inverse = R * body.inverse_inertia_B.asDiagonal() * R.transpose();
+  inertia_x = PlainVec(Vec3(inverse.row(0)));
+  inertia_y = PlainVec(Vec3(inverse.row(1)));
+  inertia_z = PlainVec(Vec3(inverse.row(2)));
+}
+
+void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& arm_a,
+                     const PlainVec& arm_b, const PlainVec& n_W,
+                     const PlainVec& surface_W) noexcept {
+  a = &mover_a;
+  b = &mover_b;
+  b_moves_ = mover_b.ready;
+  axis_[0].direction = n_W;
+  makeTangents(n_W, axis_[1].direction, axis_[2].direction);
+  for (Axis& axis : axis_) {
+    axis.arm_a = cross(arm_a, axis.direction);
+    axis.turn_a = a->turnBy(axis.arm_a);
+    if (b_moves_) {
+      axis.arm_b = cross(arm_b, axis.direction);
+      axis.turn_b = b->turnBy(axis.arm_b);
+    }
+    axis.surface = dot(axis.direction, surface_W);
+  }
+  const double normal = mobility(0, 0);
+  inverse_normal = normal > 0.0 ? 1.0 / normal : 0.0;
+  normal_to_s_ = mobility(1, 0);
+  normal_to_t_ = mobility(2, 0);
+  const double ss = mobility(1, 1), st = mobility(1, 2), tt = mobility(2, 2);
+  const double determinant = ss * tt - st * st;
+  // A body that can neither slide nor turn has no mobility, and needs no friction.
+  if (determinant > 1e-12 * (ss * ss + tt * tt)) {
+    stick_ss_ = tt / determinant;
+    stick_st_ = -st / determinant;
+    stick_tt_ = ss / determinant;
+  }
+  slide_ = ss + tt > 0.0 ? 1.0 / (ss + tt) : 0.0;
+}
+
+}  // namespace tandem

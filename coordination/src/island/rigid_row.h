@@ -1,0 +1,150 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "island/island_model.h"
+#include "geometry/plain_vec.h"
+
+namespace tandem {
+
+/// A body while its contacts are solved. What stands has no mass to move.
+struct RigidMover {
+  PlainVec v, w;            ///< [m/s], [rad/s], in W
+  PlainVec shift, turn;     ///< of the pose, by impulses of this step [m], [rad]
+  PlainVec v_last, w_last;  ///< when the solver looked last
+  double inverse_mass = 0.0, radius_squared = 0.0;
+  PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
+  bool ready = false;                        ///< set up for this step
+
+  RigidMover() = default;
+  RigidMover(const ModelBody& body, const RigidState& state) noexcept;
+
+  [[nodiscard]] PlainVec turnBy(const PlainVec& angular_impulse) const noexcept {
+    return {dot(inertia_x, angular_impulse), dot(inertia_y, angular_impulse),
+            dot(inertia_z, angular_impulse)};
+  }
+  [[nodiscard]] PlainVec velocityAt(const PlainVec& arm) const noexcept {
+    return v + cross(w, arm);
+  }
+};
+
+/// Normal and two tangents of a contact point: what an impulse along each does to both bodies. All
+/// impulses and velocities are along these three.
+class RigidRow {
+ public:
+  /// `n_W` from b to a; arms from the centres of mass; `surface_W` is the velocity of a standing
+  /// surface itself. b stands if it is not ready.
+  void setUp(RigidMover& a, RigidMover& b, const PlainVec& arm_a, const PlainVec& arm_b,
+             const PlainVec& n_W, const PlainVec& surface_W) noexcept;
+
+  /// False if nothing can move it.
+  [[nodiscard]] bool canMove() const noexcept { return inverse_normal > 0.0; }
+
+  struct Local {
+    double n = 0.0, s = 0.0, t = 0.0;
+  };
+  [[nodiscard]] double normalVelocity() const noexcept { return velocityAlong(0); }
+  [[nodiscard]] Local toLocal(const PlainVec& vector_W) const noexcept {
+    return {dot(axis_[0].direction, vector_W), dot(axis_[1].direction, vector_W),
+            dot(axis_[2].direction, vector_W)};
+  }
+  [[nodiscard]] PlainVec toWorld(const Local& local) const noexcept {
+    return local.n * axis_[0].direction + local.s * axis_[1].direction +
+           local.t * axis_[2].direction;
+  }
+
+  [[nodiscard]] double velocityAlong(int i) const noexcept {
+    const Axis& axis = axis_[i];
+    const double of_a = dot(axis.direction, a->v) + dot(axis.arm_a, a->w) - axis.surface;
+    if (!b_moves_) return of_a;
+    return of_a - dot(axis.direction, b->v) - dot(axis.arm_b, b->w);
+  }
+
+  /// One relaxation: normal velocity to `wanted`, then no slip, within Coulomb's cone.
+  void solve() noexcept {
+    const double normal_before = impulse.n;
+    impulse.n = std::max(0.0, normal_before + (wanted - velocityAlong(0)) * inverse_normal);
+    Local change{impulse.n - normal_before, 0.0, 0.0};
+    const double limit = friction * impulse.n;
+    if (limit > 0.0 || impulse.s != 0.0 || impulse.t != 0.0) {
+      const double us = velocityAlong(1) + normal_to_s_ * change.n;
+      const double ut = velocityAlong(2) + normal_to_t_ * change.n;
+      double s = impulse.s - (stick_ss_ * us + stick_st_ * ut);
+      double t = impulse.t - (stick_st_ * us + stick_tt_ * ut);
+      if (s * s + t * t > limit * limit) {
+        // Sliding: along the slip, whatever the mobility in other directions is.
+        s = impulse.s - slide_ * us;
+        t = impulse.t - slide_ * ut;
+        const double size_squared = s * s + t * t;
+        if (size_squared > limit * limit) {
+          const double scale = limit / std::sqrt(size_squared);
+          s *= scale;
+          t *= scale;
+        }
+      }
+      change.s = s - impulse.s;
+      change.t = t - impulse.t;
+      impulse.s = s;
+      impulse.t = t;
+    }
+    apply(change);
+  }
+
+  /// Gives both bodies an impulse.
+  void apply(const Local& change) noexcept {
+    const PlainVec linear = toWorld(change);
+    a->v = a->v + a->inverse_mass * linear;
+    a->w =
+        a->w + change.n * axis_[0].turn_a + change.s * axis_[1].turn_a + change.t * axis_[2].turn_a;
+    if (!b_moves_) return;
+    b->v = b->v - b->inverse_mass * linear;
+    b->w = b->w -
+           (change.n * axis_[0].turn_b + change.s * axis_[1].turn_b + change.t * axis_[2].turn_b);
+  }
+
+  /// Shifts both bodies by an impulse times a time [N s^2].
+  void shift(const Local& by) noexcept {
+    const PlainVec linear = toWorld(by);
+    a->shift = a->shift + a->inverse_mass * linear;
+    a->turn = a->turn + by.n * axis_[0].turn_a + by.s * axis_[1].turn_a + by.t * axis_[2].turn_a;
+    if (!b_moves_) return;
+    b->shift = b->shift - b->inverse_mass * linear;
+    b->turn = b->turn - (by.n * axis_[0].turn_b + by.s * axis_[1].turn_b + by.t * axis_[2].turn_b);
+  }
+
+  /// By how much the shifts have opened the contact [m].
+  [[nodiscard]] double normalShift() const noexcept {
+    const Axis& n = axis_[0];
+    return dot(n.direction, a->shift - b->shift) + dot(n.arm_a, a->turn) - dot(n.arm_b, b->turn);
+  }
+
+  RigidMover *a = nullptr, *b = nullptr;
+  Local impulse;                ///< in all, of this step [N s]
+  double wanted = 0.0;          ///< normal velocity, at least [m/s]
+  double friction = 0.0;        ///< Coulomb's coefficient
+  double inverse_normal = 0.0;  ///< impulse by normal velocity [kg]
+
+ private:
+  struct Axis {
+    PlainVec direction;
+    PlainVec arm_a, arm_b;    ///< arm x direction
+    PlainVec turn_a, turn_b;  ///< angular velocity by an impulse
+    double surface = 0.0;     ///< velocity of what stands [m/s]
+  };
+
+  /// Velocity along i by an impulse along j.
+  [[nodiscard]] double mobility(int i, int j) const noexcept {
+    const double of_a = (i == j ? a->inverse_mass : 0.0) + dot(axis_[i].arm_a, axis_[j].turn_a);
+    if (!b_moves_) return of_a;
+    return of_a + (i == j ? b->inverse_mass : 0.0) + dot(axis_[i].arm_b, axis_[j].turn_b);
+  }
+
+  Axis axis_[3];
+  double normal_to_s_ = 0.0, normal_to_t_ = 0.0;
+  double stick_ss_ = 0.0, stick_st_ = 0.0, stick_tt_ = 0.0;
+  double slide_ = 0.0;
+  bool b_moves_ = false;  ///< is no standing object
+};
+
+}  // namespace tandem

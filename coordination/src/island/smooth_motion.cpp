@@ -1,0 +1,272 @@
+#include "island/smooth_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Runge-Kutta 5(4) of Tsitouras (2011, Computers & Mathematics with Applications 62, 770-775):
+// seven stages, the last of which is the first of the next step. The state at its end is of order
+// 5; an embedded one of order 4 gives the error. For an oscillation its error is a sixth of that of
+// Dormand and Prince's at the same cost.
+
+namespace tandem {
+namespace {
+
+/// Contacts that chatter are not followed for ever: after this many events in one go the rest may
+/// be hidden in steps.
+constexpr int kMaxEvents = 32;
+
+constexpr double kMaxStepsPerPeriod = SmoothForces::kMostStepsPerPeriod;
+
+/// What hands feel answers in no less time than this [s]. A spring that answers n times as fast
+/// makes n^2 times as much energy of an error in its length, in n times as many steps: there the
+/// tolerance is n^3 times as small.
+constexpr double kAnswerOfHands = 5e-4;
+
+/// An error that does not shrink with the step comes from a kink of the geometry, not from its
+/// length: steps get no shorter than this part of what the gains ask for.
+constexpr double kShortest = 1.0 / 1024.0;
+
+}  // namespace
+
+SmoothMotion::SmoothMotion(const IslandModel& model, std::size_t max_touches)
+    : forces_(model, max_touches),
+      period_(model.settings.haptic_period),
+      tolerance_(model.settings.tolerance) {
+  const auto size = static_cast<Eigen::Index>(SmoothForces::kMaxSize * model.bodies.size());
+  y_.setZero(size);
+  next_.setZero(size);
+  for (Eigen::ArrayXd& k : k_) k.setZero(size);
+  starts_.resize(max_touches);
+  chooseLimits(model);
+}
+
+/// Largest step that resolves the stiffest contact or coupler: 0.36 rad of the fastest oscillation,
+/// after which an elastic bounce keeps its energy to 1e-6 however small it is against the
+/// tolerance, and 0.8 of the time of the fastest decay.
+void SmoothMotion::chooseLimits(const IslandModel& model) noexcept {
+  double fastest = 0.36 / period_, step = period_;
+  const auto limit = [&](double stiffness, double damping, double inverse_mass) {
+    const double decay = damping * inverse_mass;
+    fastest = std::max(fastest, std::sqrt(stiffness * inverse_mass));
+    if (decay > 0.0) step = std::min(step, SmoothForces::kDecayPerStep / decay);
+  };
+  for (const ModelCoupler& coupler : model.couplers) {
+    const ModelBody& body = model.bodies[coupler.follower];
+    limit(coupler.settings.linear.stiffness, coupler.settings.linear.damping, body.inverse_mass);
+    limit(coupler.settings.angular.stiffness, coupler.settings.angular.damping,
+          body.inverse_inertia_B.maxCoeff());
+  }
+  for (const IslandContact& contact : model.contacts)
+    limit(contact.gains.stiffness, contact.gains.damping,
+          model.bodies[contact.sphere].mobility + model.bodies[contact.other].mobility);
+  const CouplerGains& obstacle = model.settings.obstacle_contact;
+  for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b) {
+    const ModelBody& body = model.bodies[b];
+    limit(0.0, body.damping(), body.inverse_mass);
+    limit(0.0, body.settings.angular_damping, 1.0);
+    if (!body.settings.feels_obstacles) continue;
+    limit(obstacle.stiffness, obstacle.damping, body.inverse_mass);
+    for (BodyIndex slot : model.slots)
+      if (model.bodies[slot].is_active)
+        limit(obstacle.stiffness, obstacle.damping,
+              body.inverse_mass + model.bodies[slot].mobility);
+  }
+  const double shortest = period_ / kMaxStepsPerPeriod;
+  // A damper answers nothing: what it leaves of a speed goes on.
+  answer_ = 0.9 / fastest;
+  max_step_ = std::max({std::min(step, 0.36 / fastest), shortest});
+  min_step_ = std::max(kShortest * max_step_, shortest);
+  step_ = max_step_;
+  const double faster = std::max(1.0, kAnswerOfHands / answer_);
+  allowed_error_ = tolerance_ / (faster * faster * faster);
+}
+
+void SmoothMotion::choose(const IslandModel& model, const std::vector<char>& together,
+                          const std::vector<char>& alone,
+                          const std::vector<Touch>& touches) noexcept {
+  forces_.choose(model, together, alone, touches);
+}
+
+void SmoothMotion::advance(States& states, double dt, IslandCounters& counters) noexcept {
+  forces_.load(states, y_.data());
+  forces_.evaluate(0.0, y_.data(), k_[0].data(), SmoothForces::Look::kDecide);
+  rememberStart();
+  int events_left = kMaxEvents;
+  for (double done = 0.0; dt - done > 1e-12 * dt;) {
+    double h = takeStep(done, dt - done, counters);
+    bool changed = hasChanged();
+    if (!changed && events_left > 0) {
+      // A touch made and broken within the step, or the other way round?
+      if (const double t = findHiddenTouch(h); t < h) {
+        h = t;
+        tryStep(done, h);
+        changed = hasChanged();
+        --events_left;
+      }
+    }
+    if (changed && events_left > 0) {
+      h = locateChange(done, h);
+      --events_left;
+      ++counters.events;
+    }
+    ++counters.integrated_steps;
+    done += h;
+    y_.swap(next_);
+    if (changed || forces_.hasTurnedOver()) {
+      forces_.evaluate(done, y_.data(), k_[0].data(), SmoothForces::Look::kDecide);
+    } else {
+      k_[0].swap(k_[6]);
+    }
+    rememberStart();
+  }
+  forces_.store(y_.data(), states);
+}
+
+double SmoothMotion::takeStep(double from, double rest, IslandCounters& counters) noexcept {
+  for (;;) {
+    const double h = rest / std::max(1.0, std::ceil(rest / step_ * (1.0 - 1e-9)));
+    tryStep(from, h);
+    const double error = estimateError(h);
+    if (error <= allowed_error_) {
+      // The error falls with the fifth power of the step.
+      if (error < allowed_error_ / 64.0) step_ = std::min(std::max(step_, 2.0 * h), max_step_);
+      return h;
+    }
+    // Not less by rounding: the rest is divided evenly.
+    if (h <= min_step_ * (1.0 + 1e-6)) return h;
+    ++counters.rejected_steps;
+    step_ = std::max(min_step_, (error < 32.0 * allowed_error_ ? 0.5 : 0.25) * h);
+  }
+}
+
+void SmoothMotion::tryStep(double from, double h) noexcept {
+  using Look = SmoothForces::Look;
+  const Eigen::Index n = forces_.size();
+  const auto y = y_.head(n);
+  const auto k1 = k_[0].head(n), k3 = k_[2].head(n), k4 = k_[3].head(n), k5 = k_[4].head(n),
+             k6 = k_[5].head(n);
+  const auto k2 = k_[1].head(n);
+  auto next = next_.head(n);
+  const auto evaluate = [&](int stage, double part, Look look) {
+    forces_.evaluate(from + part * h, next_.data(), k_[stage].data(), look);
+  };
+  next = y + (h * 0.161) * k1;
+  evaluate(1, 0.161, Look::kPushing);
+  next = y - (h * 0.008480655492356989) * k1 + (h * 0.335480655492357) * k2;
+  evaluate(2, 0.327, Look::kPushing);
+  next = y + (h * 2.8971530571054935) * k1 - (h * 6.359448489975075) * k2 +
+         (h * 4.3622954328695815) * k3;
+  evaluate(3, 0.9, Look::kPushing);
+  next = y + (h * 5.325864828439257) * k1 - (h * 11.748883564062828) * k2 +
+         (h * 7.4955393428898365) * k3 - (h * 0.09249506636175525) * k4;
+  evaluate(4, 0.9800255409045097, Look::kPushing);
+  next = y + (h * 5.86145544294642) * k1 - (h * 12.92096931784711) * k2 +
+         (h * 8.159367898576159) * k3 - (h * 0.071584973281401) * k4 -
+         (h * 0.028269050394068383) * k5;
+  evaluate(5, 1.0, Look::kPushing);
+  next = y + (h * 0.09646076681806523) * k1 + (h * 0.01) * k2 + (h * 0.4798896504144996) * k3 +
+         (h * 1.379008574103742) * k4 - (h * 3.290069515436081) * k5 + (h * 2.324710524099774) * k6;
+  evaluate(6, 1.0, Look::kAll);
+}
+
+double SmoothMotion::estimateError(double h) noexcept {
+  const Eigen::Index n = forces_.size();
+  // The next stage is not needed any more: its place takes the error.
+  auto e = k_[1].head(n);
+  e = (h * 0.015151515151515152) * k_[6].head(n) - (h * 0.45808210592918697) * k_[5].head(n) +
+      (h * 0.5823571654525552) * k_[4].head(n) - (h * 0.1447110071732629) * k_[3].head(n) +
+      (h * 0.007880878010261995) * k_[2].head(n) - (h * 0.0008164344596567469) * k_[1].head(n) -
+      (h * 0.001780011052225777) * k_[0].head(n);
+  // All in metres: an error of velocity counts for about the time in which springs answer it (a
+  // radian), an error of orientation on the surface.
+  double worst = 0.0;
+  const auto look = [&](const double* values, int count, double scale) {
+    for (int i = 0; i < count; ++i) {
+      const double size = scale * std::abs(values[i]);
+      if (!(size <= worst)) worst = size;
+    }
+  };
+  for (const SmoothForces::Mover& mover : forces_.movers()) {
+    const double* values = e.data() + mover.offset;
+    look(values, 3, 1.0);
+    look(values + 3, 3, answer_);
+    if (!mover.turns) continue;
+    look(values + SmoothForces::kQ, 4, 2.0 * mover.radius);
+    look(values + SmoothForces::kW, 3, answer_ * mover.radius);
+  }
+  return worst;
+}
+
+void SmoothMotion::rememberStart() noexcept {
+  forces_.acceptFaces();
+  std::size_t i = 0;
+  for (const SmoothForces::Contact& contact : forces_.contacts())
+    starts_[i++] = {contact.overlap, contact.rate, contact.guard};
+}
+
+bool SmoothMotion::hasChanged() const noexcept {
+  for (const SmoothForces::Contact& contact : forces_.contacts())
+    if ((contact.guard > 0.0) != contact.pushes) return true;
+  return false;
+}
+
+double SmoothMotion::findHiddenTouch(double h) const noexcept {
+  std::size_t i = 0;
+  double earliest = h;
+  for (const SmoothForces::Contact& contact : forces_.contacts()) {
+    const Start& start = starts_[i++];
+    // The overlap turns within the step, towards the side where it was not at either end.
+    const double side = contact.pushes ? -1.0 : 1.0;
+    if (!(side * start.rate > 0.0 && side * contact.rate < 0.0)) continue;
+    const double t = h * start.rate / (start.rate - contact.rate);
+    const double top = start.overlap + 0.5 * t * start.rate;
+    // Too near to an end there is nothing to gain.
+    if (side * top > 0.0 && t > 0.05 * h && t < 0.95 * h) earliest = std::min(earliest, t);
+  }
+  return earliest;
+}
+
+double SmoothMotion::locateChange(double from, double h) noexcept {
+  // The state at `from` is y_, at from + h next_. Find the earliest change by false position
+  // (Illinois) on the guard of the touch that seems to change first; another that turns out to be
+  // earlier takes over. Ends just behind it.
+  const std::vector<SmoothForces::Contact>& contacts = forces_.contacts();
+  double late = h;
+  for (std::size_t round = 0; round < contacts.size(); ++round) {
+    // Which of the touches that have changed by `late` changes first, on a straight line?
+    int first = -1;
+    double first_time = late;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const double end = contacts[i].guard;
+      if ((end > 0.0) == contacts[i].pushes) continue;
+      const double share = starts_[i].guard / (starts_[i].guard - end);
+      const double time = std::isfinite(share) ? late * std::clamp(share, 0.0, 1.0) : 0.0;
+      if (first < 0 || time < first_time) first = static_cast<int>(i), first_time = time;
+    }
+    if (first < 0) break;
+    const SmoothForces::Contact& contact = contacts[first];
+
+    double low = 0.0, high = late, at = late;
+    double g_low = starts_[first].guard, g_high = contact.guard;
+    // A guard that starts on the wrong side by rounding changes at once.
+    if ((g_low > 0.0) != contact.pushes) g_low = contact.pushes ? 1e-30 : -1e-30;
+    for (int i = 0; i < 60 && high - low > 1e-13 + 1e-10 * h; ++i) {
+      double middle = (low * g_high - high * g_low) / (g_high - g_low);
+      if (!(middle > low && middle < high) || i > 20) middle = 0.5 * (low + high);
+      tryStep(from, at = middle);
+      const double g = contact.guard;
+      if ((g > 0.0) == contact.pushes) {
+        low = middle, g_low = g, g_high *= 0.5;
+      } else {
+        high = middle, g_high = g, g_low *= 0.5;
+      }
+    }
+    if (at != high) tryStep(from, high);
+    const bool same = high == late;
+    late = high;
+    if (same && round > 0) break;
+  }
+  return late;
+}
+
+}  // namespace tandem

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "tandem/coordination/island_counters.h"
+
+#include "island/smooth_forces.h"
+
+namespace tandem {
+
+/// Moves bodies in touch: Runge-Kutta 5(4), with a bound on the error of each step and contacts
+/// made and broken located inside it.
+///
+/// A step is taken as long as its error allows (IslandSettings::tolerance), in a soft scene a whole
+/// haptic period. It ends just behind the first change of a contact, so that no step looks across
+/// one.
+class SmoothMotion {
+ public:
+  /// Allocates.
+  SmoothMotion(const IslandModel& model, std::size_t max_touches);
+
+  /// Looks again at gains and masses after a slot was filled or cleared.
+  void chooseLimits(const IslandModel& model) noexcept;
+
+  /// Longest step that resolves the fastest oscillation and decay there may be [s].
+  [[nodiscard]] double maxStep() const noexcept { return max_step_; }
+
+  /// Who moves from now on, see SmoothForces::choose.
+  void choose(const IslandModel& model, const std::vector<char>& together,
+              const std::vector<char>& alone, const std::vector<Touch>& touches) noexcept;
+
+  /// Forces on top, by body, over the coming advance(): SmoothForces::hold.
+  void hold(const std::vector<Wrench>& held) noexcept { forces_.hold(held); }
+
+  /// Moves the chosen bodies by `dt` [s]. Real-time safe; the number of steps is bounded.
+  void advance(States& states, double dt, IslandCounters& counters) noexcept;
+
+ private:
+  /// How a touch stood at the start of a step.
+  struct Start {
+    double overlap, rate, guard;
+  };
+
+  void tryStep(double from, double h) noexcept;
+  [[nodiscard]] double estimateError(double h) noexcept;
+  double takeStep(double from, double rest, IslandCounters& counters) noexcept;
+  [[nodiscard]] bool hasChanged() const noexcept;
+  [[nodiscard]] double findHiddenTouch(double h) const noexcept;
+  double locateChange(double from, double h) noexcept;
+  void rememberStart() noexcept;
+
+  SmoothForces forces_;
+  double period_, tolerance_;
+  double allowed_error_ = 0.0;  ///< of a step [m]
+  double answer_ = 0.0;         ///< time in which springs answer an error of velocity [s]
+  double max_step_ = 0.0;       ///< stable, and resolves the fastest oscillation [s]
+  double min_step_ = 0.0;       ///< error is not looked at below [s]
+  double step_ = 0.0;           ///< length that was good last [s]
+  Eigen::ArrayXd y_, next_, k_[7];
+  std::vector<Start> starts_;  ///< by touch
+};
+
+}  // namespace tandem

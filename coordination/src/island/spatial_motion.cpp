@@ -1,0 +1,390 @@
+#include "island/spatial_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "island/rest.h"
+
+namespace tandem {
+namespace {
+
+/// The same for rigid contact, where bodies start from rest under any force [m].
+constexpr double kRigidWatchDistance = 5e-4;
+
+/// Slower than this for so long, a body that something rigid holds is at rest [m/s], [s].
+constexpr double kStillSpeed = 1e-6;
+constexpr double kTimeToRest = 0.05;
+
+/// Part of the inner step to which stiff springs may shorten it, and the part of SmoothMotion's
+/// longest step to which they do: RigidStep is of first order.
+constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 0.5;
+
+/// Points of rigid contact that are solved together, at the most.
+constexpr std::size_t kMaxRigidContacts = 512;
+
+/// Capacity for spheres on obstacles; nearest ones count, and more than these never touch one
+/// fingertip.
+constexpr std::size_t kMaxObstacleTouches = 64;
+
+/// The same for each slot: HIP and proxies are few.
+constexpr std::size_t kMaxSlotTouches = 4;
+
+std::size_t countMostTouches(const IslandModel& model) {
+  return model.contacts.size() + kMaxObstacleTouches + kMaxSlotTouches * model.slots.size();
+}
+
+bool isSame(const Touch& a, const Touch& b) noexcept {
+  return a.sphere == b.sphere && a.other == b.other && a.obstacle == b.obstacle &&
+         a.piece == b.piece;
+}
+
+bool any(const std::vector<char>& flags) noexcept {
+  return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag; });
+}
+
+}  // namespace
+
+SpatialMotion::SpatialMotion(const IslandModel& model)
+    : rigid_step_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
+      rigid_step_aside_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
+      smooth_(model, countMostTouches(model)),
+      sleepers_(model) {
+  const std::size_t n = model.bodies.size();
+  alone_motion_.resize(n);
+  for (std::size_t b = 0; b < n; ++b) prepareAlone(model, static_cast<BodyIndex>(b));
+  for (auto* flags :
+       {&alone_, &turns_, &together_, &rigid_near_, &resting_, &awake_, &at_rest_, &resting_aside_})
+    flags->resize(n);
+  for (auto* values : {&allowance_, &reach_, &still_, &still_aside_}) values->resize(n);
+  touches_.reserve(countMostTouches(model));
+  for (States* states : {&states_, &before_rigid_}) states->resize(n);
+  f_W_.resize(n);
+}
+
+void SpatialMotion::refill(const IslandModel& model, BodyIndex slot) noexcept {
+  prepareAlone(model, slot);
+  alone_[slot] = turns_[slot] = together_[slot] = awake_[slot] = resting_[slot] = 0;
+  reach_[slot] = -1.0;
+  still_[slot] = 0.0;
+  smooth_.chooseLimits(model);
+}
+
+void SpatialMotion::refit(const IslandModel& model, BodyIndex b, bool is_damping) noexcept {
+  prepareAlone(model, b);
+  // Of shares it need not know: full gains are the fastest there are.
+  if (is_damping) smooth_.chooseLimits(model);
+}
+
+void SpatialMotion::setAside() noexcept {
+  std::swap(rigid_step_, rigid_step_aside_);
+  rigid_step_.forget();
+  resting_aside_ = resting_;
+  still_aside_ = still_;
+}
+
+void SpatialMotion::takeBack(const IslandModel& model,
+                             const std::vector<BodyIndex>& slots) noexcept {
+  std::swap(rigid_step_, rigid_step_aside_);
+  for (std::size_t b = 0; b < resting_.size(); ++b) prepareAlone(model, static_cast<BodyIndex>(b));
+  smooth_.chooseLimits(model);
+  resting_ = resting_aside_;
+  still_ = still_aside_;
+  for (BodyIndex slot : slots) {
+    resting_[slot] = 0;
+    still_[slot] = 0.0;
+  }
+}
+
+void SpatialMotion::prepareAlone(const IslandModel& model, BodyIndex b) noexcept {
+  const ModelBody& body = model.bodies[b];
+  Alone& alone = alone_motion_[b];
+  alone = {};
+  double stiffness = 0.0, damping = body.damping();
+  for (const ModelCoupler& coupler : model.couplers) {
+    if (coupler.follower != b) continue;
+    stiffness += coupler.now.linear.stiffness;
+    damping += coupler.now.linear.damping;
+    const CouplerGains& angular = coupler.now.angular;
+    alone.is_tied_to_turn |= angular.stiffness != 0.0 || angular.damping != 0.0;
+  }
+  alone.stiffness = stiffness * body.inverse_mass;
+  alone.damping = damping * body.inverse_mass;
+  alone.map = computeOscillatorMap(alone.stiffness, alone.damping, model.settings.haptic_period);
+}
+
+bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& counters) noexcept {
+  if (!model.is_listed) model.listPresent();
+  for (const BodyIndex b : model.present) states_[b] = model.bodies[b].state;
+  findLoners(model, dt, counters);
+
+  if (any(together_)) {
+    smooth_.choose(model, together_, alone_, touches_);
+    advanceTogether(model, dt, counters);
+  }
+  advanceAlone(model, dt);
+  if (!wasAlone(model, dt)) {
+    ++counters.repeated;
+    double way = 0.0;
+    for (const BodyIndex b : model.present)
+      way = std::max(way, (states_[b].p_W - model.bodies[b].state.p_W).norm());
+    for (const BodyIndex b : model.present) {
+      states_[b] = model.bodies[b].state;
+      together_[b] = model.bodies[b].isDynamic();
+      resting_[b] = 0;
+      alone_[b] = turns_[b] = 0;
+    }
+    touches_.clear();
+    forEachTouch(model, [&](const Touch& touch) {
+      if (!isWholeMesh(touch)) return addTouch(touch);
+      const double allowance = allowance_[touch.sphere] + way;
+      if (couldMeet(model, touch, states_, allowance))
+        forEachPiece(model, touch, states_, allowance,
+                     [&](const Touch& piece, double) { addTouch(piece); });
+    });
+    smooth_.choose(model, together_, alone_, touches_);
+    advanceTogether(model, dt, counters);
+    advanceAlone(model, dt);
+  }
+  if (model.finder) letRest(model, dt);
+  bool at_rest = true;
+  for (const BodyIndex b : model.present) {
+    at_rest_[b] = seemsAtRest(model.bodies[b], states_[b], dt);
+    at_rest = at_rest && at_rest_[b];
+    model.bodies[b].state = states_[b];
+  }
+  return at_rest;
+}
+
+void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& counters) noexcept {
+  for (const BodyIndex b : model.present) {
+    const ModelBody& body = model.bodies[b];
+    const RigidState& s = states_[b];
+    double speed = s.v_W.norm();
+    if (s.w_W != Vec3::Zero()) speed += s.w_W.norm() * body.bounding_radius;
+    allowance_[b] = 2.0 * dt * speed + 0.5 * kWatchDistance;
+  }
+  sleepers_.wakeNear(model, states_, allowance_);
+  findTouches(model, counters);
+  lookAround(model);
+  for (const BodyIndex b : model.present)
+    alone_[b] = model.bodies[b].isDynamic() && !rigid_near_[b] && !resting_[b];
+  for (const Touch& touch : touches_) alone_[touch.sphere] = alone_[touch.other] = 0;
+
+  for (const BodyIndex b : model.present) {
+    const ModelBody& body = model.bodies[b];
+    counters.resting_bodies += resting_[b] != 0;
+    const bool turning = body.rotates() && !resting_[b] && needsTurning(model, b);
+    // A round body that nothing turns keeps its axis: exact. All other turning is integrated.
+    turns_[b] = turning && alone_[b] && body.isRound() && !alone_motion_[b].is_tied_to_turn &&
+                body.t_external_W == Vec3::Zero();
+    together_[b] = body.isDynamic() && !resting_[b] && (!alone_[b] || (turning && !turns_[b]));
+    counters.exact_bodies += alone_[b] != 0;
+    counters.exact_turns += turns_[b] != 0;
+    counters.integrated_bodies += together_[b] != 0;
+  }
+}
+
+void SpatialMotion::findTouches(const IslandModel& model, IslandCounters& counters) noexcept {
+  touches_.clear();
+  forEachTouch(model, [&](const Touch& touch) {
+    double allowance = allowance_[touch.sphere];
+    if (!touch.obstacle) allowance += allowance_[touch.other];
+    if (!couldMeet(model, touch, states_, allowance)) {
+      ++counters.contact_searches_skipped;
+      return;
+    }
+    ++counters.contact_searches;
+    if (isWholeMesh(touch)) {
+      forEachPiece(model, touch, states_, allowance, [&](const Touch& piece, double gap) {
+        if (gap < allowance) addTouch(piece);
+      });
+    } else if (computeTouchState(model, touch, states_).geometry.gap < allowance) {
+      addTouch(touch);
+    }
+  });
+}
+
+void SpatialMotion::addTouch(const Touch& touch) noexcept {
+  if (touches_.size() < touches_.capacity()) touches_.push_back(touch);
+}
+
+bool SpatialMotion::needsTurning(const IslandModel& model, BodyIndex b) const noexcept {
+  const ModelBody& body = model.bodies[b];
+  if (body.state.w_W != Vec3::Zero() || body.t_external_W != Vec3::Zero()) return true;
+  if (!alone_motion_[b].is_tied_to_turn) return false;
+  for (const int c : model.present_couplers) {
+    const ModelCoupler& coupler = model.couplers[c];
+    if (coupler.follower == b && (coupler.target.w_W != Vec3::Zero() ||
+                                  coupler.target.q_WB.coeffs() != body.state.q_WB.coeffs()))
+      return true;
+  }
+  return false;
+}
+
+void SpatialMotion::advanceAlone(const IslandModel& model, double dt) noexcept {
+  for (const BodyIndex b : model.present)
+    if (alone_[b]) f_W_[b] = model.bodies[b].f_external_W;
+  // All forces but the dampers' on a body's own velocity.
+  for (const int c : model.present_couplers) {
+    const ModelCoupler& coupler = model.couplers[c];
+    const BodyIndex b = coupler.follower;
+    if (!alone_[b]) continue;
+    const CouplerGains& gains = coupler.now.linear;
+    f_W_[b] += gains.stiffness * (coupler.target.p_W - model.bodies[b].state.p_W) +
+               gains.damping * coupler.target.v_W;
+  }
+  const bool is_period = dt == model.settings.haptic_period;
+  for (const BodyIndex b : model.present) {
+    const ModelBody& body = model.bodies[b];
+    if (body.settings.motion == Motion::kPrescribed) states_[b] = extrapolate(body, dt);
+    if (!alone_[b]) continue;
+    const Alone& alone = alone_motion_[b];
+    const OscillatorMap map =
+        is_period ? alone.map : computeOscillatorMap(alone.stiffness, alone.damping, dt);
+    const Vec3 a_W = body.inverse_mass * f_W_[b];
+    const Vec3& v_W = body.state.v_W;
+    states_[b].p_W = body.state.p_W + map.velocity_to_way * v_W + map.acceleration_to_way * a_W;
+    states_[b].v_W = map.velocity_to_velocity * v_W + map.acceleration_to_velocity() * a_W;
+    if (turns_[b]) turnAlone(body, dt, states_[b]);
+  }
+}
+
+void SpatialMotion::letSleep(IslandModel& model, BodyIndex b) noexcept {
+  sleepers_.letSleep(model, states_, allowance_, b);
+  if (!model.bodies[b].is_asleep) return;
+  // Until something wakes it, it counts as one that rests.
+  alone_[b] = turns_[b] = together_[b] = awake_[b] = 0;
+  resting_[b] = model.bodies[b].settings.is_rigid;
+}
+
+void SpatialMotion::turnAlone(const ModelBody& body, double dt, RigidState& state) const noexcept {
+  const OscillatorMap map = computeOscillatorMap(0.0, body.settings.angular_damping, dt);
+  const Vec3 w_W = body.state.w_W;
+  const double speed = w_W.norm();
+  const Quat turn(Eigen::AngleAxisd(map.velocity_to_way * speed, w_W / speed));
+  state.q_WB = (turn * body.state.q_WB).normalized();
+  state.w_W = map.velocity_to_velocity * w_W;
+}
+
+bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
+  // If none went further than thought, none met another.
+  bool far = false;
+  for (const BodyIndex b : model.present) {
+    const RigidState &from = model.bodies[b].state, &to = states_[b];
+    double way = (to.p_W - from.p_W).norm();
+    if (to.w_W != Vec3::Zero())
+      way += dt * std::max(from.w_W.norm(), to.w_W.norm()) * model.bodies[b].bounding_radius;
+    far |= !(way <= allowance_[b]);
+  }
+  if (!far) return true;
+  if (sleepers_.wakeNear(model, states_, allowance_)) return false;
+
+  // Also two that each were in touch with something else.
+  bool met = false;
+  std::size_t known = 0;
+  forEachTouch(model, [&](const Touch& touch) {
+    if (isWholeMesh(touch)) {
+      const std::size_t first = known;
+      while (known < touches_.size() && touches_[known].obstacle == touch.obstacle &&
+             touches_[known].sphere == touch.sphere)
+        ++known;
+      if (!couldMeet(model, touch, states_, 0.0)) return;
+      forEachPiece(model, touch, states_, 0.0, [&](const Touch& piece, double gap) {
+        met |= gap <= 0.0 && std::none_of(touches_.begin() + first, touches_.begin() + known,
+                                          [&](const Touch& other) { return isSame(other, piece); });
+      });
+    } else if (known < touches_.size() && isSame(touches_[known], touch)) {
+      ++known;
+    } else if (couldMeet(model, touch, states_, 0.0)) {
+      met |= computeTouchState(model, touch, states_).geometry.gap <= 0.0;
+    }
+  });
+  return !met;
+}
+
+void SpatialMotion::advanceTogether(const IslandModel& model, double dt,
+                                    IslandCounters& counters) noexcept {
+  bool near_rigid = false;
+  for (const BodyIndex b : model.present) near_rigid |= rigid_near_[b] && together_[b];
+  if (!near_rigid) {
+    rigid_step_.forget();
+    smooth_.hold(rigid_step_.heldForces());
+    return smooth_.advance(states_, dt, counters);
+  }
+  // Springs that shake a body faster than the inner step can follow would push it against what is
+  // rigid for a whole step before that answers.
+  const double inner_step = model.settings.inner_step;
+  const double step =
+      std::clamp(kRigidPartOfStep * smooth_.maxStep(), kShortestInnerStep * inner_step, inner_step);
+  const double count = std::ceil(dt / step * (1.0 - 1e-9));
+  for (double i = 0; i < count; ++i) advanceWithRigid(model, dt / count, counters);
+}
+
+/// One inner step with rigid contact. Where contact comes or goes, what it gives is learnt by a
+/// first try.
+void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
+                                     IslandCounters& counters) noexcept {
+  for (const BodyIndex b : model.present) before_rigid_[b] = states_[b];
+  for (int tries = 0; tries < 2; ++tries) {
+    ++counters.rigid_steps;
+    for (const BodyIndex b : model.present) states_[b] = before_rigid_[b];
+    rigid_step_.holdForces(states_);
+    smooth_.hold(rigid_step_.heldForces());
+    smooth_.advance(states_, h, counters);
+    // What forces do not move goes on with the others.
+    for (const BodyIndex b : model.present)
+      if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
+    const bool foreseen = rigid_step_.correct(model, *model.finder, before_rigid_, h, states_);
+    counters.rigid_points = rigid_step_.points();
+    counters.rigid_relaxations = rigid_step_.relaxations();
+    if (foreseen) return;
+  }
+}
+
+/// Which bodies may touch something rigid, and which of those at rest are woken by it.
+void SpatialMotion::lookAround(IslandModel& model) noexcept {
+  std::fill(rigid_near_.begin(), rigid_near_.end(), char{0});
+  if (!model.finder) return;
+  for (const Touch& touch : touches_)
+    for (const BodyIndex b : {touch.sphere, touch.other}) resting_[b] = 0;
+  for (const BodyIndex b : model.present) {
+    ModelBody& body = model.bodies[b];
+    const bool is_rigid = body.is_active && body.settings.is_rigid;
+    const bool moves = body.isDynamic() || body.disturbed || body.state.v_W != Vec3::Zero() ||
+                       body.state.w_W != Vec3::Zero();
+    if (body.disturbed || !is_rigid) resting_[b] = 0;
+    body.disturbed = false;
+    awake_[b] = is_rigid && moves && !resting_[b];
+    reach_[b] = is_rigid ? allowance_[b] + kRigidWatchDistance : -1.0;
+  }
+  model.finder->lookAround(states_, reach_, awake_, rigid_near_);
+  for (std::size_t b = 0; b < awake_.size(); ++b) {
+    if (!awake_[b]) continue;
+    model.wake(static_cast<BodyIndex>(b));
+    if (resting_[b]) still_[b] = 0.0;
+    resting_[b] = 0;
+  }
+  if (!model.is_listed) model.listPresent();
+}
+
+/// A body that something rigid holds and that stands still for a while is not moved until it is
+/// touched or disturbed.
+void SpatialMotion::letRest(const IslandModel& model, double dt) noexcept {
+  for (const BodyIndex b : model.present) {
+    if (resting_[b]) continue;
+    RigidState& state = states_[b];
+    const ModelBody& body = model.bodies[b];
+    if (!body.isDynamic()) continue;
+    const double speed = state.v_W.norm() + state.w_W.norm() * body.bounding_radius;
+    // Overlap moves out without a velocity.
+    const double way = (state.p_W - body.state.p_W).norm();
+    const bool is_still = rigid_near_[b] && speed < kStillSpeed && way < kStillSpeed * dt;
+    still_[b] = is_still ? still_[b] + dt : 0.0;
+    if (still_[b] < kTimeToRest) continue;
+    resting_[b] = 1;
+    state.v_W.setZero();
+    state.w_W.setZero();
+  }
+}
+
+}  // namespace tandem

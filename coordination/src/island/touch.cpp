@@ -1,0 +1,92 @@
+#include "island/touch.h"
+
+#include <algorithm>
+
+namespace tandem {
+namespace {
+
+SphereContact findPieceContact(const Vec3& p_W, double radius, const Obstacle& mesh,
+                               int piece) noexcept {
+  const PlainRotation rotation(mesh.q_WB);
+  const Separation found = separate(rotation.toBody(PlainVec(p_W) - PlainVec(mesh.p_WB)),
+                                    *std::get_if<Mesh>(&mesh.shape), piece);
+  const Vec3 n_W = rotation.toWorld(found.n).toVec3();
+  return {computeGap(found, radius), n_W, p_W - found.distance * n_W};
+}
+
+}  // namespace
+
+bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
+               double reach) noexcept {
+  const Vec3& p_W = touch.obstacle ? touch.obstacle->p_WB : states[touch.other].p_W;
+  reach += model.bodies[touch.sphere].bounding_radius;
+  reach += touch.obstacle ? computeBoundingRadius(touch.obstacle->shape)
+                          : model.bodies[touch.other].bounding_radius;
+  return !((states[touch.sphere].p_W - p_W).squaredNorm() > reach * reach);
+}
+
+TouchState computeTouchState(const IslandModel& model, const Touch& touch,
+                             const States& states) noexcept {
+  const RigidState& sphere = states[touch.sphere];
+  const double radius = std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius;
+  TouchState state;
+  if (touch.obstacle) {
+    const Obstacle& obstacle = *touch.obstacle;
+    state.geometry = touch.piece < 0 ? findSphereContact(sphere.p_W, radius, obstacle.shape,
+                                                         obstacle.p_WB, obstacle.q_WB)
+                                     : findPieceContact(sphere.p_W, radius, obstacle, touch.piece);
+    state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W);
+    return state;
+  }
+  const RigidState& other = states[touch.other];
+  state.geometry = findSphereContact(sphere.p_W, radius, model.bodies[touch.other].settings.shape,
+                                     other.p_W, other.q_WB);
+  const Vec3 v_point_W = other.v_W + other.w_W.cross(state.geometry.p_W - other.p_W);
+  state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W - v_point_W);
+  return state;
+}
+
+double computePush(const Touch& touch, const TouchState& state) noexcept {
+  return computeContactForce(touch.gains, state.overlap(), state.overlap_rate);
+}
+
+void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
+             const States& states, std::vector<Wrench>& wrenches) noexcept {
+  // The line of force passes through the sphere's centre: no torque on the sphere.
+  const Vec3 f_sphere_W = push * state.geometry.n_W;
+  wrenches[touch.sphere].f_W += f_sphere_W;
+  if (touch.obstacle) return;
+  wrenches[touch.other].f_W -= f_sphere_W;
+  if (model.bodies[touch.other].rotates())
+    wrenches[touch.other].t_W -= (state.geometry.p_W - states[touch.other].p_W).cross(f_sphere_W);
+}
+
+double computeOverlap(const IslandModel& model, const States& states, BodyIndex body) noexcept {
+  double gap = 0.0;
+  const auto look = [&](BodyIndex sphere, BodyIndex other, const Obstacle* obstacle) {
+    const Touch touch{sphere, other, obstacle, {}, false};
+    if (!couldMeet(model, touch, states, 0.0)) return;
+    if (isWholeMesh(touch)) {
+      forEachPiece(model, touch, states, 0.0,
+                   [&](const Touch&, double found) { gap = std::min(gap, found); });
+    } else {
+      gap = std::min(gap, computeTouchState(model, touch, states).geometry.gap);
+    }
+  };
+  const auto is_there = [&](BodyIndex b) {
+    return model.bodies[b].is_active && !model.bodies[b].is_ghost;
+  };
+  for (const IslandContact& contact : model.contacts) {
+    if (contact.sphere != body && contact.other != body) continue;
+    const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;
+    if (is_there(partner)) look(contact.sphere, contact.other, nullptr);
+  }
+  if (!model.bodies[body].settings.feels_obstacles) return -gap;
+  for (const BodyIndex b : model.slots)
+    if (is_there(b) && model.bodies[b].settings.touches_spheres) look(body, b, nullptr);
+  if (!model.obstacles) return -gap;
+  for (const Obstacle& obstacle : *model.obstacles) look(body, body, &obstacle);
+  return -gap;
+}
+
+}  // namespace tandem

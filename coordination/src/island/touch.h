@@ -1,0 +1,96 @@
+#pragma once
+
+#include <vector>
+
+#include "tandem/coordination/contact_geometry.h"
+
+#include "island/island_model.h"
+#include "geometry/mesh_pieces.h"
+
+namespace tandem {
+
+/// One contact that may push: a sphere body and another body, or a sphere body and an obstacle.
+struct Touch {
+  BodyIndex sphere = 0;
+  BodyIndex other = 0;                 ///< the sphere again with an obstacle
+  const Obstacle* obstacle = nullptr;  ///< null: the other is a body
+  CouplerGains gains;
+  bool pushes = false;  ///< its mode over the present step
+  int piece = -1;       ///< of an obstacle that is a mesh: its triangle; -1: the whole mesh
+};
+
+/// How a touch stands at one instant; with a whole mesh, where that is nearest.
+struct TouchState {
+  SphereContact geometry;
+  double overlap_rate = 0.0;  ///< [m/s]
+
+  [[nodiscard]] double overlap() const { return -geometry.gap; }
+};
+
+/// States of all bodies, by index.
+using States = std::vector<RigidState>;
+
+/// A body alone is still watched when something comes this close [m].
+inline constexpr double kWatchDistance = 1e-4;
+
+/// False if the two are farther apart than `reach` [m], by the balls around them: a few additions,
+/// where exact geometry needs a rotation and a root.
+[[nodiscard]] bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
+                             double reach) noexcept;
+
+[[nodiscard]] TouchState computeTouchState(const IslandModel& model, const Touch& touch,
+                                           const States& states) noexcept;
+
+/// [K overlap + B overlap_rate]+ of eqs (7), (8), (11), (12) [N].
+[[nodiscard]] double computePush(const Touch& touch, const TouchState& state) noexcept;
+
+/// Adds the force of size `push` to both partners.
+void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
+             const States& states, std::vector<Wrench>& wrenches) noexcept;
+
+/// How deep a body is in what it has smooth contacts with, ghosts apart [m]; 0: in nothing.
+[[nodiscard]] double computeOverlap(const IslandModel& model, const States& states,
+                                    BodyIndex body) noexcept;
+
+/// True for an obstacle that is taken apart before it is touched, by forEachPiece().
+[[nodiscard]] inline bool isWholeMesh(const Touch& touch) noexcept {
+  return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
+}
+
+/// Calls `visit(touch, gap)` with the touch of each piece of a whole mesh that pushes at a gap
+/// below `allowance` [m], or would after a move as long.
+template <typename Visit>
+void forEachPiece(const IslandModel& model, const Touch& whole, const States& states,
+                  double allowance, Visit visit) noexcept {
+  const Obstacle& obstacle = *whole.obstacle;
+  const double radius = std::get_if<Sphere>(&model.bodies[whole.sphere].settings.shape)->radius;
+  const PlainVec c_B = PlainRotation(obstacle.q_WB)
+                           .toBody(PlainVec(states[whole.sphere].p_W) - PlainVec(obstacle.p_WB));
+  forEachPiece(c_B, *std::get_if<Mesh>(&obstacle.shape), radius + allowance, allowance,
+               [&](int piece, const Separation& found) {
+                 Touch touch = whole;
+                 touch.piece = piece;
+                 visit(touch, computeGap(found, radius));
+               });
+}
+
+/// Calls `visit` with every touch there could be among those present, meshes as a whole: bodies in
+/// pairs, spheres on slots and obstacles.
+template <typename Visit>
+void forEachTouch(const IslandModel& model, Visit visit) {
+  for (const IslandContact& pair : model.present_contacts)
+    visit(Touch{pair.sphere, pair.other, nullptr,
+                computeShare(pair.gains, model.contactShare(pair.sphere, pair.other)), false});
+  for (const BodyIndex b : model.present) {
+    if (!model.bodies[b].settings.feels_obstacles || model.bodies[b].is_ghost) continue;
+    const CouplerGains gains =
+        computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
+    for (BodyIndex slot : model.slots)
+      if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres)
+        visit(Touch{b, slot, nullptr, gains, false});
+    if (!model.obstacles) continue;
+    for (const Obstacle& obstacle : *model.obstacles) visit(Touch{b, b, &obstacle, gains, false});
+  }
+}
+
+}  // namespace tandem

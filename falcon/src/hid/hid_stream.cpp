@@ -1,0 +1,212 @@
+#include "tandem/falcon/hid_stream.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "tandem/coordination/types.h"
+
+#include "guard/settings_check.h"
+
+//   constructor     reader's thread                                          writer's thread
+//   connect() ----> readUntilGone() ---> disconnect() ---> wait, reconnect()
+//       |               ^                     |                   |
+//       |               +---------------------|-------------------+
+//       +-----------------------------------------------------------------> writeUntilGone()
+//
+// Whoever notices first that the device is gone, or that the stream ends, tells the other by a
+// flag. The writer lives as long as the port that it writes to.
+
+namespace tandem {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Enough for a force of 8 N to fade by 2 N each, and for one that fails.
+constexpr int kLastReports = 6;
+constexpr std::chrono::milliseconds kLastPeriod{1};
+
+/// So long a reader without reports does not see that the stream ends [s].
+constexpr double kReadWait = 0.02;
+
+double toSeconds(Clock::time_point time) noexcept {
+  return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
+Clock::duration toDuration(double seconds) noexcept {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+HidStreamSettings checked(const HidStreamSettings& settings) {
+  using falcon_detail::require;
+  require(std::isfinite(settings.write_period) && settings.write_period >= 0.0,
+          "write_period of the HID stream", settings.write_period, "finite and at least 0 [s]");
+  require(std::isfinite(settings.first_retry) && settings.first_retry > 0.0,
+          "first_retry of the HID stream", settings.first_retry, "finite and above 0 [s]");
+  require(std::isfinite(settings.longest_retry) && settings.longest_retry >= settings.first_retry,
+          "longest_retry of the HID stream", settings.longest_retry,
+          "finite, at least first_retry");
+  return settings;
+}
+
+}  // namespace
+
+HidReport HidClient::giveReport(double) noexcept { return {}; }
+HidReport HidClient::giveLastReport(double) noexcept { return {}; }
+
+HidStreamSettings withoutWriting(HidStreamSettings settings) noexcept {
+  settings.write_period = 0.0;
+  return settings;
+}
+
+HidStream::HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings)
+    : open_(std::move(open)), client_(client), settings_(checked(settings)) {
+  connect();
+  try {
+    reader_ = std::thread([this] { run(); });
+  } catch (...) {
+    is_ending_ = true;
+    disconnect();
+    throw;
+  }
+}
+
+HidStream::~HidStream() {
+  {
+    const std::lock_guard held(mutex_);
+    is_ending_ = true;
+  }
+  ends_.notify_all();
+  reader_.join();
+}
+
+HidStreamCounters HidStream::counters() const noexcept {
+  return {reports_, refused_, written_, write_misses_, losses_};
+}
+
+std::string HidStream::name() const {
+  const std::lock_guard held(mutex_);
+  return name_;
+}
+
+std::string HidStream::trouble() const {
+  const std::lock_guard held(mutex_);
+  return trouble_;
+}
+
+void HidStream::connect() {
+  port_ = open_();
+  if (!port_) throw Error("the HID device's opener gave no port");
+  is_gone_ = false;
+  {
+    const std::lock_guard held(mutex_);
+    name_ = port_->name();
+    trouble_.clear();
+  }
+  client_.setConnected(true);
+  startWriter();
+  is_connected_ = true;
+}
+
+void HidStream::startWriter() {
+  if (settings_.write_period <= 0.0) return;
+  try {
+    writer_ = std::thread([this] { writeUntilGone(); });
+  } catch (...) {
+    client_.setConnected(false);
+    throw;
+  }
+}
+
+bool HidStream::reconnect() noexcept {
+  std::string trouble = "the HID device's opener threw what is no std::exception";
+  try {
+    connect();
+    return true;
+  } catch (const std::exception& error) {
+    trouble = error.what();
+  } catch (...) {  // whatever the caller's function threw, this thread goes on
+  }
+  port_.reset();
+  const std::lock_guard held(mutex_);
+  trouble_ = trouble;
+  return false;
+}
+
+void HidStream::disconnect() noexcept {
+  is_gone_ = true;
+  is_connected_ = false;
+  client_.setConnected(false);
+  if (writer_.joinable()) writer_.join();
+  port_.reset();
+}
+
+/// Each connect() is followed by a disconnect(), also if the stream ends in between.
+void HidStream::run() noexcept {
+  for (;;) {
+    readUntilGone();
+    if (!is_ending_) ++losses_;
+    disconnect();
+    double wait = settings_.first_retry;
+    do {
+      if (!sleep(wait)) return;
+      wait = std::min(2.0 * wait, settings_.longest_retry);
+    } while (!reconnect());
+  }
+}
+
+void HidStream::readUntilGone() noexcept {
+  HidReport report;
+  while (!is_ending_ && !is_gone_) {
+    const std::ptrdiff_t size = port_->read(report.bytes.data(), report.bytes.size(), kReadWait);
+    if (size < 0) return;
+    if (size == 0) continue;
+    if (!client_.takeReport(report.bytes.data(), static_cast<std::size_t>(size),
+                            toSeconds(Clock::now())))
+      ++refused_;
+    ++reports_;  // last: who has seen the count can see what the report did
+  }
+}
+
+void HidStream::writeUntilGone() noexcept {
+  const Clock::duration period = toDuration(settings_.write_period);
+  Clock::time_point next = Clock::now();
+  while (!is_ending_ && !is_gone_) {
+    send(client_.giveReport(toSeconds(Clock::now())));
+    next += period;
+    const Clock::time_point now = Clock::now();
+    if (now > next) {
+      const auto missed = (now - next) / period + 1;
+      write_misses_ += static_cast<std::uint64_t>(missed);
+      next += missed * period;
+    }
+    std::this_thread::sleep_until(next);
+  }
+  sayLastWords();
+}
+
+/// Also to a device that seems to be gone: it may have missed one report only.
+void HidStream::sayLastWords() noexcept {
+  for (int i = 0; i < kLastReports; ++i) {
+    send(client_.giveLastReport(toSeconds(Clock::now())));
+    std::this_thread::sleep_for(kLastPeriod);
+  }
+}
+
+void HidStream::send(const HidReport& report) noexcept {
+  if (report.size == 0) return;
+  if (port_->write(report.bytes.data(), report.size))
+    ++written_;
+  else
+    is_gone_ = true;
+}
+
+bool HidStream::sleep(double time) noexcept {
+  std::unique_lock held(mutex_);
+  ends_.wait_for(held, toDuration(time), [this] { return is_ending_.load(); });
+  return !is_ending_;
+}
+
+}  // namespace tandem

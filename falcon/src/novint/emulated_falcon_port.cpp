@@ -1,0 +1,213 @@
+#include "tandem/falcon/emulated_falcon_port.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "tandem/coordination/types.h"
+#include "tandem/falcon/realtime_rights.h"
+
+#include "novint/pseudo_terminal.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kLook = 0.0002;    // how often what is to be sent is looked for [s]
+constexpr double kVisit = 0.00002;  // [s]
+constexpr double kNap = 0.002;      // while it is unplugged [s]
+
+double readClock() noexcept {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void sleep(double time) noexcept {
+  std::this_thread::sleep_for(std::chrono::duration<double>(time));
+}
+
+/// A link in a folder of its own, where nobody else can put another; both go with this.
+class Link {
+ public:
+  Link() {
+    std::error_code error;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::string folder = (parent / "tandem-falcon-XXXXXX").string();
+    if (error || ::mkdtemp(folder.data()) == nullptr)
+      throw Error(
+          "no folder can be made for the line of an emulated Falcon; set TMPDIR to "
+          "one that may be written to");
+    folder_ = folder;
+    path_ = folder + "/tty";
+  }
+  ~Link() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  void leadTo(const std::string& target) {
+    std::error_code error;
+    std::filesystem::remove(path_, error);
+    std::filesystem::create_symlink(target, path_, error);
+    if (error) throw Error(path_ + ": cannot be made (" + error.message() + "); is the disk full?");
+  }
+  void remove() noexcept {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::string path_;
+};
+
+FalconEmulatorSettings withoutModemLines(FalconEmulatorSettings settings) {
+  settings.has_modem_lines = false;
+  return settings;
+}
+
+}  // namespace
+
+class EmulatedFalconPort::Server {
+ public:
+  Server(const FalconEmulatorSettings& settings, std::unique_ptr<Hand> hand, int priority)
+      : emulator_(withoutModemLines(settings), std::move(hand)), priority_(priority) {
+    plugIn();
+    thread_ = std::thread([this] { run(); });
+  }
+
+  ~Server() {
+    stops_.store(true, std::memory_order_relaxed);
+    thread_.join();
+  }
+
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return link_.path(); }
+
+  void plugIn() {
+    ++visitors_;
+    const std::lock_guard lock(mutex_);
+    --visitors_;
+    terminal_.emplace();
+    emulator_.plugIn(true);
+    link_.leadTo(terminal_->path());
+  }
+
+  void unplug() {
+    ++visitors_;
+    const std::lock_guard lock(mutex_);
+    --visitors_;
+    link_.remove();
+    terminal_.reset();
+    emulator_.plugIn(false);
+    line_.baud = 0;
+  }
+
+  void visit(const std::function<void(FalconEmulator&, double)>& visitor) {
+    ++visitors_;
+    const std::lock_guard lock(mutex_);
+    --visitors_;
+    const double now = readClock();
+    emulator_.advance(now);
+    visitor(emulator_, now);
+  }
+
+ private:
+  void run() {
+    RealtimeRights rights;
+    rights.take(priority_, false);
+    while (!stops_.load(std::memory_order_relaxed)) {
+      if (!serve()) sleep(kNap);
+      while (visitors_.load() > 0) sleep(kVisit);  // who waits gets the lock
+    }
+  }
+
+  /// False while there is no line.
+  bool serve() {
+    const std::lock_guard lock(mutex_);
+    if (!terminal_) return false;
+    std::array<std::uint8_t, 256> bytes;
+    const std::size_t come = terminal_->read(bytes.data(), bytes.size(), kLook);
+    // The speed is looked at after the bytes: a host sets it before it sends.
+    if (const int baud = terminal_->readSpeed(); baud != line_.baud && baud > 0) {
+      line_.baud = baud;
+      emulator_.setLine(line_);
+    }
+    emulator_.take(bytes.data(), come, readClock());
+    const std::size_t left = emulator_.collect(bytes.data(), bytes.size(), readClock());
+    if (left > 0) terminal_->write(bytes.data(), left);
+    return true;
+  }
+
+  std::mutex mutex_;
+  FalconEmulator emulator_;
+  Link link_;
+  std::optional<falcon_detail::PseudoTerminal> terminal_;
+  SerialLine line_;
+  std::atomic<bool> stops_{false};
+  std::atomic<int> visitors_{0};
+  int priority_;
+  std::thread thread_;
+};
+
+EmulatedFalconPort::EmulatedFalconPort(FalconEmulatorSettings settings, std::unique_ptr<Hand> hand,
+                                       int thread_priority)
+    : server_(std::make_unique<Server>(settings, std::move(hand), thread_priority)) {}
+EmulatedFalconPort::~EmulatedFalconPort() = default;
+
+const std::string& EmulatedFalconPort::path() const noexcept { return server_->path(); }
+void EmulatedFalconPort::unplug() { server_->unplug(); }
+void EmulatedFalconPort::plugIn() { server_->plugIn(); }
+void EmulatedFalconPort::visit(const std::function<void(FalconEmulator&, double now)>& visitor) {
+  server_->visit(visitor);
+}
+
+namespace {
+
+class EmulatorLine final : public ByteTransport {
+ public:
+  explicit EmulatorLine(FalconEmulator& emulator) : emulator_(emulator) {}
+
+  [[nodiscard]] const std::string& name() const noexcept override { return name_; }
+  [[nodiscard]] bool write(const std::uint8_t* bytes, std::size_t count) noexcept override {
+    emulator_.take(bytes, count, readClock());
+    return emulator_.isPluggedIn();
+  }
+  [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
+                                    double wait) noexcept override {
+    const double until = readClock() + wait;
+    for (;;) {
+      if (!emulator_.isPluggedIn()) return -1;
+      const double now = readClock();
+      const std::size_t count = emulator_.collect(bytes, room, now);
+      if (count > 0 || now >= until) return static_cast<std::ptrdiff_t>(count);
+      sleep(kLook);
+    }
+  }
+  [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {
+    emulator_.setLine(line);
+    return emulator_.isPluggedIn();
+  }
+  void purge() noexcept override { emulator_.purge(); }
+
+ private:
+  FalconEmulator& emulator_;
+  std::string name_ = "emulated Falcon";
+};
+
+}  // namespace
+
+std::unique_ptr<ByteTransport> openEmulator(FalconEmulator& emulator) {
+  return std::make_unique<EmulatorLine>(emulator);
+}
+
+}  // namespace tandem

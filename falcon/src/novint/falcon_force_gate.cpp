@@ -1,0 +1,42 @@
+#include "tandem/falcon/falcon_force_gate.h"
+
+#include <algorithm>
+
+#include "guard/force_limit.h"
+
+namespace tandem {
+namespace {
+
+/// Force does not catch up on time in which nothing was sent [s].
+constexpr double kLongestStep = 0.001;
+
+using falcon_detail::shorten;
+
+}  // namespace
+
+void FalconForceGate::clear() noexcept {
+  force_.setZero();
+  was_open_ = false;
+}
+
+Vec3 FalconForceGate::limit(const Vec3& wanted, double age, double now) const noexcept {
+  if (!wanted.allFinite() || !(age < limits_.hold + limits_.fade)) return Vec3::Zero();
+  double share = 1.0;
+  if (age > limits_.hold) share = 1.0 - (age - limits_.hold) / limits_.fade;
+  if (limits_.ramp_in > 0.0) share *= std::clamp((now - opened_at_) / limits_.ramp_in, 0.0, 1.0);
+  return share * shorten(wanted, limits_.max_force);
+}
+
+Vec3 FalconForceGate::advance(const Vec3& wanted, double age, bool is_open, double now) noexcept {
+  if (is_open && !was_open_) opened_at_ = now;
+  was_open_ = is_open;
+  const bool must_go = !is_open || !(age <= limits_.hold) || !wanted.allFinite();
+  const double slowest = must_go ? limits_.max_force / kLongestForceFade : 0.0;
+  const Vec3 target = is_open ? limit(wanted, age, now) : Vec3(Vec3::Zero());
+  const double step = std::clamp(now - last_, 0.0, kLongestStep);
+  last_ = now;
+  force_ += shorten(target - force_, std::max(limits_.max_slew, slowest) * step);
+  return force_;
+}
+
+}  // namespace tandem

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "tandem/falcon/hand.h"
+#include "tandem/falcon/haptic_device.h"
+#include "tandem/falcon/latest_value.h"
+
+#include "c/handle.h"
+
+namespace tandem::c_door {
+
+/// Of plain numbers, to go from one thread to another.
+using Triple = std::array<double, 3>;
+
+/// A device that is told where the hand is. move() and read() may be of two threads.
+class MovedDevice final : public HapticDevice {
+ public:
+  MovedDevice(const Vec3& start_W, const DeviceCapabilities& limits);
+
+  void move(const Vec3& p_W, const Vec3& v_W) noexcept;
+
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override { return limits_; }
+  [[nodiscard]] DeviceSample read(double now) noexcept override;
+  void write(const Vec3&) noexcept override {}
+
+ private:
+  struct Motion {
+    Triple p_W{}, v_W{};
+  };
+  DeviceCapabilities limits_;
+  LatestValue<Motion> told_;
+  double since_ = 0.0;  ///< when it was heard of that
+};
+
+/// The hand of a simulated device: a force that may be changed by another thread.
+class SteeredHand final : public Hand {
+ public:
+  void setForce(const Vec3& f_W) noexcept { force_W_.write({f_W.x(), f_W.y(), f_W.z()}); }
+  [[nodiscard]] Vec3 computeForce(double, const PointState&) const noexcept override;
+
+ private:
+  mutable LatestValue<Triple> force_W_;
+};
+
+/// Remembers the force that was written last, for another thread.
+class ShownForce final : public HapticDevice {
+ public:
+  explicit ShownForce(std::unique_ptr<HapticDevice> device) : device_(std::move(device)) {}
+
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
+    return device_->capabilities();
+  }
+  [[nodiscard]] DeviceSample read(double now) noexcept override { return device_->read(now); }
+  void write(const Vec3& f_W) noexcept override {
+    device_->write(f_W);
+    force_W_.write({f_W.x(), f_W.y(), f_W.z()});
+  }
+  [[nodiscard]] const Triple& force() noexcept { return force_W_.read(); }
+
+ private:
+  std::unique_ptr<HapticDevice> device_;
+  LatestValue<Triple> force_W_;
+};
+
+struct Device {
+  static constexpr std::uint32_t kKind = 0x54644556;
+  static constexpr const char* kName = "device";
+  static constexpr const char* kUser = "a site";
+
+  explicit Device(std::unique_ptr<HapticDevice> device) : haptic(std::move(device)) {}
+
+  ShownForce haptic;
+  MovedDevice* moved = nullptr;  ///< null: of another kind
+  SteeredHand* hand = nullptr;   ///< null: of another kind
+};
+
+}  // namespace tandem::c_door
+
+struct TandemDevice : tandem::c_door::Handle<tandem::c_door::Device> {};

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/plugin/udp_mesh.h"
+
+#include "c/link.h"
+#include "c/mesh_link.h"
+
+namespace tandem::c_door {
+
+/// A mesh and the handles of its links.
+class MeshEnd {
+ public:
+  static constexpr std::uint32_t kKind = 0x54654d53;
+  static constexpr const char* kName = "mesh";
+  static constexpr const char* kUser = "a site, by one of its links";
+
+  MeshEnd(const UdpMeshSettings& settings, std::vector<UdpPeer> peers);
+  ~MeshEnd();
+  MeshEnd(const MeshEnd&) = delete;
+  MeshEnd& operator=(const MeshEnd&) = delete;
+
+  /// The same handle each time. `own` is this one's.
+  [[nodiscard]] TandemLink* link(std::uint32_t peer, HandleHead& own);
+  [[nodiscard]] std::uint16_t port() const noexcept { return mesh_.bound().port; }
+  void poll(double now);
+  void leave(double now);
+  [[nodiscard]] TandemPeerStatus status(std::uint32_t peer, double now) const;
+  [[nodiscard]] std::vector<std::string> explain(std::uint32_t peer) const;
+
+ private:
+  struct Way {
+    std::uint32_t peer;
+    std::unique_ptr<MeshLink> link;
+    TandemLink* handle;
+  };
+  void follow(double now);
+  void checkPeer(std::uint32_t peer) const;
+
+  std::vector<std::uint32_t> peers_;
+  UdpMesh mesh_;
+  std::vector<Way> ways_;
+  double now_ = 0.0;
+  bool has_begun_ = false;
+};
+
+}  // namespace tandem::c_door
+
+struct TandemMesh : tandem::c_door::Handle<tandem::c_door::MeshEnd> {};

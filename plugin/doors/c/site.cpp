@@ -1,0 +1,122 @@
+#include "c/site.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tandem/bullet_bridge/world_access.h"
+
+#include "c/mesh_link.h"
+#include "c/values.h"
+
+namespace tandem::c_door {
+
+SiteEnd::SiteEnd(const SiteSettings& settings, TandemWorld& world, TandemDevice& device)
+    : world_(*world.thing),
+      world_use_(world.head),
+      device_use_(device.head),
+      ticks_itself_(settings.tick_source == TickSource::kHostStep),
+      site_(settings, world_.bullet(), device.thing->haptic, world_.abi()) {
+  world_.watch(&site_);
+}
+
+SiteEnd::~SiteEnd() {
+  stopLoop();
+  world_.watch(nullptr);
+  for (const TandemBody body : shared_) world_.release(body);
+  for (const TandemBody proxy : proxies_) world_.forget(proxy);
+}
+
+void SiteEnd::checkSetUp(const char* what) const {
+  (void)world_.bullet();
+  if (loop_)
+    throw Error(std::string(what) +
+                " is set-up; stop the loop first, and start another one afterwards");
+}
+
+ObjectId SiteEnd::share(TandemBody body, double damping) {
+  checkSetUp("sharing a body");
+  WorldBody& known = world_.body(body);
+  requireNotNegative("damping", damping);
+  if (known.is_shared)
+    throw Error("body " + std::to_string(body) + " is shared already, or a proxy; share it once");
+  // Site would take a note of a static one before it refuses it.
+  if (!isDynamic(*known.rigid))
+    throw Error("body " + std::to_string(body) + " is static; give a shared object a mass");
+  shared_.reserve(shared_.size() + 1);
+  const ObjectId object = site_.share(*known.rigid, damping);
+  shared_.push_back(body);
+  known.is_shared = true;
+  return object;
+}
+
+TandemBody SiteEnd::connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W) {
+  checkSetUp("connecting a remote");
+  if (peer == 0) refuseValue("peer", 0, "1 or more");
+  if (std::find(peers_.begin(), peers_.end(), peer) != peers_.end())
+    throw Error("peer " + std::to_string(peer) + " is connected already; connect each once");
+  if (link.head.users > 0)
+    throw Refusal(TANDEM_IN_USE, "the link is connected already; each remote has one of its own");
+  peers_.reserve(peers_.size() + 1);
+  link_uses_.reserve(link_uses_.size() + 2);
+  mesh_links_.reserve(mesh_links_.size() + 1);
+  proxies_.reserve(proxies_.size() + 1);
+  world_.reserveNumber();
+  site_.connect(PeerId{peer}, *link.thing->link, start_W);
+  peers_.push_back(peer);
+  link_uses_.emplace_back(link.head);
+  has_simulated_link_ |= link.thing->is_simulated;
+  if (MeshLink* mesh_link = link.thing->mesh_link) {
+    mesh_links_.push_back(mesh_link);
+    link_uses_.emplace_back(*link.thing->mesh);
+  }
+  btRigidBody* proxy = site_.proxyBody(site_.remoteCount() - 1);
+  if (!proxy) return TANDEM_NO_BODY;
+  proxies_.push_back(world_.number(*proxy));
+  world_.body(proxies_.back()).is_shared = true;
+  return proxies_.back();
+}
+
+std::uint32_t SiteEnd::tick(double now) {
+  if (ticks_itself_)
+    throw std::invalid_argument(
+        "the site ticks itself in the world's steps; make it with TANDEM_TICK_CALLER");
+  if (loop_)
+    throw Refusal(TANDEM_IN_USE, "the site is ticked by its loop; call tandem_site_stop_loop()");
+  requireFinite("now", now);
+  if (now <= last_tick_) refuseValue("now", now, "later than at the tick before");
+  last_tick_ = now;
+  return site_.tick(now);
+}
+
+void SiteEnd::startLoop(int priority) {
+  (void)world_.bullet();
+  if (loop_) throw Error("the site has a loop already; stop that first");
+  if (has_simulated_link_)
+    throw Error(
+        "a simulated link belongs to the thread of both its sites; connect a loop's site by a mesh "
+        "or a manual link");
+  HapticLoopSettings settings;
+  settings.priority = priority;
+  settings.locks_memory = priority > 0;
+  for (MeshLink* link : mesh_links_) link->setLive(true);
+  try {
+    loop_ = std::make_unique<HapticLoop>(site_, settings);
+  } catch (...) {
+    for (MeshLink* link : mesh_links_) link->setLive(false);
+    throw;
+  }
+}
+
+void SiteEnd::stopLoop() noexcept {
+  if (!loop_) return;
+  loop_.reset();
+  for (MeshLink* link : mesh_links_) link->setLive(false);
+}
+
+std::vector<std::string> SiteEnd::warnings() const {
+  std::vector<std::string> all = site_.warnings();
+  if (loop_) all.insert(all.end(), loop_->notes().begin(), loop_->notes().end());
+  return all;
+}
+
+}  // namespace tandem::c_door

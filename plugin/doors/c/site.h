@@ -1,0 +1,60 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/plugin/haptic_loop.h"
+#include "tandem/plugin/site.h"
+
+#include "c/device.h"
+#include "c/link.h"
+#include "c/world.h"
+
+namespace tandem::c_door {
+
+/// Throws std::invalid_argument for settings that are not from tandem_default_site_settings() or
+/// out of range.
+[[nodiscard]] SiteSettings fromC(const TandemSiteSettings& settings);
+
+class SiteEnd {
+ public:
+  static constexpr std::uint32_t kKind = 0x54735449;
+  static constexpr const char* kName = "site";
+  static constexpr const char* kUser = "nothing";
+
+  SiteEnd(const SiteSettings& settings, TandemWorld& world, TandemDevice& device);
+  ~SiteEnd();
+  SiteEnd(const SiteEnd&) = delete;
+  SiteEnd& operator=(const SiteEnd&) = delete;
+
+  ObjectId share(TandemBody body, double damping);
+  TandemBody connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W);
+  std::uint32_t tick(double now);
+  void startLoop(int priority);
+  void stopLoop() noexcept;
+
+  [[nodiscard]] Site& site() noexcept { return site_; }
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
+ private:
+  /// Said before Site itself would begin with it.
+  void checkSetUp(const char* what) const;
+
+  World& world_;
+  Use world_use_, device_use_;
+  std::vector<Use> link_uses_;
+  std::vector<MeshLink*> mesh_links_;
+  bool has_simulated_link_ = false;
+  std::vector<std::uint32_t> peers_;
+  std::vector<TandemBody> shared_, proxies_;
+  bool ticks_itself_;
+  double last_tick_ = -std::numeric_limits<double>::infinity();
+  Site site_;
+  std::unique_ptr<HapticLoop> loop_;  ///< null: none runs
+};
+
+}  // namespace tandem::c_door
+
+struct TandemSite : tandem::c_door::Handle<tandem::c_door::SiteEnd> {};
