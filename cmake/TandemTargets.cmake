@@ -3,6 +3,8 @@
 
 add_library(tandem_compile_options INTERFACE)
 target_compile_features(tandem_compile_options INTERFACE cxx_std_20)
+# Private headers of another folder are included by their path from here.
+target_include_directories(tandem_compile_options INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_options(tandem_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Werror -ffp-contract=off -fno-math-errno)
