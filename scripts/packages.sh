@@ -17,7 +17,7 @@ packages_of() {
                 nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev libsodium-dev \
                 libftdi1-dev libhidapi-dev ;;
     demo)  echo gnuplot-nox fonts-dejavu-core ;;
-    test)  echo libgtest-dev python3 ;;
+    test)  echo libgtest-dev python3 ccache ;;
     bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;
     live)  echo rt-tests ;;
     hosts) echo libignition-physics-sdf-dev libignition-plugin-dev libignition-physics5-bullet-plugin5 ;;
