@@ -13,12 +13,15 @@
 namespace tandem {
 namespace {
 
+/// A body joins before it can be touched. D covers the way of two bodies until the host looks
+/// again: a margin for shapes, an acceleration of twice gravity, and half as much again of their
+/// speed.
 constexpr double kMargin = 2e-3;        // [m]
 constexpr double kAcceleration = 20.0;  // [m/s^2]
 constexpr double kSafety = 1.5;
-/// Held bodies stay up to this many D.
+/// Held bodies stay up to this many D, so that they do not join and leave in turns.
 constexpr double kHysteresis = 1.5;
-/// Who flies faster than this at a body at rest is seen later than D says [m/s].
+/// A body that flies faster than this at a body at rest is seen later than D says [m/s].
 constexpr double kFastestComer = 3.0;
 
 double computeDistance(double speed, double horizon) {

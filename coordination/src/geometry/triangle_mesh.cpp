@@ -15,7 +15,8 @@ namespace {
 constexpr double kWeld = 1e-6;
 /// Faces whose normals differ by less are in one plane [rad].
 constexpr double kFlat = 1e-5;
-/// Cosine of the angle between normals from which a concave edge is a corner to press into.
+/// Cosine of the angle between normals, 60 degrees, from which a concave edge is a corner to press
+/// into: both faces push there.
 constexpr double kSharpCosine = 0.5;
 constexpr int kTrianglesPerLeaf = 4;
 

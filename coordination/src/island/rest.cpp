@@ -6,11 +6,12 @@
 namespace tandem {
 namespace {
 
+// A body at rest goes no farther than kToGo, far below what a hand or a picture shows.
 constexpr double kSlow = 1e-9;    // [m/s, rad/s]
 constexpr double kSteady = 1e-6;  // [m/s^2, rad/s^2]
 constexpr double kToGo = 5e-13;   // left of the way to rest [m]
 
-// What nothing pulls back must not drift for hours: rounding only.
+// A body that nothing pulls back must not drift for hours: rounding only.
 constexpr double kStill = 1e-15;          // [m/s, rad/s]
 constexpr double kUnaccelerated = 1e-14;  // [m/s^2, rad/s^2]
 

@@ -6,7 +6,8 @@
 namespace tandem {
 namespace {
 
-/// Who is woken has this much room left, so that a sphere need not look at every tick [m].
+/// A sleeper is woken while a sphere is still this far away, so that the sphere need not look at
+/// every tick [m].
 constexpr double kRoom = 1e-3;
 
 /// Distance between the surfaces of a sphere and another body [m], or less.

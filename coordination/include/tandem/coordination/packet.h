@@ -12,7 +12,7 @@ namespace tandem {
 /// Identity of a shared object, agreed between the peers (its place in the scenario).
 using ObjectId = std::uint32_t;
 
-/// Shared objects that fit one packet.
+/// Shared objects in one packet: with eight the longest datagram has 1004 bytes, below one MTU.
 inline constexpr int kMaxObjectsPerPacket = 8;
 
 /// Shared objects of a site. Where there are more than fit one packet, they take turns.

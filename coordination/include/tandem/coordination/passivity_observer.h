@@ -9,7 +9,7 @@ namespace tandem {
 /// What a hand may get out of a connection. Checked by checkPassivitySettings().
 struct PassivitySettings {
   bool enabled = true;
-  double tank = 0.02;  ///< that may be given before anybody has put anything in [J]
+  double tank = 0.02;  ///< may be given before anybody puts in any [J]; the paper needs 5.7 mJ
   double band = 0.01;  ///< below this rest the force fades [J], at most `tank`
   double most = 10.0;  ///< of what was put in counts as still there [J]: more than springs and
                        ///< moving masses of a scene hold; the rest has become heat

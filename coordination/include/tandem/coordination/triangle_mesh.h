@@ -56,7 +56,7 @@ class TriangleMesh {
     Vec3 middle = Vec3::Zero();
   };
 
-  static constexpr double kDeepest = 0.1;  ///< [m]
+  static constexpr double kDeepest = 0.1;  ///< behind an open surface a centre is pushed back [m]
 
   /// `corners`: three for each triangle. Corners nearer to each other than a millionth of the size
   /// are one; triangles without area are left out. Throws std::invalid_argument for values that are
