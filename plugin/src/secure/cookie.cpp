@@ -6,19 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "coordination/src/wire/little_endian.h"
+
 namespace tandem::secure {
 namespace {
 
 constexpr std::size_t kLongestAddress = 16;
 constexpr std::size_t kFixedPart = 8 + 8 + 3 * 2 + 1;
-
-/// Appends a number's bytes, lowest first; returns where the next goes.
-template <typename Unsigned>
-constexpr std::uint8_t* putLittleEndian(std::uint8_t* to, Unsigned value) noexcept {
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
-    *to++ = static_cast<std::uint8_t>(value >> (8 * i));
-  return to;
-}
 
 }  // namespace
 
@@ -40,11 +34,16 @@ std::int64_t CookieMaker::slotAt(double now) const noexcept {
 Cookie CookieMaker::makeIn(std::int64_t slot, const CookieSubject& subject) const noexcept {
   const std::size_t address_size = std::min(subject.address.size(), kLongestAddress);
   std::array<std::uint8_t, kFixedPart + kLongestAddress> text;
-  std::uint8_t* end = putLittleEndian(text.data(), static_cast<std::uint64_t>(slot));
-  end = putLittleEndian(end, subject.nonce);
-  end = putLittleEndian(end, subject.port);
-  end = putLittleEndian(end, subject.from);
-  end = putLittleEndian(end, subject.to);
+  std::uint8_t* end = text.data();
+  const auto append = [&end](auto number) {
+    wire::storeLittleEndian(number, end);
+    end += sizeof number;
+  };
+  append(static_cast<std::uint64_t>(slot));
+  append(subject.nonce);
+  append(subject.port);
+  append(subject.from);
+  append(subject.to);
   *end++ = static_cast<std::uint8_t>(address_size);
   std::copy_n(subject.address.begin(), address_size, end);
 
