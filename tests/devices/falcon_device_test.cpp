@@ -15,17 +15,13 @@
 
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/emulated_falcon_port.h"
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/tty_transport.h"
 
 namespace tandem {
 namespace {
 
 constexpr double kLongest = 20.0;  // for any outcome [s]
-
-double readClock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-void sleep(double time) { std::this_thread::sleep_for(std::chrono::duration<double>(time)); }
 
 FalconEmulatorSettings readyDevice() {
   FalconEmulatorSettings settings;
@@ -60,8 +56,9 @@ class FalconOverTty : public ::testing::Test {
 
   /// Until `is_so`; false after kLongest.
   bool tickUntil(const std::function<bool(const FalconStatus&)>& is_so) {
-    for (const double end = readClock() + kLongest; readClock() < end; sleep(0.001)) {
-      sample_ = device_->read(readClock());
+    for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
+         sleepFor(0.001)) {
+      sample_ = device_->read(readMonotonicClock());
       device_->write(sample_.valid ? push_ : Vec3(Vec3::Zero()));
       if (is_so(device_->status())) return true;
     }
@@ -315,7 +312,8 @@ TEST(EmulatedFalconPort, LeavesNothingBehind) {
 
 TEST(FalconDevice, OneThatCannotBeOpenedSaysWhy) {
   FalconDevice device({}, {}, [] { return openTty("/dev/no-such-falcon"); });
-  for (const double end = readClock() + kLongest; readClock() < end; sleep(0.005))
+  for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
+       sleepFor(0.005))
     if (device.status().fault == FalconFault::kCannotOpen) break;
   EXPECT_EQ(device.status().state, FalconState::kClosed);
   EXPECT_EQ(std::string(device.status().open_error.data()).rfind("/dev/no-such-falcon: No such", 0),
@@ -382,7 +380,8 @@ class FalconAtALineThatBreaks : public ::testing::Test {
   }
   [[nodiscard]] bool waitUntil(const std::function<bool(const FalconStatus&)>& is_so,
                                const Vec3& push = Vec3(0.0, 25.0, 0.0)) {
-    for (const double end = readClock() + kLongest; readClock() < end; sleep(0.001)) {
+    for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
+         sleepFor(0.001)) {
       device_->write(push);
       if (is_so(device_->status())) return true;
     }
@@ -457,7 +456,8 @@ TEST_F(FalconAtALineThatBreaks, AForceAskedForWhileItWasClosedIsNotRendered) {
   device_->write(Vec3(0.0, 8.0, 0.0));
   breaks_.may_open = true;
   std::uint64_t ready_at = 0;
-  for (const double end = readClock() + kLongest; readClock() < end; sleep(0.001)) {
+  for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
+       sleepFor(0.001)) {
     const FalconStatus& status = device_->status();
     if (ready_at == 0 && status.state == FalconState::kReady) ready_at = status.frames;
     if (ready_at > 0 && status.frames > ready_at + 200) break;
@@ -473,7 +473,8 @@ TEST(FalconDevice, AReadingThatStaysIsNotValidForLong) {
   FalconDevice device(patientSettings(), {}, [&emulator] { return openEmulator(emulator); });
   DeviceSample sample;
   double now = 0.0;
-  for (const double end = readClock() + kLongest; readClock() < end && !sample.valid; sleep(0.001))
+  for (const double end = readMonotonicClock() + kLongest;
+       readMonotonicClock() < end && !sample.valid; sleepFor(0.001))
     sample = device.read(now);
   ASSERT_TRUE(sample.valid);
   EXPECT_FALSE(device.read(std::nan("")).valid);

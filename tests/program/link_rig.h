@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/udp_socket.h"
 
 #include "program/background.h"
@@ -17,10 +17,6 @@
 namespace tandem::test {
 
 using Bytes = std::vector<std::uint8_t>;
-
-[[nodiscard]] inline double readClock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Datagram `number`: any two of them differ in many of their bits.
 [[nodiscard]] inline Bytes makeDatagram(std::uint64_t number) {
@@ -42,20 +38,20 @@ class Endpoint {
 
   struct Arrived {
     Bytes bytes;
-    double at = 0.0;  ///< [s], readClock()
+    double at = 0.0;  ///< [s], readMonotonicClock()
     Address from;
   };
   /// The next one; nothing if none comes within `seconds`.
   [[nodiscard]] std::optional<Arrived> receive(double seconds) {
     Bytes room(2048);
-    const double until = readClock() + seconds;
+    const double until = readMonotonicClock() + seconds;
     do {
       if (const auto got = socket_.receive({room.data(), room.size()})) {
         room.resize(got->size);
-        return Arrived{room, readClock(), got->from};
+        return Arrived{room, readMonotonicClock(), got->from};
       }
-      socket_.wait(until - readClock());
-    } while (readClock() < until);
+      socket_.wait(until - readMonotonicClock());
+    } while (readMonotonicClock() < until);
     return std::nullopt;
   }
 

@@ -21,7 +21,7 @@ std::vector<double> sendNumbers(std::uint64_t first, std::uint64_t end, Endpoint
                                 std::vector<Endpoint::Arrived>& arrived) {
   std::vector<double> sent;
   for (std::uint64_t n = first; n < end; ++n) {
-    sent.push_back(readClock());
+    sent.push_back(readMonotonicClock());
     from.send(makeDatagram(n), to);
     while (const auto one = receiver.receive(1e-3)) arrived.push_back(*one);
   }
@@ -178,8 +178,8 @@ TEST(Link, CountsWhatIsTooLong) {
 /// Sends until the server sees what `is_wanted` waits for; false if it never does.
 template <typename IsWanted>
 bool sendUntil(LinkRig& rig, const IsWanted& is_wanted) {
-  const double until = readClock() + kPatience;
-  for (std::uint64_t n = 0; readClock() < until; ++n) {
+  const double until = readMonotonicClock() + kPatience;
+  for (std::uint64_t n = 0; readMonotonicClock() < until; ++n) {
     rig.client.send(makeDatagram(n), rig.proxy);
     while (const auto seen = rig.server.receive(5e-3))
       if (is_wanted(*seen)) return true;
@@ -243,7 +243,7 @@ TEST(LinkScript, CutsOneWayAlone) {
 TEST(LinkScript, StepsTheDelay) {
   const TempFolder folder;
   LinkRig rig({"--script", folder.write("s.toml", "[[change]]\nat = 0\ndelay = \"60ms\"\n")});
-  const double sent = readClock();
+  const double sent = readMonotonicClock();
   rig.client.send(makeDatagram(0), rig.proxy);
   const auto seen = rig.server.receive(kPatience);
   ASSERT_TRUE(seen);

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/emulated_falcon_port.h"
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 #include "device/open_device.h"
 #include "device/user_axes.h"
@@ -40,7 +40,7 @@ class LiveDeviceTest : public ::testing::Test {
   }
   bool readUntil(const std::function<bool(const DeviceSample&)>& is_so) {
     for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
-         sleepUntil(readMonotonicClock() + 1e-3))
+         sleepFor(1e-3))
       if (is_so(sample_ = device_->read(0.0))) return true;
     return false;
   }

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "tandem/falcon/hand.h"
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem::demos {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem::demos {
 namespace {

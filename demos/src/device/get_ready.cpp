@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 #include "device/bars.h"
 #include "device/screen_line.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 #include "device/plugged_in.h"
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <limits>
 #include <stdexcept>
 
 #include <poll.h>
 #include <sys/prctl.h>
+
+#include "tandem/falcon/monotonic_clock.h"
 
 //                   enter: now                     due <= now
 //  client --> listen_ -----> forward_ (heap) ------------> outward_ --> server
@@ -21,10 +22,6 @@ namespace {
 
 /// A flood of new ones must not delay those that are due.
 constexpr int kMostPerRound = 16;
-
-double readClock() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 bool isAny(const Address& address) noexcept {
   return std::all_of(address.ip.begin(), address.ip.end(), [](auto byte) { return byte == 0; });
@@ -63,12 +60,12 @@ LinkProxy::LinkProxy(const LinkProxySettings& settings)
                                 ": is what --listen has; must be the address of the server");
 }
 
-double LinkProxy::now() const noexcept { return readClock() - started_; }
+double LinkProxy::now() const noexcept { return readMonotonicClock() - started_; }
 
 void LinkProxy::run(const StopSignals& stop, double duration) {
   // Timers are otherwise late by 50 us, to save power.
   (void)prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-  started_ = readClock();
+  started_ = readMonotonicClock();
   for (double time = 0.0; !stop.isAsked() && time < duration; time = now()) {
     if (plan_.advance(time) > 0) outward_ = std::make_unique<net::UdpSocket>(Address{});
     takeIn();

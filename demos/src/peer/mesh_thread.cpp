@@ -1,6 +1,6 @@
 #include "peer/mesh_thread.h"
 
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem::demos {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
-#include "tandem/plugin/monotonic_clock.h"
 
 #include "device/get_ready.h"
 #include "device/open_device.h"
@@ -89,7 +89,7 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerCommand& command, const Sc
   GetReadySettings settings;
   settings.is_quiet = command.quiet;
   is_ended = !getReady(*device, settings, [](double seconds) {
-    sleepUntil(readMonotonicClock() + seconds);
+    sleepFor(seconds);
     return stop_asked != 0;
   });
   // The hand may go where it likes until both sites run.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 #include "guard/settings_check.h"
 
@@ -22,22 +23,12 @@
 namespace tandem {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Enough for a force of 8 N to fade by 2 N each, and for one that fails.
 constexpr int kLastReports = 6;
-constexpr std::chrono::milliseconds kLastPeriod{1};
+constexpr double kLastPeriod = 1e-3;  // [s]
 
 /// So long a reader without reports does not see that the stream ends [s].
 constexpr double kReadWait = 0.02;
-
-double toSeconds(Clock::time_point time) noexcept {
-  return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
-
-Clock::duration toDuration(double seconds) noexcept {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 HidStreamSettings checked(const HidStreamSettings& settings) {
   using falcon_detail::require;
@@ -164,25 +155,25 @@ void HidStream::readUntilGone() noexcept {
     if (size < 0) return;
     if (size == 0) continue;
     if (!client_.takeReport(report.bytes.data(), static_cast<std::size_t>(size),
-                            toSeconds(Clock::now())))
+                            readMonotonicClock()))
       ++refused_;
     ++reports_;  // last: who has seen the count can see what the report did
   }
 }
 
 void HidStream::writeUntilGone() noexcept {
-  const Clock::duration period = toDuration(settings_.write_period);
-  Clock::time_point next = Clock::now();
+  const double period = settings_.write_period;
+  double next = readMonotonicClock();
   while (!is_ending_ && !is_gone_) {
-    send(client_.giveReport(toSeconds(Clock::now())));
+    send(client_.giveReport(readMonotonicClock()));
     next += period;
-    const Clock::time_point now = Clock::now();
+    const double now = readMonotonicClock();
     if (now > next) {
-      const auto missed = (now - next) / period + 1;
+      const double missed = std::floor((now - next) / period) + 1.0;
       write_misses_ += static_cast<std::uint64_t>(missed);
       next += missed * period;
     }
-    std::this_thread::sleep_until(next);
+    sleepUntil(next);
   }
   sayLastWords();
 }
@@ -190,8 +181,8 @@ void HidStream::writeUntilGone() noexcept {
 /// Also to a device that seems to be gone: it may have missed one report only.
 void HidStream::sayLastWords() noexcept {
   for (int i = 0; i < kLastReports; ++i) {
-    send(client_.giveLastReport(toSeconds(Clock::now())));
-    std::this_thread::sleep_for(kLastPeriod);
+    send(client_.giveLastReport(readMonotonicClock()));
+    sleepFor(kLastPeriod);
   }
 }
 
@@ -205,7 +196,7 @@ void HidStream::send(const HidReport& report) noexcept {
 
 bool HidStream::sleep(double time) noexcept {
   std::unique_lock held(mutex_);
-  ends_.wait_for(held, toDuration(time), [this] { return is_ending_.load(); });
+  ends_.wait_for(held, std::chrono::duration<double>(time), [this] { return is_ending_.load(); });
   return !is_ending_;
 }
 

@@ -1,16 +1,14 @@
 #include "tandem/falcon/hid_uart.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/ft260_reports.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Reports that purge() drops at most; the kernel keeps 64.
 constexpr int kMostPurged = 256;
@@ -63,9 +61,9 @@ class HidUart final : public ByteTransport {
   /// False: the device is gone.
   [[nodiscard]] bool fetch(double wait) noexcept {
     waiting_.count = taken_ = 0;
-    const auto until = Clock::now() + std::chrono::duration<double>(wait);
+    const double until = readMonotonicClock() + wait;
     HidReport report;
-    for (double left = wait;; left = std::chrono::duration<double>(until - Clock::now()).count()) {
+    for (double left = wait;; left = until - readMonotonicClock()) {
       const std::ptrdiff_t size =
           port_->read(report.bytes.data(), report.bytes.size(), std::max(left, 0.0));
       if (size < 0) return false;

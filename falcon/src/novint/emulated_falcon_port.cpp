@@ -1,7 +1,6 @@
 #include "tandem/falcon/emulated_falcon_port.h"
 
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/realtime_rights.h"
 
 #include "novint/pseudo_terminal.h"
@@ -21,14 +21,6 @@ namespace {
 constexpr double kLook = 0.0002;    // how often what is to be sent is looked for [s]
 constexpr double kVisit = 0.00002;  // [s]
 constexpr double kNap = 0.002;      // while it is unplugged [s]
-
-double readClock() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void sleep(double time) noexcept {
-  std::this_thread::sleep_for(std::chrono::duration<double>(time));
-}
 
 /// A link in a folder of its own, where nobody else can put another; both go with this.
 class Link {
@@ -116,7 +108,7 @@ class EmulatedFalconPort::Server {
     ++visitors_;
     const std::lock_guard lock(mutex_);
     --visitors_;
-    const double now = readClock();
+    const double now = readMonotonicClock();
     emulator_.advance(now);
     visitor(emulator_, now);
   }
@@ -126,8 +118,8 @@ class EmulatedFalconPort::Server {
     RealtimeRights rights;
     rights.take(priority_, false);
     while (!stops_.load(std::memory_order_relaxed)) {
-      if (!serve()) sleep(kNap);
-      while (visitors_.load() > 0) sleep(kVisit);  // who waits gets the lock
+      if (!serve()) sleepFor(kNap);
+      while (visitors_.load() > 0) sleepFor(kVisit);  // who waits gets the lock
     }
   }
 
@@ -142,8 +134,8 @@ class EmulatedFalconPort::Server {
       line_.baud = baud;
       emulator_.setLine(line_);
     }
-    emulator_.take(bytes.data(), come, readClock());
-    const std::size_t left = emulator_.collect(bytes.data(), bytes.size(), readClock());
+    emulator_.take(bytes.data(), come, readMonotonicClock());
+    const std::size_t left = emulator_.collect(bytes.data(), bytes.size(), readMonotonicClock());
     if (left > 0) terminal_->write(bytes.data(), left);
     return true;
   }
@@ -179,18 +171,18 @@ class EmulatorLine final : public ByteTransport {
 
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   [[nodiscard]] bool write(const std::uint8_t* bytes, std::size_t count) noexcept override {
-    emulator_.take(bytes, count, readClock());
+    emulator_.take(bytes, count, readMonotonicClock());
     return emulator_.isPluggedIn();
   }
   [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
                                     double wait) noexcept override {
-    const double until = readClock() + wait;
+    const double until = readMonotonicClock() + wait;
     for (;;) {
       if (!emulator_.isPluggedIn()) return -1;
-      const double now = readClock();
+      const double now = readMonotonicClock();
       const std::size_t count = emulator_.collect(bytes, room, now);
       if (count > 0 || now >= until) return static_cast<std::ptrdiff_t>(count);
-      sleep(kLook);
+      sleepFor(kLook);
     }
   }
   [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {

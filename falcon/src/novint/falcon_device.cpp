@@ -1,11 +1,11 @@
 #include "tandem/falcon/falcon_device.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <utility>
 
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/realtime_rights.h"
 
 namespace tandem {
@@ -17,14 +17,6 @@ constexpr double kNap = 0.02;          // so long a stop may have to wait for th
 constexpr double kStopTime = 0.2;      // for the last frames [s]
 constexpr double kWorkspace = 0.05;    // half extents [m]
 constexpr double kStiffness = 3000.0;  // that still feels calm [N/m]
-
-double readClock() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void sleep(double time) noexcept {
-  std::this_thread::sleep_for(std::chrono::duration<double>(time));
-}
 
 }  // namespace
 
@@ -68,15 +60,15 @@ void FalconDevice::run() noexcept {
   RealtimeRights rights;
   rights.take(priority_, false);
   while (!stops_.load(std::memory_order_relaxed)) {
-    const double tried_at = readClock();
+    const double tried_at = readMonotonicClock();
     if (const std::unique_ptr<ByteTransport> line = tryOpen()) serve(*line);
-    while (readClock() - tried_at < kOpenPeriod && !stops_.load(std::memory_order_relaxed))
-      sleep(kNap);
+    while (readMonotonicClock() - tried_at < kOpenPeriod && !stops_.load(std::memory_order_relaxed))
+      sleepFor(kNap);
   }
 }
 
 std::unique_ptr<ByteTransport> FalconDevice::tryOpen() noexcept {
-  const double now = readClock();
+  const double now = readMonotonicClock();
   try {
     std::unique_ptr<ByteTransport> line = open_();
     if (line) {
@@ -102,7 +94,7 @@ void FalconDevice::serve(ByteTransport& line) noexcept {
   while (!stops_.load(std::memory_order_relaxed) && exchange(line)) passOn();
   giveLastFrames(line);
   if (!stops_.load(std::memory_order_relaxed))
-    driver_.disconnect(FalconFault::kUnplugged, readClock());
+    driver_.disconnect(FalconFault::kUnplugged, readMonotonicClock());
   passOn();
 }
 
@@ -110,11 +102,12 @@ void FalconDevice::serve(ByteTransport& line) noexcept {
 /// the force goes frame by frame, or at once if only one frame more can be sent.
 void FalconDevice::giveLastFrames(ByteTransport& line) noexcept {
   driver_.beginStop();
-  const double until = readClock() + kStopTime;
-  for (double now = readClock(); !driver_.hasStopped() && now < until; now = readClock()) {
+  const double until = readMonotonicClock() + kStopTime;
+  for (double now = readMonotonicClock(); !driver_.hasStopped() && now < until;
+       now = readMonotonicClock()) {
     const LineStep step = driver_.advance(now);
     if (!perform(step, line)) break;
-    sleep(std::max(step.next - now, 0.0));
+    sleepFor(std::max(step.next - now, 0.0));
   }
   if (driver_.hasStopped()) return;
   LineStep rest;
@@ -123,7 +116,7 @@ void FalconDevice::giveLastFrames(ByteTransport& line) noexcept {
 }
 
 bool FalconDevice::exchange(ByteTransport& line) noexcept {
-  const double now = readClock();
+  const double now = readMonotonicClock();
   if (const Wish& wish = wish_.read(); wish.number != seen_wish_) {
     seen_wish_ = wish.number;
     driver_.command(Vec3(wish.f[0], wish.f[1], wish.f[2]), now);
@@ -131,9 +124,9 @@ bool FalconDevice::exchange(ByteTransport& line) noexcept {
   const LineStep step = driver_.advance(now);
   if (!perform(step, line)) return false;
   std::array<std::uint8_t, 256> bytes;
-  const double wait = std::clamp(step.next - readClock(), 0.0, kNap);
+  const double wait = std::clamp(step.next - readMonotonicClock(), 0.0, kNap);
   const std::ptrdiff_t count = line.read(bytes.data(), bytes.size(), wait);
-  if (count > 0) driver_.take(bytes.data(), static_cast<std::size_t>(count), readClock());
+  if (count > 0) driver_.take(bytes.data(), static_cast<std::size_t>(count), readMonotonicClock());
   return count >= 0;
 }
 

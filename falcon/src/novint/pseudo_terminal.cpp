@@ -2,10 +2,8 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <thread>
 
 #include <asm/termbits.h>
 #include <fcntl.h>
@@ -14,6 +12,7 @@
 #include <unistd.h>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem::falcon_detail {
 
@@ -46,7 +45,7 @@ std::size_t PseudoTerminal::read(std::uint8_t* bytes, std::size_t room, double w
   const ssize_t count = ::read(fd_, bytes, room);
   if (count > 0) return static_cast<std::size_t>(count);
   // Nobody has it open: that does not wait by itself.
-  std::this_thread::sleep_for(std::chrono::duration<double>(wait));
+  sleepFor(wait);
   return 0;
 }
 

@@ -1,12 +1,12 @@
 #include "tandem/falcon/ftdi_transport.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include <ftdi.h>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem {
 namespace {
@@ -52,12 +52,11 @@ class FtdiTransport final : public ByteTransport {
 
   [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
                                     double wait) noexcept override {
-    using Clock = std::chrono::steady_clock;
-    const auto until = Clock::now() + std::chrono::duration<double>(wait);
+    const double until = readMonotonicClock() + wait;
     // The chip answers at the latest after its latency time, with nothing if it has nothing.
     for (;;) {
       const int count = readOnce(bytes, static_cast<int>(room));
-      if (count != 0 || Clock::now() >= until) return count;
+      if (count != 0 || readMonotonicClock() >= until) return count;
     }
   }
 

@@ -1,9 +1,7 @@
-#include <chrono>
-#include <thread>
+#include "tandem/falcon/monotonic_clock.h"
 
 #include "refusal.h"
 #include "session.h"
-#include "steady_time.h"
 
 namespace tandem::pybullet {
 
@@ -15,7 +13,7 @@ void Session::addMesh(MeshHandle mesh) {
 TandemPeerStatus Session::meshStatus(std::uint32_t peer) const {
   if (!mesh_) throw Refusal(kWrongOrder, "there is no mesh");
   TandemPeerStatus status{};
-  check(tandem_mesh_status(mesh_.get(), peer, now(), &status));
+  check(tandem_mesh_status(mesh_.get(), peer, readMonotonicClock(), &status));
   return status;
 }
 
@@ -76,10 +74,10 @@ int Session::connect(std::uint32_t peer, int link, const double start[3]) {
 }
 
 void Session::sayFarewell(int rounds) {
-  if (!mesh_ || tandem_mesh_leave(mesh_.get(), now()) != TANDEM_OK) return;
+  if (!mesh_ || tandem_mesh_leave(mesh_.get(), readMonotonicClock()) != TANDEM_OK) return;
   for (int round = 0; round < rounds; ++round) {
-    if (round > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    (void)tandem_mesh_poll(mesh_.get(), now());
+    if (round > 0) sleepFor(0.01);
+    (void)tandem_mesh_poll(mesh_.get(), readMonotonicClock());
   }
 }
 

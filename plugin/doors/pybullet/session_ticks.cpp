@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/falcon/monotonic_clock.h"
+
 #include "refusal.h"
 #include "session.h"
-#include "steady_time.h"
 
 namespace tandem::pybullet {
 namespace {
@@ -117,7 +118,7 @@ void Session::begin() {
     if (!areNear(now_[i], one.set)) isSame(one.body);
   }
   if (!ended_.empty()) return;
-  if (mesh_) check(tandem_mesh_poll(mesh_.get(), now()));
+  if (mesh_) check(tandem_mesh_poll(mesh_.get(), readMonotonicClock()));
   check(tandem_world_begin_step(world_.get(), parameters_.step, parameters_.gravity, ids_.size(),
                                 ids_.data(), now_.data(), told_.data()));
   for (std::size_t i = 0; i < moving_.size(); ++i) {

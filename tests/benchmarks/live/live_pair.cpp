@@ -8,9 +8,9 @@
 #include <pthread.h>
 
 #include "tandem/coordination/simulated_link.h"
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/realtime_rights.h"
 #include "tandem/plugin/link_queue.h"
-#include "tandem/plugin/monotonic_clock.h"
 
 #include "crowd.h"
 #include "scene.h"

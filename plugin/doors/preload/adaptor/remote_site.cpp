@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
-#include "tandem/plugin/monotonic_clock.h"
 
 namespace tandem::preload {
 namespace {

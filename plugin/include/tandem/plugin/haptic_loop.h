@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/duration_histogram.h"
-#include "tandem/plugin/monotonic_clock.h"
 #include "tandem/plugin/site.h"
 
 #pragma GCC visibility push(default)

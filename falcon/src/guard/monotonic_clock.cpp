@@ -1,4 +1,4 @@
-#include "tandem/plugin/monotonic_clock.h"
+#include "tandem/falcon/monotonic_clock.h"
 
 #include <cerrno>
 
@@ -25,5 +25,7 @@ void sleepUntil(double moment) noexcept {
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }
+
+void sleepFor(double seconds) noexcept { sleepUntil(readMonotonicClock() + seconds); }
 
 }  // namespace tandem
