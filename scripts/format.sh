@@ -10,5 +10,5 @@ case "${1:-}" in
 esac
 "$checkout/scripts/packages.sh" install ci
 cd "$checkout"
-find coordination bullet_bridge falcon plugin demos tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find coordination bullet_bridge falcon plugin demos bench tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 -n 16 -P "$(nproc)" clang-format "${mode[@]}"

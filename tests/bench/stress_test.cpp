@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/stress/between_looks.h"
-#include "bench/stress/energy_account.h"
+#include "bench/account/between_looks.h"
+#include "bench/account/energy_account.h"
 #include "bench/stress/stress_case.h"
 #include "bench/stress/stress_run.h"
 #include "bench/stress/stress_stability.h"

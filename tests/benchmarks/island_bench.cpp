@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/island_chain.h"
+#include "bench/scenes/island_chain.h"
 
 namespace tandem {
 namespace {

@@ -9,10 +9,10 @@
 #include <map>
 #include <string>
 
-#include "bench/island_chain.h"
+#include "bench/scenes/island_chain.h"
 #include "bench/speed/speed_site.h"
-#include "scenario.h"
-#include "scene.h"
+#include "demos/program/scenario/scenario.h"
+#include "demos/program/world/scene.h"
 
 using namespace tandem::demos;
 

@@ -6,7 +6,7 @@
 
 #include "tandem/plugin/replay.h"
 
-#include "virtual_run.h"
+#include "demos/program/run/virtual_run.h"
 
 namespace tandem::demos {
 namespace {

@@ -13,8 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scenario.h"
-#include "usage_error.h"
+#include "demos/program/scenario/scenario.h"
+#include "demos/program/terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "plot/table.h"
-#include "usage_error.h"
+#include "demos/program/plot/table.h"
+#include "demos/program/terminal/usage_error.h"
 
 namespace tandem::demos::plot {
 namespace {

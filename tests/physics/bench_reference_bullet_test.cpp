@@ -7,9 +7,9 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
-#include "bench/bullet_scene.h"
+#include "bench/methods/bullet_scene.h"
 #include "bench/reference/planar_reference.h"
-#include "bench/touch_geometry.h"
+#include "bench/scenes/touch_geometry.h"
 
 namespace tandem::demos::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/plugin/site.h"
 
-#include "bench/bullet_scene.h"
-#include "bench/comparison.h"
+#include "bench/accuracy/comparison.h"
+#include "bench/methods/bullet_scene.h"
 #include "bench/reference/planar_reference.h"
 #include "support/fakes.h"
 

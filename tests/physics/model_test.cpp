@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "bench/reference/paper_reference.h"
-#include "scenario.h"
+#include "demos/program/run/virtual_run.h"
+#include "demos/program/scenario/scenario.h"
 #include "support/random.h"
-#include "virtual_run.h"
 
 namespace tandem::demos {
 namespace {

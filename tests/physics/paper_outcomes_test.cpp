@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario.h"
-#include "virtual_run.h"
+#include "demos/program/run/virtual_run.h"
+#include "demos/program/scenario/scenario.h"
 
 namespace tandem::demos {
 namespace {

@@ -7,9 +7,9 @@
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"
-#include "scenario.h"
+#include "demos/program/run/virtual_run.h"
+#include "demos/program/scenario/scenario.h"
 #include "support/fakes.h"
-#include "virtual_run.h"
 
 namespace tandem {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "demos/program/run/virtual_run.h"
+#include "demos/program/scenario/scenario.h"
 #include "reference/spatial_cooperation.h"
-#include "scenario.h"
-#include "virtual_run.h"
 
 namespace tandem::demos {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "tandem/falcon/falcon_frames.h"
 
-#include "device/bars.h"
-#include "device/clutch.h"
-#include "device/device_spec.h"
-#include "device/user_axes.h"
-#include "usage_error.h"
+#include "demos/program/device/bars.h"
+#include "demos/program/device/clutch.h"
+#include "demos/program/device/device_spec.h"
+#include "demos/program/device/user_axes.h"
+#include "demos/program/terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {

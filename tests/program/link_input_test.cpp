@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "link/link_script.h"
-#include "link/units.h"
-#include "usage_error.h"
+#include "demos/program/link/link_script.h"
+#include "demos/program/link/units.h"
+#include "demos/program/terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {

@@ -1,6 +1,6 @@
 // What `tandem link` measures of itself.
 
-#include "link/link_tally.h"
+#include "demos/program/link/link_tally.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include "tandem/falcon/emulated_falcon_port.h"
 #include "tandem/falcon/monotonic_clock.h"
 
-#include "device/open_device.h"
-#include "device/user_axes.h"
+#include "demos/program/device/open_device.h"
+#include "demos/program/device/user_axes.h"
 
 namespace tandem::demos {
 namespace {

@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "plot/findings.h"
-#include "plot/grouping.h"
-#include "plot/html.h"
-#include "plot/projection.h"
-#include "plot/reference.h"
-#include "plot/scene.h"
-#include "plot/signals.h"
-#include "plot/smil.h"
-#include "usage_error.h"
+#include "demos/program/plot/findings.h"
+#include "demos/program/plot/grouping.h"
+#include "demos/program/plot/html.h"
+#include "demos/program/plot/projection.h"
+#include "demos/program/plot/reference.h"
+#include "demos/program/plot/scene.h"
+#include "demos/program/plot/signals.h"
+#include "demos/program/plot/smil.h"
+#include "demos/program/terminal/usage_error.h"
 
 namespace tandem::demos::plot {
 namespace {

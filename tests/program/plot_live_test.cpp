@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "plot/grouping.h"
-#include "plot/live_run.h"
-#include "plot/live_section.h"
+#include "demos/program/plot/grouping.h"
+#include "demos/program/plot/live_run.h"
+#include "demos/program/plot/live_section.h"
+#include "demos/program/terminal/usage_error.h"
 #include "program/process.h"
-#include "usage_error.h"
 
 namespace tandem::demos::plot {
 namespace {

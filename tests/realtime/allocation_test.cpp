@@ -10,9 +10,9 @@
 
 #include "tandem/plugin/recording.h"
 
+#include "demos/program/scenario/scenario.h"
+#include "demos/program/world/scene.h"
 #include "realtime/allocation_count.h"
-#include "scenario.h"
-#include "scene.h"
 
 namespace tandem::demos {
 namespace {

@@ -9,8 +9,8 @@
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"
+#include "demos/program/run/virtual_run.h"
 #include "support/fakes.h"
-#include "virtual_run.h"
 
 namespace tandem {
 namespace {

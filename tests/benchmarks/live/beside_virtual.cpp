@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "virtual_run.h"
+#include "demos/program/run/virtual_run.h"
 
 namespace tandem::bench {
 namespace {

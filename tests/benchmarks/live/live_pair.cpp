@@ -13,7 +13,7 @@
 #include "tandem/plugin/link_queue.h"
 
 #include "crowd.h"
-#include "scene.h"
+#include "demos/program/world/scene.h"
 
 //   site 1                                                    site 2
 //   host, with the crowd (this thread)                        host

@@ -7,8 +7,8 @@
 #include "tandem/plugin/haptic_loop.h"
 #include "tandem/plugin/recording.h"
 
+#include "demos/program/scenario/scenario.h"
 #include "host_thread.h"
-#include "scenario.h"
 
 namespace tandem::bench {
 

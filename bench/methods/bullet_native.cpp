@@ -1,0 +1,99 @@
+// The whole scene by what Bullet itself offers, at the host's rate: tools are rigid bodies in
+// Bullet's own contact, their couplers Bullet's own means. The same classes carry whole demos
+// (contact.model, docs/native.md). Tools carry the gains of soft contact; Bullet's defaults stay.
+
+#include "tandem/bullet_bridge/convert.h"
+#include "tandem/bullet_bridge/native_coupling.h"
+
+#include "bench/methods/all_methods.h"
+#include "bench/methods/bullet_scene.h"
+
+namespace tandem::demos::bench {
+namespace {
+
+enum class NativeContact { kRigid, kSoft };
+
+class BulletNative final : public Simulation {
+ public:
+  BulletNative(const BenchScene& scene, int host_rate, NativeContact contact,
+               NativeCouplerKind coupler)
+      : scene_(scene), step_(1.0 / host_rate), bullet_(scene, {.tools_touch = true}) {
+    for (std::size_t i = 0; i < scene.tools.size(); ++i) {
+      if (contact == NativeContact::kSoft) setSoftContact(bullet_.tool(i), scene.contact);
+      couplers_.push_back(
+          scene.tools[i].device
+              ? makeNativeCoupler(coupler, bullet_.world(), bullet_.tool(i), {scene.coupler, {}})
+              : nullptr);
+    }
+  }
+
+  void step() override {
+    for (std::size_t i = 0; i < scene_.tools.size(); ++i) {
+      const BenchTool& tool = scene_.tools[i];
+      bullet_.tool(i).applyCentralForce(toBullet(tool.f_W));
+      const auto target = heldTarget(tool, steps_ * step_);
+      if (target) couplers_[i]->pull({target->p_W, Quat::Identity(), target->v_W, {}}, step_);
+    }
+    bullet_.world().stepSimulation(static_cast<btScalar>(step_), 0);
+    ++steps_;
+  }
+  void read(SceneState& state) const override { bullet_.read(state); }
+
+ private:
+  const BenchScene& scene_;
+  double step_;
+  double steps_ = 0;
+  BulletScene bullet_;
+  std::vector<std::unique_ptr<NativeCoupler>> couplers_;
+};
+
+bool hasCoupler(const BenchScene& scene) {
+  for (const BenchTool& tool : scene.tools)
+    if (tool.device) return true;
+  return false;
+}
+
+class BulletNativeMethod final : public Method {
+ public:
+  BulletNativeMethod(std::string name, MethodStyle style, NativeContact contact,
+                     NativeCouplerKind coupler)
+      : name_(std::move(name)), style_(std::move(style)), contact_(contact), coupler_(coupler) {}
+  std::string name() const override { return name_; }
+  MethodStyle style() const override { return style_; }
+
+  std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
+    if (contact_ == NativeContact::kRigid && scene.bodies.empty())
+      throw NotApplicable("there is no contact in this scene");
+    if (coupler_ != NativeCouplerKind::kImpulse && !hasCoupler(scene))
+      throw NotApplicable("there is no coupler in this scene");
+    return std::make_unique<BulletNative>(scene, host_rate, contact_, coupler_);
+  }
+
+ private:
+  std::string name_;
+  MethodStyle style_;
+  NativeContact contact_;
+  NativeCouplerKind coupler_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> makeBulletRigid() {
+  return std::make_unique<BulletNativeMethod>("Bullet rigid", MethodStyle{"#999999", 1},
+                                              NativeContact::kRigid, NativeCouplerKind::kImpulse);
+}
+std::unique_ptr<Method> makeBulletSoft() {
+  return std::make_unique<BulletNativeMethod>("Bullet soft", MethodStyle{"#d55e00", 9},
+                                              NativeContact::kSoft, NativeCouplerKind::kImpulse);
+}
+std::unique_ptr<Method> makeBulletSpring6Dof() {
+  return std::make_unique<BulletNativeMethod>("Bullet 6DofSpring2", MethodStyle{"#cc79a7", 11},
+                                              NativeContact::kSoft, NativeCouplerKind::kSpring6Dof);
+}
+std::unique_ptr<Method> makeBulletPointToPoint() {
+  return std::make_unique<BulletNativeMethod>("Bullet Point2Point", MethodStyle{"#8c564b", 13},
+                                              NativeContact::kSoft,
+                                              NativeCouplerKind::kPointToPoint);
+}
+
+}  // namespace tandem::demos::bench

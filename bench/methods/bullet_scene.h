@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <btBulletDynamicsCommon.h>
+
+#include "bench/methods/method.h"
+
+namespace tandem::demos::bench {
+
+/// What differs between the ways to build a scene in Bullet.
+struct BulletSceneOptions {
+  bool has_tools = true;     ///< tools become rigid bodies
+  bool tools_touch = false;  ///< tools meet bodies by Bullet's own contact
+  /// Bodies cannot leave the x-z plane, nor turn out of it: Bullet's boxes otherwise creep sideways
+  /// under load, friction or not.
+  bool keeps_plane = true;
+  double shared_mass_factor = 1.0;  ///< shared bodies get this times their mass and inertia
+};
+
+/// A scene as a plain btDiscreteDynamicsWorld. Gravity acts on bodies, nothing yet on tools.
+/// Bullet multiplies the friction of two bodies, so each has the root of the scene's; tools have 0.
+class BulletScene {
+ public:
+  BulletScene(const BenchScene& scene, const BulletSceneOptions& options);
+  ~BulletScene();
+  BulletScene(const BulletScene&) = delete;
+  BulletScene& operator=(const BulletScene&) = delete;
+
+  [[nodiscard]] const BenchScene& scene() const { return scene_; }
+  [[nodiscard]] btDiscreteDynamicsWorld& world() { return world_; }
+  [[nodiscard]] btRigidBody& tool(std::size_t i) { return *tools_[i]; }
+  [[nodiscard]] btRigidBody& body(std::size_t i) { return *bodies_[i]; }
+  [[nodiscard]] const btRigidBody& body(std::size_t i) const { return *bodies_[i]; }
+
+  /// States of bodies, and of tools if it has them.
+  void read(SceneState& state) const;
+
+ private:
+  btRigidBody& add(std::vector<std::unique_ptr<btRigidBody>>& list,
+                   std::unique_ptr<btCollisionShape> shape, double mass, const Vec3& inertia,
+                   const RigidState& start, double friction, int group, int mask);
+
+  const BenchScene& scene_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> tools_, bodies_;
+};
+
+[[nodiscard]] PointState pointOf(const btRigidBody& body);
+[[nodiscard]] RigidState stateOf(const btRigidBody& body);
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/scenes/bench_scene.h"
+
+namespace tandem::demos::bench {
+
+/// The true motion of a scene, as well as it is known.
+struct ReferenceRun {
+  std::vector<SceneState> states;  ///< state n at n / kGridRate, to the end of the scene
+};
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,70 @@
+#include "device/clutch.h"
+
+#include <charconv>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tandem/falcon/falcon_frames.h"
+
+#include "terminal/usage_error.h"
+
+namespace tandem::demos {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw UsageError(
+      fmt::format("--clutch {}: allowed: plus, forward, centre, minus, or "
+                  "hid:PATH,KIND,REPORT,BYTE,VALUE with KIND bits, key or usage",
+                  text));
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// Decimal, or with 0x.
+std::optional<int> readNumber(std::string_view text, int most) {
+  const bool is_hex = text.starts_with("0x");
+  if (is_hex) text.remove_prefix(2);
+  int number = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number, is_hex ? 16 : 10);
+  if (error != std::errc() || rest != end || number < 0 || number > most) return std::nullopt;
+  return number;
+}
+
+std::optional<HidSwitchKind> readKind(std::string_view text) {
+  if (text == "bits") return HidSwitchKind::kBits;
+  if (text == "key") return HidSwitchKind::kKey;
+  if (text == "usage") return HidSwitchKind::kUsage;
+  return std::nullopt;
+}
+
+}  // namespace
+
+ClutchSpec parseClutch(const std::string& text) {
+  if (text == "plus") return {kPlusButton, "", {}};
+  if (text == "forward") return {kForwardButton, "", {}};
+  if (text == "centre") return {kCentreButton, "", {}};
+  if (text == "minus") return {kMinusButton, "", {}};
+  if (!text.starts_with("hid:/")) refuse(text);
+  const std::vector<std::string> parts = split(text.substr(4));
+  if (parts.size() != 5) refuse(text);
+  const auto kind = readKind(parts[1]);
+  const auto report = readNumber(parts[2], 255), byte = readNumber(parts[3], 64),
+             value = readNumber(parts[4], 0xFFFF);
+  if (!kind || !report || !byte || !value) refuse(text);
+  return {0,
+          parts[0],
+          {*kind, *report, static_cast<std::size_t>(*byte), static_cast<std::uint16_t>(*value)}};
+}
+
+}  // namespace tandem::demos

@@ -1,0 +1,29 @@
+#include "device/device_options.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "terminal/usage_error.h"
+
+namespace tandem::demos {
+namespace {
+
+void require(bool holds, const char* option, double value, const char* allowed) {
+  if (!holds) throw UsageError(fmt::format("{} {}: must be {}", option, value, allowed));
+}
+
+}  // namespace
+
+void checkDeviceOptions(const DeviceOptions& options) {
+  require(options.motors_per_torque > 0.0 && options.motors_per_torque <= 1e5,
+          "--motors-per-torque", options.motors_per_torque, "above 0 and at most 1e5 [1/(N m)]");
+  require(options.max_force > 0.0 && options.max_force <= 8.0, "--max-force", options.max_force,
+          "above 0 and at most 8 [N]");
+  require(options.scale >= 0.01 && options.scale <= 100.0, "--scale", options.scale,
+          "0.01 to 100: way in the world by way of the hand");
+  for (const double one : options.offset)
+    require(std::abs(one) <= 10.0, "--offset", one, "at most 10 each way [m]");
+}
+
+}  // namespace tandem::demos

@@ -1,0 +1,45 @@
+#include "device/feel/feel_scenario.h"
+
+#include "terminal/usage_error.h"
+
+namespace tandem::demos {
+namespace {
+
+/// The workspace's middle is over the cube: its sides, its top and the floor are in reach.
+constexpr const char* kCubeOnFloor = R"(
+title = "A free cube on a floor"
+[experiment]
+kind = "playground"
+guide = false
+[contact]
+stiffness = 1000.0
+damping = 5.0
+[object]
+mass = 0.4
+size = 0.04
+[site1]
+start_offset = [0.03, 0.0, 0.045]
+[rates]
+haptic = 1000.0
+host = 60.0
+[world]
+gravity = 9.81
+floor = true
+friction = 0.6
+)";
+
+}  // namespace
+
+Scenario makeFeelScenario(const DeviceCommand& command) {
+  Scenario scenario = command.scenario ? loadScenario(*command.scenario, {})
+                                       : parseScenario(kCubeOnFloor, "the built-in scene", {});
+  if (scenario.contact_model != "island" || scenario.injection != "handoff")
+    throw UsageError(
+        "--scenario: tandem device needs contact.model = island and bridge.injection = handoff; "
+        "the "
+        "others have no haptic rate of their own");
+  scenario.starts_live = false;
+  return scenario;
+}
+
+}  // namespace tandem::demos

@@ -1,0 +1,40 @@
+#include "peer/peer_configuration.h"
+
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scenario/own_keys.h"
+
+namespace tandem::demos {
+namespace {
+
+/// Values are at most 255 bytes; of longer ones a hash is compared.
+std::string shorten(std::string value) {
+  if (value.size() <= 200) return value;
+  return fmt::format("{}... hash {:08x}", value.substr(0, 100), hashConfiguration({{"", value}}));
+}
+
+void flatten(const nlohmann::json& node, const std::string& prefix,
+             std::vector<ConfigurationItem>& items) {
+  for (const auto& [name, value] : node.items()) {
+    const std::string key = prefix + name;
+    if (isOwnKey(key)) continue;
+    if (value.is_object()) {
+      flatten(value, key + ".", items);
+    } else {
+      items.push_back({key, shorten(value.is_string() ? value.get<std::string>() : value.dump())});
+    }
+  }
+}
+
+}  // namespace
+
+Configuration makePeerConfiguration(const Scenario& scenario) {
+  std::vector<ConfigurationItem> items = {{"units", "SI"}};
+  flatten(describeScenario(scenario), "", items);
+  return makeConfiguration(std::move(items));
+}
+
+}  // namespace tandem::demos

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "tandem/plugin/haptic_loop.h"
+#include "tandem/plugin/link_queue.h"
+#include "tandem/plugin/recording.h"
+#include "tandem/plugin/udp_mesh.h"
+
+#include "peer/start_link.h"
+#include "world/scene.h"
+
+namespace tandem::demos {
+
+/// What a user may want to see once a second.
+struct PeerReport {
+  double time = 0.0;  ///< of the site [s]; negative: until the start; nothing is felt yet
+  bool has_start = false;
+  PeerStatus peer;
+  LinkState link = LinkState::kLive;  ///< what share of the gains is in force
+  double force = 0.0;                 ///< on the device, norm [N]
+  double coherency = 0.0;  ///< own copy of the object against the other's as received [m]
+};
+
+/// One site of a scenario, live against the clock: a haptic thread ticks at its absolute moments,
+/// another has the socket, and the one that calls run() steps the host's Bullet world as it comes
+/// due. Until the start one thread does all.
+class PeerRun {
+ public:
+  /// `site` is 0 or 1. `device` is the user's, and must outlive this; null: simulated, as the
+  /// scenario says. Throws as UdpMesh and SiteWorld do.
+  PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
+          HapticDevice* device = nullptr);
+
+  /// Until the other site is there and both know the start. Throws UsageError if it has another
+  /// configuration, tandem::Error if it does not answer within `patience` [s]. False if `stop`
+  /// asked to end.
+  bool waitForPeer(double patience, const std::function<bool()>& stop,
+                   const std::function<void(const PeerReport&)>& report);
+
+  /// Runs until the scenario's duration is over or `stop` asks to end; then the force fades and the
+  /// other site is told. What the system does not grant the haptic thread is told to `note`, one
+  /// line each.
+  void run(const std::function<bool()>& stop, const std::function<void(const PeerReport&)>& report,
+           const std::function<void(const std::string&)>& note);
+
+  [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
+  [[nodiscard]] const LoopReport& loop() const noexcept { return loop_; }
+  [[nodiscard]] const UdpMesh& mesh() const noexcept { return mesh_; }
+  [[nodiscard]] SiteWorld& world() noexcept { return *world_; }
+  [[nodiscard]] double duration() const noexcept;
+  [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
+  /// Of the own copy's distance to the other's as received [m].
+  [[nodiscard]] double receivedMean() const;
+  [[nodiscard]] PeerStatus peerStatus() const;
+
+ private:
+  void makeWorld();
+  void joinLate(double now);
+  void poll() noexcept;
+  void checkAnswer(double waited, double patience) const;
+  void leave(ByeReason reason) noexcept;
+  [[nodiscard]] PeerReport makeReport(double time);
+  [[nodiscard]] double computeCoherency() const noexcept;
+
+  Scenario scenario_;
+  int index_;
+  HapticDevice* device_;
+  PeerId self_, other_;
+  UdpMesh mesh_;
+  StartLink link_;
+  std::mutex mesh_mutex_;  ///< while there is a MeshThread, who touches the two holds it
+  LinkQueue queue_;
+  std::unique_ptr<SiteWorld> world_;
+  std::unique_ptr<Recording> recording_;
+  Vec3 object_start_W_ = Vec3::Zero();
+  LoopReport loop_;
+};
+
+}  // namespace tandem::demos

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "run/virtual_run.h"
+
+namespace tandem::demos {
+
+/// summary.json of a finished run.
+[[nodiscard]] nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run);
+
+/// Makes the folder if needed and tries that files can be made in it. Throws UsageError.
+void prepareFolder(const std::filesystem::path& folder);
+
+/// Writes site1.csv, site2.csv, scene.csv and summary.json: all of them, or on an error none
+/// (summary.json comes last, so that it stands for a whole run). Throws tandem::Error or
+/// std::filesystem::filesystem_error, naming the file.
+void writeRun(const std::filesystem::path& folder, const nlohmann::json& summary,
+              const VirtualRun& run);
+
+}  // namespace tandem::demos

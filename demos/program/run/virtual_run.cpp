@@ -1,0 +1,131 @@
+#include "run/virtual_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tandem::demos {
+namespace {
+
+/// Pictures per simulated second.
+constexpr double kFrameRate = 30.0;
+
+/// Packets that one site can take in during a run, all duplicates arrived, with some room.
+std::size_t countArrivals(const Scenario& scenario) {
+  return static_cast<std::size_t>(2.0 * scenario.duration * scenario.packet_rate) + 16;
+}
+
+}  // namespace
+
+VirtualRun::VirtualRun(const Scenario& scenario)
+    : scenario_(scenario),
+      frame_(makeSceneFrame(scenario)),
+      tick_count_(
+          static_cast<std::uint64_t>(std::llround(scenario.duration * scenario.haptic_rate))) {
+  const double in_flight =
+      (scenario.network.delay + scenario.network.jitter) * scenario.packet_rate * 2.0;
+  std::tie(ends_[0], ends_[1]) =
+      makeSimulatedLinks(scenario.network, static_cast<std::size_t>(in_flight) + 64);
+  for (int s = 0; s < 2; ++s) {
+    worlds_[s] = std::make_unique<SiteWorld>(scenario, s, *ends_[s]);
+    Site& site = worlds_[s]->site();
+    recordings_[s] = std::make_unique<Recording>(tick_count_, countArrivals(scenario),
+                                                 site.objectCount(), site.proxyBody(0) ? 1 : 0);
+    site.record(recordings_[s].get());
+  }
+  if (scenario.hasObject()) object_start_W_ = worlds_[0]->site().object(0).p_W;
+  frames_.reserve(static_cast<std::size_t>(scenario.duration * kFrameRate) + 2);
+}
+
+void VirtualRun::run(const std::function<void(double)>& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  keepFrame(0.0);
+  for (std::uint64_t tick = 0; tick < tick_count_; ++tick) {
+    tickAll(tick);
+    const double time = static_cast<double>(tick + 1) / scenario_.haptic_rate;
+    for (auto& world : worlds_) world->stepHostUntil(time);
+    if (time * kFrameRate >= static_cast<double>(frames_.size())) {
+      keepFrame(time);
+      checkHealth();
+      if (progress) progress(static_cast<double>(tick + 1) / static_cast<double>(tick_count_));
+    }
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  summary_.real_time_factor = scenario_.duration / wall.count();
+  checkHealth();
+  summarise();
+}
+
+void VirtualRun::tickAll(std::uint64_t tick) {
+  addCoherency();
+  const double now = static_cast<double>(tick) / scenario_.haptic_rate;
+  for (auto& world : worlds_) world->site().tick(now);
+}
+
+void VirtualRun::addCoherency() {
+  if (!scenario_.hasObject()) return;
+  const Vec3& p1_W = worlds_[0]->site().object(0).p_W;
+  const Vec3& p2_W = worlds_[1]->site().object(0).p_W;
+  const double error = (p1_W - p2_W).norm();
+  summary_.coherency_mean += error;
+  summary_.coherency_max = std::max(summary_.coherency_max, error);
+  for (int s = 0; s < 2; ++s) {
+    const Site& site = worlds_[s]->site();
+    const StatePacket& latest = site.latest(0);
+    const Vec3& received_W =
+        latest.object_count > 0 ? latest.objects[0].state.p_W : object_start_W_;
+    summary_.sites[s].received_mean += (site.object(0).p_W - received_W).norm();
+  }
+}
+
+void VirtualRun::keepFrame(double time) {
+  SceneFrameRecord record;
+  record.time = time;
+  for (const auto& world : worlds_) {
+    for (const SceneBody& body : world->bodies()) {
+      RigidState pose = world->pose(body);
+      pose.p_W = frame_.toScene(pose.p_W);
+      pose.q_WB = body.body ? Quat(frame_.q_WS.conjugate() * pose.q_WB) : pose.q_WB;
+      record.poses.push_back(pose);
+    }
+  }
+  frames_.push_back(std::move(record));
+}
+
+std::vector<PlacedSceneBody> VirtualRun::sceneBodies() const {
+  std::vector<PlacedSceneBody> all;
+  for (int s = 0; s < 2; ++s)
+    for (const SceneBody& body : worlds_[s]->bodies()) all.push_back({s + 1, body});
+  return all;
+}
+
+void VirtualRun::checkHealth() {
+  for (int s = 0; s < 2; ++s) {
+    const std::uint32_t status = worlds_[s]->site().status();
+    const std::string site = "site " + std::to_string(s + 1) + ": ";
+    if (status & kBodyMissing)
+      throw Error(site + "a body was taken out of the Bullet world while it was attached");
+    if (status & kStateNotFinite)
+      throw Error(site + "the motion grew beyond all numbers; lower the gains or raise the masses");
+    if (status & kDeviceInvalid)
+      throw Error(site + "the hand gave a force or position that is no number");
+  }
+}
+
+void VirtualRun::summarise() {
+  const double ticks = static_cast<double>(tick_count_);
+  summary_.coherency_mean /= ticks;
+  for (int s = 0; s < 2; ++s) {
+    SiteSummary& site = summary_.sites[s];
+    const double received_mean = site.received_mean / ticks;
+    site = summariseSite(worlds_[s]->site(), *recordings_[s]);
+    site.received_mean = received_mean;
+    const Vec3 start_W = computeStart(scenario_, frame_, s);
+    const DeviceSample end = worlds_[s]->device().read(scenario_.duration);
+    site.device_end = frame_.toScene(end.hip.p_W - start_W).x();
+  }
+  summary_.state_hash =
+      worlds_[0]->site().stateHash() ^ (worlds_[1]->site().stateHash() * 0x9e3779b97f4a7c15u);
+}
+
+}  // namespace tandem::demos

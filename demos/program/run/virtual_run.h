@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "tandem/plugin/recording.h"
+
+#include "scenario/scenario.h"
+#include "world/scene.h"
+#include "world/site_summary.h"
+
+namespace tandem::demos {
+
+/// Poses of all bodies of both sites at one moment, in the scene's frame, for pictures.
+struct SceneFrameRecord {
+  double time = 0.0;
+  std::vector<RigidState> poses;  ///< in the order of VirtualRun::sceneBodies()
+};
+
+/// A body of a picture, and its site (1 or 2).
+struct PlacedSceneBody {
+  int site = 1;
+  SceneBody body;
+};
+
+/// What a run comes to: the numbers of summary.json.
+struct RunSummary {
+  double coherency_mean = 0.0, coherency_max = 0.0;  ///< |object at site 1 - object at site 2| [m]
+  SiteSummary sites[2];
+  std::uint64_t state_hash = 0;
+  double real_time_factor = 0.0;
+};
+
+/// Two sites, two Bullet worlds and the way between them, in virtual time: one thread, as fast as
+/// the machine.
+class VirtualRun {
+ public:
+  explicit VirtualRun(const Scenario& scenario);
+
+  /// Runs to the end; `progress` is told the share done now and then. Throws tandem::Error when a
+  /// site reports a fault (a body taken away, a state that is not finite).
+  void run(const std::function<void(double)>& progress = {});
+
+  [[nodiscard]] const RunSummary& summary() const noexcept { return summary_; }
+  [[nodiscard]] const Recording& recording(int site) const noexcept { return *recordings_[site]; }
+  [[nodiscard]] const SceneFrame& frame() const noexcept { return frame_; }
+  [[nodiscard]] SiteWorld& world(int site) noexcept { return *worlds_[site]; }
+  [[nodiscard]] std::vector<PlacedSceneBody> sceneBodies() const;
+  [[nodiscard]] const std::vector<SceneFrameRecord>& frames() const noexcept { return frames_; }
+
+ private:
+  void tickAll(std::uint64_t tick);
+  void addCoherency();
+  void keepFrame(double time);
+  void checkHealth();
+  void summarise();
+
+  Scenario scenario_;
+  SceneFrame frame_;
+  std::uint64_t tick_count_;
+  std::unique_ptr<SimulatedLink> ends_[2];
+  std::unique_ptr<SiteWorld> worlds_[2];
+  std::unique_ptr<Recording> recordings_[2];
+  Vec3 object_start_W_ = Vec3::Zero();
+  std::vector<SceneFrameRecord> frames_;
+  RunSummary summary_;
+};
+
+}  // namespace tandem::demos
