@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Reads every #include and names the rule of the house that a line breaks.
 
-    demos --> plugin --+--> bullet_bridge --+
-                       +--------------------+--> coordination      (arrow: may include)
-                       +--> falcon ---------+          tests --> everything
+    bench --> demos --> plugin --+--> bullet_bridge --+
+                                 +--------------------+--> coordination      (arrow: may include)
+                                 +--> falcon ---------+          tests --> everything
 
-A library may include private headers of those it may use, by their path from the checkout. Programs and
-adaptors may not. An adaptor (plugin/doors/pybullet, plugin/doors/preload) brings a site into a host that does
+A library may include private headers of those it may use, by their path from the checkout; so may bench/,
+which also uses the headers of demos/program/ in this way. Other programs and adaptors may not. An adaptor (plugin/doors/pybullet, plugin/doors/preload) brings a site into a host that does
 not know of it: it may use more than plugin/, and only tests include it.
 
 Usage: include_rule.py CHECKOUT     Ends with 1 when a line breaks a rule.
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 LIBRARIES = ("coordination", "bullet_bridge", "falcon", "plugin")
-FOLDERS = LIBRARIES + ("demos", "tests")
+FOLDERS = LIBRARIES + ("demos", "bench", "tests")
 ADAPTORS = "plugin/doors/"   # a rule for all doors but the C door, which is part of plugin's library
 C_DOOR = "plugin/doors/c/"
 SUFFIXES = {".h", ".cpp", ".in"}
@@ -71,9 +71,10 @@ RULES = {
     "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
     # It must look at a host's own bodies, and its settings come out of a file.
     ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++")),
-    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11", "Boost",
-                              "MuJoCo", "ODE", "Simbody")),
-    "tests": Rule(LIBRARIES + ("demos",), None),
+    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11")),
+    "bench": Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "Boost",
+                                           "MuJoCo", "ODE", "Simbody")),
+    "tests": Rule(LIBRARIES + ("demos", "bench"), None),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -166,9 +167,13 @@ class House:
             return None
         if owner == "tests":
             return f"{folder}/ may not include tests/"
-        if owner in ("demos", ADAPTORS):
+        if owner == "bench" and folder == "demos":
+            return None  # until the benchmarks are a program of their own
+        if owner in ("bench", ADAPTORS):
             return f"nothing but tests/ includes {owner.rstrip('/')}/"
-        if folder not in LIBRARIES:
+        if owner == "demos":
+            return self.broken_by_demos(folder, header)
+        if folder not in LIBRARIES + ("bench",):
             return f"{owner}'s private header: {folder.rstrip('/')}/ sees include/tandem/{owner} only"
         if owner not in RULES[folder].libraries:
             return f"{folder}/ may not include {owner}/"
@@ -176,10 +181,20 @@ class House:
             return f'a private header of {owner}/ is included as "{owner}/src/..."'
         return None
 
+    @staticmethod
+    def broken_by_demos(folder, header):
+        if folder != "bench":
+            return "nothing but bench/ and tests/ includes demos/"
+        if not header.startswith("demos/program/"):
+            return 'a header of demos/ is included as "demos/program/..."'
+        return None
+
     def find_private(self, path, folder, header):
         """The file behind a quoted include: beside the includer, in the folder's sources, then anywhere."""
-        places = [path.parent, self.checkout, self.checkout / folder / "src", self.checkout / folder]
-        places += [self.checkout / other / "src" for other in FOLDERS] + [self.checkout / ADAPTORS]
+        places = [path.parent, self.checkout, self.checkout / folder / "src", self.checkout / folder,
+                  self.checkout / folder / "program"]
+        places += [self.checkout / other / "src" for other in FOLDERS]
+        places += [self.checkout / "demos" / "program", self.checkout / ADAPTORS]
         for place in places:
             target = (place / header).resolve()
             if target.is_file() and self.checkout.resolve() in target.parents:

@@ -41,7 +41,8 @@ class IncludeRuleTest(unittest.TestCase):
     def test_arrows_of_the_house(self):
         allowed = {"coordination": (), "bullet_bridge": ("coordination",), "falcon": ("coordination",),
                    "plugin": ("coordination", "bullet_bridge", "falcon"),
-                   "demos": include_rule.LIBRARIES, "tests": include_rule.LIBRARIES}
+                   "demos": include_rule.LIBRARIES, "bench": include_rule.LIBRARIES,
+                   "tests": include_rule.LIBRARIES}
         for folder, owners in allowed.items():
             for owner in include_rule.LIBRARIES:
                 for include in (f'"tandem/{owner}/{owner}.h"', f"<tandem/{owner}/{owner}.h>"):
@@ -86,18 +87,18 @@ class IncludeRuleTest(unittest.TestCase):
 
     def test_dependencies_stay_in_their_folder(self):
         for file, header in (("coordination/src/a.cpp", "fmt/format.h"), ("plugin/src/a.cpp", "nlohmann/json.hpp"),
-                             ("bullet_bridge/src/a.cpp", "hidapi/hidapi.h"), ("demos/src/a.cpp", "gtest/gtest.h"),
+                             ("bullet_bridge/src/a.cpp", "hidapi/hidapi.h"), ("demos/program/a.cpp", "gtest/gtest.h"),
                              ("falcon/src/a.cpp", "sodium.h")):
             self.assert_broken(file, f"<{header}>", "may not use")
         self.assert_kept("falcon/src/a.cpp", "<hidapi/hidapi.h>")
         self.assert_kept("falcon/src/a.cpp", "<libftdi1/ftdi.h>")
         self.assert_kept("plugin/src/a.cpp", "<sodium.h>")
-        self.assert_kept("demos/src/a.cpp", "<toml++/toml.h>")
+        self.assert_kept("demos/program/a.cpp", "<toml++/toml.h>")
 
     def test_private_headers_stay_private(self):
         inner = {"falcon/src/inner.h": ""}
         for include in ('"inner.h"', '"../../falcon/src/inner.h"'):
-            found = breaks_of({"demos/src/a.cpp": f"#include {include}\n", **inner})
+            found = breaks_of({"demos/program/a.cpp": f"#include {include}\n", **inner})
             self.assertEqual([b.rule[:24] for b in found], ["falcon's private header:"])
             self.assertEqual(breaks_of({"tests/unit/a.cpp": f"#include {include}\n", **inner}), [])
         self.assertEqual(breaks_of({"falcon/src/deeper/a.cpp": '#include "inner.h"\n', **inner}), [])
@@ -106,11 +107,27 @@ class IncludeRuleTest(unittest.TestCase):
         found = breaks_of({"falcon/include/tandem/falcon/a.h": '#include "inner.h"\n', "falcon/src/inner.h": ""})
         self.assertIn("public headers only", found[0].rule)
 
-    def test_demos_are_for_tests_only(self):
-        demo = {"demos/src/scenario.h": ""}
-        found = breaks_of({"plugin/src/a.cpp": '#include "../../demos/src/scenario.h"\n', **demo})
-        self.assertIn("nothing but tests/ includes demos/", found[0].rule)
-        self.assertEqual(breaks_of({"tests/unit/a.cpp": '#include "scenario.h"\n', **demo}), [])
+    def test_demos_are_for_bench_and_tests_only(self):
+        demo = {"demos/program/world/scene.h": ""}
+        found = breaks_of({"plugin/src/a.cpp": '#include "demos/program/world/scene.h"\n', **demo})
+        self.assertIn("nothing but bench/ and tests/ includes demos/", found[0].rule)
+        for file in ("bench/speed/a.cpp", "tests/unit/a.cpp"):
+            self.assertEqual(breaks_of({file: '#include "demos/program/world/scene.h"\n', **demo}), [])
+        self.assertEqual(breaks_of({"demos/program/run/a.cpp": '#include "world/scene.h"\n', **demo}), [])
+        found = breaks_of({"bench/speed/a.cpp": '#include "world/scene.h"\n', **demo})
+        self.assertIn('is included as "demos/program/..."', found[0].rule)
+
+    def test_bench_sees_libraries_and_is_for_tests_only(self):
+        inner = {"bench/scenes/b.h": "", "falcon/src/inner.h": ""}
+        self.assertEqual(breaks_of({"bench/speed/a.cpp": '#include "bench/scenes/b.h"\n', **inner}), [])
+        self.assertEqual(breaks_of({"bench/speed/a.cpp": '#include "falcon/src/inner.h"\n', **inner}), [])
+        found = breaks_of({"bench/speed/a.cpp": '#include "inner.h"\n', **inner})
+        self.assertIn('is included as "falcon/src/..."', found[0].rule)
+        self.assertEqual(breaks_of({"tests/unit/a.cpp": '#include "bench/scenes/b.h"\n', **inner}), [])
+        found = breaks_of({"plugin/src/a.cpp": '#include "bench/scenes/b.h"\n', **inner})
+        self.assertIn("nothing but tests/ includes bench/", found[0].rule)
+        self.assert_kept("bench/reference/a.cpp", "<boost/numeric/odeint.hpp>")
+        self.assert_broken("demos/program/a.cpp", "<boost/numeric/odeint.hpp>", "may not use Boost")
 
     def test_adaptors_may_read_bullet_and_files_but_no_private_headers(self):
         adaptor = "plugin/doors/preload/a.cpp"
