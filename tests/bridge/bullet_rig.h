@@ -6,8 +6,9 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/host_world.h"
 #include "tandem/coordination/types.h"
+
+#include "bullet_bridge/src/world/host_world.h"
 
 namespace tandem::test {
 

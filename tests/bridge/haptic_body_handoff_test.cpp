@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/bullet_bridge/haptic_body.h"
-
 #include "bridge/bullet_rig.h"
+#include "bullet_bridge/src/bodies/haptic_body.h"
 
 namespace tandem {
 namespace {

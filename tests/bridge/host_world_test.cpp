@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/host_world.h"
+#include "bullet_bridge/src/world/host_world.h"
 
 #include <cmath>
 #include <new>

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/bullet_bridge/haptic_body.h"
-
+#include "bullet_bridge/src/bodies/haptic_body.h"
 #include "support/random.h"
 
 namespace tandem {

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "tandem/bullet_bridge/haptic_body.h"
-
 #include "bridge/bullet_rig.h"
+#include "bullet_bridge/src/bodies/haptic_body.h"
 
 namespace tandem {
 namespace {

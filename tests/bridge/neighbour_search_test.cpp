@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/bullet_bridge/neighbours.h"
-
 #include "bridge/bullet_rig.h"
+#include "bullet_bridge/src/surroundings/neighbours.h"
 
 namespace tandem {
 namespace {

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "tandem/bullet_bridge/obstacles.h"
-
 #include "bridge/bullet_rig.h"
+#include "bullet_bridge/src/surroundings/obstacles.h"
 
 namespace tandem::test {
 

@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/bullet_bridge/host_world.h"
-
 #include "bridge/bullet_rig.h"
+#include "bullet_bridge/src/world/host_world.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/driven_body.h"
+#include "bodies/driven_body.h"
 
 #include <algorithm>
 

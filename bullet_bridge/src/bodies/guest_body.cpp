@@ -1,13 +1,13 @@
-#include "tandem/bullet_bridge/guest_body.h"
+#include "bodies/guest_body.h"
 
 #include <algorithm>
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/world_access.h"
 
 #include "bodies/rotation_vector.h"
+#include "world/world_access.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/haptic_body.h"
+#include "bodies/haptic_body.h"
 
 #include <cmath>
 #include <cstring>
@@ -8,11 +8,11 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/world_access.h"
 
 #include "bodies/attach_warnings.h"
 #include "bodies/mass_restore.h"
 #include "bodies/rotation_vector.h"
+#include "world/world_access.h"
 #include "world/world_lookup.h"
 
 // One step of the host in hand-off mode, x over time:

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tandem/bullet_bridge/haptic_body.h"
+#include "bodies/haptic_body.h"
 
 namespace tandem {
 

@@ -4,9 +4,9 @@
 
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/bullet_bridge/native_coupling.h"
-#include "tandem/bullet_bridge/world_access.h"
 
 #include "bodies/own_body.h"
+#include "world/world_access.h"
 #include "world/world_lookup.h"
 
 namespace tandem {

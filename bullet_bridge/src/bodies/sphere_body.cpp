@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/sphere_body.h"
+#include "bodies/sphere_body.h"
 
 #include <optional>
 
@@ -6,9 +6,9 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/haptic_body.h"
 #include "tandem/bullet_bridge/native_coupling.h"
 
+#include "bodies/haptic_body.h"
 #include "bodies/own_body.h"
 
 namespace tandem {

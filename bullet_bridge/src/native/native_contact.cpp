@@ -1,7 +1,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
-#include "tandem/bullet_bridge/haptic_body.h"
+#include "bodies/haptic_body.h"
 
 namespace tandem {
 

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/neighbours.h"
+#include "surroundings/neighbours.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/obstacles.h"
+#include "surroundings/obstacles.h"
 
 #include <algorithm>
 #include <string>
@@ -6,8 +6,8 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/haptic_body.h"
 
+#include "bodies/haptic_body.h"
 #include "surroundings/contact_search.h"
 #include "surroundings/known_shapes.h"
 #include "surroundings/obstacle_search.h"

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/standing_watch.h"
+#include "surroundings/standing_watch.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,8 +6,8 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/haptic_body.h"
 
+#include "bodies/haptic_body.h"
 #include "surroundings/obstacle_search.h"
 
 namespace tandem {

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/host_world.h"
+#include "world/host_world.h"
 
 #include <atomic>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/own_world.h"
+#include "world/own_world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/world_access.h"
+#include "world/world_access.h"
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>

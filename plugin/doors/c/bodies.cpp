@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tandem/bullet_bridge/world_access.h"
-
+#include "bullet_bridge/src/world/world_access.h"
 #include "c/values.h"
 #include "c/world.h"
 

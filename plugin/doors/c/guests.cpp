@@ -1,8 +1,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tandem/bullet_bridge/world_access.h"
-
+#include "bullet_bridge/src/world/world_access.h"
 #include "c/values.h"
 #include "c/world.h"
 

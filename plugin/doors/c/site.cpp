@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tandem/bullet_bridge/world_access.h"
-
+#include "bullet_bridge/src/world/world_access.h"
 #include "c/mesh_link.h"
 #include "c/values.h"
 

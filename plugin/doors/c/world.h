@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "tandem/bullet_bridge/bullet_abi.h"
-#include "tandem/bullet_bridge/guest_body.h"
-#include "tandem/bullet_bridge/own_world.h"
 
+#include "bullet_bridge/src/bodies/guest_body.h"
+#include "bullet_bridge/src/world/own_world.h"
 #include "c/handle.h"
 
 class btDiscreteDynamicsWorld;

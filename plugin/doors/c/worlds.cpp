@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "tandem/bullet_bridge/world_access.h"
 #include "tandem/plugin/site.h"
 
+#include "bullet_bridge/src/world/world_access.h"
 #include "c/values.h"
 #include "c/world.h"
 

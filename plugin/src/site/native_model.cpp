@@ -1,7 +1,7 @@
 #include "site/native_model.h"
 
-#include "tandem/bullet_bridge/haptic_body.h"
-#include "tandem/bullet_bridge/sphere_body.h"
+#include "bullet_bridge/src/bodies/haptic_body.h"
+#include "bullet_bridge/src/bodies/sphere_body.h"
 
 namespace tandem {
 namespace {

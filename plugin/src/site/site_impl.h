@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "tandem/bullet_bridge/driven_body.h"
-#include "tandem/bullet_bridge/haptic_body.h"
-#include "tandem/bullet_bridge/host_world.h"
-#include "tandem/bullet_bridge/neighbours.h"
-#include "tandem/bullet_bridge/obstacles.h"
-#include "tandem/bullet_bridge/sphere_body.h"
-#include "tandem/bullet_bridge/standing_watch.h"
 #include "tandem/coordination/island.h"
 #include "tandem/plugin/recording.h"
 #include "tandem/plugin/site.h"
 
+#include "bullet_bridge/src/bodies/driven_body.h"
+#include "bullet_bridge/src/bodies/haptic_body.h"
+#include "bullet_bridge/src/bodies/sphere_body.h"
+#include "bullet_bridge/src/surroundings/neighbours.h"
+#include "bullet_bridge/src/surroundings/obstacles.h"
+#include "bullet_bridge/src/surroundings/standing_watch.h"
+#include "bullet_bridge/src/world/host_world.h"
+#include "live/island_desk.h"
 #include "site/detour.h"
 #include "site/force_guard.h"
-#include "live/island_desk.h"
 #include "site/native_model.h"
 #include "site/packet_turns.h"
 #include "site/rest_mark.h"
