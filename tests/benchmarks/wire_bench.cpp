@@ -8,8 +8,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "tandem/coordination/replay_window.h"
 #include "tandem/coordination/wire_state.h"
+
+#include "coordination/src/wire/replay_window.h"
 
 namespace tandem {
 namespace {

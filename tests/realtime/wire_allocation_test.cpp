@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/replay_window.h"
-#include "tandem/coordination/wire_sealing.h"
 #include "tandem/coordination/wire_state.h"
 
+#include "coordination/src/wire/replay_window.h"
+#include "coordination/src/wire/wire_sealing.h"
 #include "realtime/allocation_count.h"
 
 namespace tandem {

@@ -9,8 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tandem/coordination/wire_sealing.h"
-
+#include "coordination/src/wire/wire_sealing.h"
 #include "secure/cookie.h"
 #include "secure/seal.h"
 #include "secure/secure_support.h"

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/wire_sealing.h"
-
+#include "coordination/src/wire/wire_sealing.h"
 #include "secure/secure_support.h"
 
 namespace tandem::test {

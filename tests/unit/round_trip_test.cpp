@@ -1,4 +1,4 @@
-#include "tandem/coordination/round_trip.h"
+#include "coordination/src/link/round_trip.h"
 
 #include <cstdint>
 #include <limits>

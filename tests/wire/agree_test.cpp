@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/wire_agree.h"
-
+#include "coordination/src/wire/wire_agree.h"
 #include "wire/golden.h"
 
 namespace tandem {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/wire_sealing.h"
+#include "coordination/src/wire/wire_sealing.h"
 
 namespace tandem {
 namespace {

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "tandem/coordination/wire_agree.h"
 #include "tandem/coordination/wire_handshake.h"
 #include "tandem/coordination/wire_state.h"
+
+#include "coordination/src/wire/wire_agree.h"
 
 /// \file
 /// Every decoder behind one door.

@@ -1,4 +1,4 @@
-#include "tandem/coordination/replay_window.h"
+#include "coordination/src/wire/replay_window.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "tandem/coordination/assert.h"
-
 #include "bad_value.h"
 #include "island/island_catch_up.h"
 #include "island/island_model.h"
@@ -11,6 +9,7 @@
 #include "island/slot_motion.h"
 #include "island/spatial_motion.h"
 #include "island/touch.h"
+#include "tandem_assert.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/coordination/round_trip.h"
+#include "link/round_trip.h"
 
 #include <cmath>
 

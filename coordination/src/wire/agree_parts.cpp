@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "tandem/coordination/wire_agree.h"
+#include "wire/wire_agree.h"
 
 // A configuration is cut into parts that fit a datagram each, and put together again.
 namespace tandem {

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "tandem/coordination/assert.h"
 #include "tandem/coordination/wire.h"
 
+#include "tandem_assert.h"
 #include "wire/little_endian.h"
 
 namespace tandem::wire {

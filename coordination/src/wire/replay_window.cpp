@@ -1,4 +1,4 @@
-#include "tandem/coordination/replay_window.h"
+#include "wire/replay_window.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/coordination/wire_agree.h"
+#include "wire/wire_agree.h"
 
 #include "wire/byte_reader.h"
 #include "wire/byte_writer.h"

@@ -1,4 +1,4 @@
-#include "tandem/coordination/wire_sealing.h"
+#include "wire/wire_sealing.h"
 
 #include <string_view>
 

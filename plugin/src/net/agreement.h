@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "tandem/coordination/wire_agree.h"
+#include "coordination/src/wire/wire_agree.h"
 
 namespace tandem::net {
 

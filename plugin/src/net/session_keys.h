@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "tandem/coordination/replay_window.h"
 #include "tandem/coordination/wire.h"
-#include "tandem/coordination/wire_sealing.h"
 
+#include "coordination/src/wire/replay_window.h"
+#include "coordination/src/wire/wire_sealing.h"
 #include "net/refusal.h"
 #include "secure/handshake.h"
 #include "secure/rekey_policy.h"

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "tandem/coordination/playout.h"
-#include "tandem/coordination/round_trip.h"
 #include "tandem/coordination/wire_state.h"
 
+#include "coordination/src/link/round_trip.h"
 #include "net/refusal.h"
 
 namespace tandem::net {

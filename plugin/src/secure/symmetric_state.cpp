@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tandem/coordination/wire_sealing.h"
+#include "coordination/src/wire/wire_sealing.h"
 
 namespace tandem::secure {
 

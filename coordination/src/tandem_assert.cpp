@@ -1,4 +1,4 @@
-#include "tandem/coordination/assert.h"
+#include "tandem_assert.h"
 
 #include <cstdio>
 #include <cstdlib>
