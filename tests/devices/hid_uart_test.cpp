@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/ft260_reports.h"
-
 #include "devices/ft260_emulator.h"
+#include "falcon/src/hid/ft260_reports.h"
 
 namespace tandem {
 namespace {

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/space_mouse_emulator.h"
-
 #include "devices/fake_hid_port.h"
+#include "falcon/src/hid/space_mouse_emulator.h"
 
 namespace tandem {
 namespace {

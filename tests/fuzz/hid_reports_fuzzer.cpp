@@ -8,10 +8,11 @@
 #include <cstdlib>
 #include <vector>
 
-#include "tandem/falcon/ft260_reports.h"
 #include "tandem/falcon/hid_switch.h"
 #include "tandem/falcon/raw_hid_report.h"
 #include "tandem/falcon/space_mouse_report.h"
+
+#include "falcon/src/hid/ft260_reports.h"
 
 namespace tandem {
 namespace {

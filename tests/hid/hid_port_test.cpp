@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/space_mouse_emulator.h"
-
+#include "falcon/src/hid/space_mouse_emulator.h"
 #include "hid/user_hidraw.h"
 
 namespace tandem {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/space_mouse_device.h"
-#include "tandem/falcon/space_mouse_emulator.h"
 
+#include "falcon/src/hid/space_mouse_emulator.h"
 #include "hid/user_hidraw.h"
 
 namespace tandem {

@@ -1,4 +1,4 @@
-#include "tandem/falcon/realtime_rights.h"
+#include "guard/realtime_rights.h"
 
 #include <array>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "tandem/falcon/ft260_reports.h"
+#include "hid/ft260_reports.h"
 
 #include <algorithm>
 

@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "tandem/coordination/types.h"
-#include "tandem/falcon/ft260_reports.h"
 #include "tandem/falcon/monotonic_clock.h"
+
+#include "hid/ft260_reports.h"
 
 namespace tandem {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/monotonic_clock.h"
-#include "tandem/falcon/realtime_rights.h"
 
+#include "guard/realtime_rights.h"
 #include "novint/pseudo_terminal.h"
 
 namespace tandem {

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "tandem/falcon/monotonic_clock.h"
-#include "tandem/falcon/realtime_rights.h"
+
+#include "guard/realtime_rights.h"
 
 namespace tandem {
 namespace {

@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tandem/falcon/realtime_rights.h"
-
+#include "falcon/src/guard/realtime_rights.h"
 #include "site/site_impl.h"
 
 namespace tandem {

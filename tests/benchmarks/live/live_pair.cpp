@@ -9,11 +9,12 @@
 
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/falcon/monotonic_clock.h"
-#include "tandem/falcon/realtime_rights.h"
 #include "tandem/plugin/link_queue.h"
 
 #include "crowd.h"
 #include "demos/program/world/scene.h"
+#include "falcon/src/guard/realtime_rights.h"
+#include "scene.h"
 
 //   site 1                                                    site 2
 //   host, with the crowd (this thread)                        host
