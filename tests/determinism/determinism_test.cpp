@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/plugin/replay.h"
-
 #include "demos/program/run/virtual_run.h"
+#include "plugin/src/record/replay.h"
 
 namespace tandem::demos {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/plugin/replay.h"
+#include "record/replay.h"
 
 namespace tandem {
 

@@ -14,7 +14,6 @@
 #include "crowd.h"
 #include "demos/program/world/scene.h"
 #include "falcon/src/guard/realtime_rights.h"
-#include "scene.h"
 
 //   site 1                                                    site 2
 //   host, with the crowd (this thread)                        host
