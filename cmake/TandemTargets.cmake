@@ -3,8 +3,12 @@
 
 add_library(tandem_compile_options INTERFACE)
 target_compile_features(tandem_compile_options INTERFACE cxx_std_20)
-# Private headers of another folder are included by their path from here.
+# Private headers of another folder are included by their path from the checkout; they name their neighbours
+# relative to their own src/. tests/house/include_rule.py says who may include what.
 target_include_directories(tandem_compile_options INTERFACE "${PROJECT_SOURCE_DIR}")
+foreach(folder coordination bullet_bridge falcon plugin)
+  target_include_directories(tandem_compile_options INTERFACE "${PROJECT_SOURCE_DIR}/${folder}/src")
+endforeach()
 target_compile_options(tandem_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Werror -ffp-contract=off -fno-math-errno)
