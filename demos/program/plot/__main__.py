@@ -1,0 +1,12 @@
+"""Draws Tandem's figures; the program `tandem` starts it.
+
+    python3 plot runs SCHEME,SCHEME... FOLDER...   figures and report.html of runs
+    python3 plot bench FOLDER/NAME.json            figures beside the numbers of a bench
+"""
+
+import sys
+
+from command import main
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

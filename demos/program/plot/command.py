@@ -1,0 +1,86 @@
+"""The commands of this package: figures of runs, and of benches."""
+
+import os
+import shutil
+import signal
+import sys
+from multiprocessing import get_context
+
+from table import UsageError
+
+
+def load_runs(folders):
+    """Each folder once, in the order given."""
+    from runs import load_run
+    places = {}
+    for folder in folders:
+        place = os.path.realpath(folder)
+        if place not in places:
+            places[place] = load_run(folder)
+    return list(places.values())
+
+
+_jobs = []  # figures to draw and their folder; processes that fork inherit them
+
+
+def save(job):
+    figure, folder = _jobs[job]
+    figure.save(folder)
+    return figure.name
+
+
+def draw(figures, folder):
+    """Draws on all cores, and says how far it is when somebody watches."""
+    _jobs[:] = [(figure, folder) for figure in figures]
+    watched, workers = sys.stderr.isatty(), len(os.sched_getaffinity(0))
+    with get_context("fork").Pool(min(workers, len(figures)) or 1, signal.signal,
+                                  (signal.SIGINT, signal.SIG_IGN)) as pool:
+        for count, name in enumerate(pool.imap_unordered(save, range(len(figures))), 1):
+            if watched:
+                sys.stderr.write(f"\r\033[Kfigure {count} of {len(figures)}: {name}")
+    if watched:
+        sys.stderr.write("\r\033[K")
+
+
+def plot_runs(folders):
+    """Draws all aside first, so that a failure leaves what was there."""
+    runs = load_runs(folders)
+    from report import Report
+    report, home = Report(runs), folders[0]
+    draft, figures = os.path.join(home, f".plot-draft-{os.getpid()}"), os.path.join(home, "figures")
+    try:
+        os.makedirs(draft)
+        draw(report.figures, draft)
+        with open(os.path.join(draft, "report.html"), "w", encoding="utf-8") as file:
+            file.write(report.html(draft))
+        os.makedirs(figures, exist_ok=True)
+        for name in os.listdir(figures):  # the folder belongs to this command
+            if name.endswith((".svg", ".png")):
+                os.remove(os.path.join(figures, name))
+        for name in os.listdir(draft):
+            to = home if name == "report.html" else figures
+            os.replace(os.path.join(draft, name), os.path.join(to, name))
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+    print(os.path.join(home, "report.html"))
+
+
+def main(arguments):
+    """Runs one command and returns the exit status. Bad input gives one line on stderr."""
+    try:
+        if arguments[0] == "bench":
+            from benches import bench_figures
+            draw(bench_figures(arguments[1]), os.path.dirname(arguments[1]))
+        else:
+            from words import know_schemes
+            know_schemes(arguments[1].split(","))
+            plot_runs(arguments[2:])
+        return 0
+    except KeyboardInterrupt:
+        return 1
+    except UsageError as error:
+        message, status = str(error), 2
+    except OSError as error:
+        message, status = f"{error.filename}: {error.strerror}", 1
+    print("tandem: " + "".join(c if c.isprintable() else "?" for c in message), file=sys.stderr)
+    return status

@@ -1,0 +1,214 @@
+"""Run folders: what was asked for and what came out, in virtual time or live."""
+
+import json
+import math
+import os
+from dataclasses import dataclass
+
+import numpy as np
+
+from table import UsageError, read_table, read_text
+from words import SCHEMES, join_words
+
+NAN = math.nan
+COOPERATION, CONTACT, PLAYGROUND = "cooperation", "user-to-user contact", "playground"
+_KINDS = {"cooperative_manipulation": COOPERATION, "user_contact": CONTACT}
+
+# Keys in which two sites of one live run may differ; demos/src/own_keys.h has them, too.
+_OWN_KEYS = ("title", "site1.", "site2.", "device.", "guard.", "network.delay", "network.jitter",
+             "network.loss", "network.duplicate", "network.reorder", "network.seed", "rates.host",
+             "rates.inner", "experiment.duration", "bridge.")
+
+
+_MEASURED = ["coherency.mean_abs", "coherency.max_abs", "real_time_factor",
+             *(f"site{site}.{key}" for site in (1, 2) for key in (
+                 "coherency.received_mean", "contact_transitions", "force.max", "force.mean",
+                 "device_end"))]
+
+
+@dataclass
+class Body:
+    """A body of a run's scene, as one site sees it. Sizes in metres."""
+    site: int
+    name: str
+    role: str  # object, proxy, device, neighbour or obstacle
+    is_static: bool
+    half_extents: np.ndarray = None  # of a box
+    radius: float = 0.0  # of a sphere
+
+    @property
+    def is_box(self):
+        return self.half_extents is not None
+
+    @property
+    def is_user(self):
+        return self.role in ("device", "proxy")
+
+
+@dataclass
+class Run:
+    """What was asked for and what came out. `values` has all of the summary by dotted key."""
+    folder: str
+    name: str
+    title: str
+    kind: str
+    scheme: str
+    values: dict
+    settings: dict  # values of the scenario, without titles
+    bodies: list
+    is_live: bool = False
+
+    @property
+    def has_object(self):
+        return not self.bodies or any(body.role == "object" for body in self.bodies)
+
+    def number(self, key):
+        """A number of the summary; NaN when it is not there."""
+        value = self.values.get(key)
+        return value if isinstance(value, float) else NAN
+
+    def setting(self, key):
+        """A number of the scenario; NaN when it is not there."""
+        return self.number(f"scenario.{key}")
+
+    def tables(self):
+        """site1.csv and site2.csv."""
+        return [read_table(os.path.join(self.folder, f"site{site}.csv")) for site in (1, 2)]
+
+    def settings_without(self, *keys):
+        return {key: value for key, value in self.settings.items() if key not in keys}
+
+
+def flatten(value, key=""):
+    """Leaves of nested JSON by dotted key; numbers as float, so that 200 equals 200.0."""
+    if isinstance(value, (dict, list)):
+        items = value.items() if isinstance(value, dict) else enumerate(value)
+        return {k: v for name, inner in items
+                for k, v in flatten(inner, f"{key}.{name}" if key else str(name)).items()}
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return {key: float(value) if is_number else value}
+
+
+class Summary:
+    """A JSON object read by dotted key, with messages that name file and key."""
+
+    def __init__(self, root, source):
+        self.root, self.source = root, source
+
+    def get(self, key, kind, name, default=None):
+        value = self.root
+        for part in key.split("."):
+            if isinstance(value, list) and part.isdigit():
+                value = dict(enumerate(value)).get(int(part))
+            else:
+                value = value.get(part) if isinstance(value, dict) else None
+        if value is None:
+            if default is not None:
+                return default
+            self.refuse(key, "is missing")
+        if not isinstance(value, kind) or isinstance(value, bool):
+            self.refuse(key, f"must be a {name}")
+        return value
+
+    def number(self, key, default=None):
+        return float(self.get(key, (int, float), "number", default))
+
+    def text(self, key, default=None):
+        return self.get(key, str, "text", default)
+
+    def refuse(self, key, problem):
+        raise UsageError(f'{self.source}: key "{key}" {problem}')
+
+
+def parse_object(text, source):
+    def refuse(name):
+        raise ValueError(name)
+    try:
+        value = json.loads(text.removeprefix("\ufeff"), parse_constant=refuse)
+    except (ValueError, RecursionError):
+        value = None
+    if not isinstance(value, dict):
+        raise UsageError(f"{source}: not a JSON object")
+    return value
+
+
+def _read_body(summary, at):
+    role, shape = summary.text(f"{at}.role"), summary.text(f"{at}.shape")
+    body = Body(1 if summary.number(f"{at}.site") < 1.5 else 2, summary.text(f"{at}.name", role),
+                role, summary.text(f"{at}.motion", "dynamic") == "static")
+    if shape == "box":
+        body.half_extents = np.array([summary.number(f"{at}.half_extents.{i}") for i in range(3)])
+    elif shape == "sphere":
+        body.radius = summary.number(f"{at}.radius")
+    else:
+        summary.refuse(f"{at}.shape", f'is "{shape}"; allowed are box and sphere')
+    return body
+
+
+def _read_bodies(summary):
+    count = len(summary.get("scene.bodies", list, "list", []))
+    return [_read_body(summary, f"scene.bodies.{index}") for index in range(count)]
+
+
+def make_run(root, folder, source):
+    """A run from its summary, already read; `source` names it in messages."""
+    summary = Summary(root, source)
+    kind = _KINDS.get(summary.text("scenario.experiment.kind"), PLAYGROUND)
+    scheme = summary.text("scenario.experiment.scheme")
+    if scheme not in SCHEMES:
+        summary.refuse("scenario.experiment.scheme",
+                       f'is "{scheme}"; allowed are {join_words(SCHEMES)}')
+    for key in _MEASURED:
+        is_needed = key.endswith("transitions") or kind == COOPERATION and key.endswith("mean_abs")
+        summary.number(key, None if is_needed else NAN)
+    name = os.path.basename(os.path.abspath(folder))
+    settings = {key: value for key, value in flatten(root["scenario"]).items()
+                if key.split(".")[-1] not in ("name", "title", "description")}
+    return Run(folder, name, summary.text("title", summary.text("scenario.name", "")) or name, kind,
+               scheme, flatten(root), settings | {"scalar": summary.text("scalar", "")},
+               _read_bodies(summary))
+
+
+def load_run(folder):
+    """Reads summary.json of `folder`, or what two `tandem peer` have left there."""
+    if is_live_folder(folder):
+        return load_live_run(folder)
+    path = os.path.join(folder, "summary.json")
+    return make_run(parse_object(read_text(path), path), folder, path)
+
+
+def separation(tables):
+    """|object at site 1 - object at site 2| tick by tick [m]; a site may have a row more."""
+    ours, theirs = (table.vectors("object") for table in tables)
+    rows = min(len(ours), len(theirs))
+    return np.linalg.norm(ours[:rows] - theirs[:rows], axis=1)
+
+
+def is_live_folder(folder):
+    """True if two `tandem peer` have written to this folder, and no `tandem run`."""
+    return os.path.exists(os.path.join(folder, "site1.json")) and \
+        not os.path.exists(os.path.join(folder, "summary.json"))
+
+
+def _shared_settings(site):
+    return {key: value for key, value in flatten(site.get("scenario", {})).items()
+            if not key.startswith(_OWN_KEYS)}
+
+
+def load_live_run(folder):
+    """Joins site1.json and site2.json, and computes from both tables what only both tell."""
+    paths = [os.path.join(folder, f"site{site}.json") for site in (1, 2)]
+    both, other = (parse_object(read_text(path), path) for path in paths)
+    if _shared_settings(both) != _shared_settings(other):
+        raise UsageError(f"{paths[1]}: another scenario than in {paths[0]}; give a folder that "
+                         "both sites of one run wrote to")
+    apart = separation([read_table(os.path.join(folder, f"site{site}.csv")) for site in (1, 2)])
+    sites = [Summary(both, paths[0]), Summary(other, paths[1])]
+    ticks, late = (sum(site.number(f"loop.{key}", NAN) for site in sites)
+                   for key in ("ticks", "late"))
+    both["loop"] = {"late_share": late / ticks if ticks else NAN}
+    both["site2"] = other.get("site2", {})
+    both["coherency"] = {"mean_abs": apart.mean(), "max_abs": apart.max()}
+    run = make_run(both, folder, folder)
+    run.is_live = True
+    return run
