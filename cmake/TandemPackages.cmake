@@ -41,7 +41,7 @@ set(CPACK_DEBIAN_DEV_DESCRIPTION "networked haptic cooperation in Bullet worlds 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME tandem-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libtandem${soversion} (= ${same})")
-set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox, fonts-dejavu-core")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "python3-matplotlib")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "networked haptic cooperation in Bullet worlds - program
  The program tandem, which runs experiments with two users, live or in virtual
  time, plots and measures them; for Bullet in single precision it is

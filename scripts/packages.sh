@@ -16,7 +16,7 @@ packages_of() {
     build) echo g++ cmake ninja-build pkg-config libbullet-dev libeigen3-dev libfmt-dev \
                 nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev libsodium-dev \
                 libftdi1-dev libhidapi-dev ;;
-    demo)  echo gnuplot-nox fonts-dejavu-core ;;
+    demo)  echo python3-matplotlib ;;
     test)  echo libgtest-dev python3 ccache ;;
     bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;
     live)  echo rt-tests ;;

@@ -3,9 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/accuracy_figure.h"
 #include "bench/accuracy/accuracy_report.h"
-#include "demos/program/plot/gnuplot.h"
+#include "demos/program/plot/drawing.h"
 #include "demos/program/run/run_output.h"
 #include "demos/program/terminal/progress_line.h"
 #include "demos/program/terminal/standard_output.h"
@@ -14,7 +13,7 @@ namespace tandem::demos::bench {
 void runAccuracyCommand(const AccuracyCommand& command) {
   if (command.folder) {
     prepareFolder(*command.folder);
-    plot::requireGnuplot(*command.folder);
+    requireDrawing();
   }
   std::vector<SceneAccuracy> scenes;
   {
@@ -24,9 +23,9 @@ void runAccuracyCommand(const AccuracyCommand& command) {
   }
   const std::string json = makeAccuracyJson(scenes, command.quick).dump(2) + "\n";
   if (command.folder) {
-    plot::writeText(std::filesystem::path(*command.folder) / "accuracy.json", json);
-    for (const plot::Figure& figure : makeAccuracyFigures(scenes))
-      plot::drawFigure(figure, *command.folder);
+    const auto file = std::filesystem::path(*command.folder) / "accuracy.json";
+    writeText(file, json);
+    drawBench(file);
   }
   writeOutput(command.json ? json : makeAccuracyTable(scenes));
 }

@@ -183,7 +183,6 @@ class MujocoSimulation final : public Simulation {
 class MujocoMethod final : public Method {
  public:
   std::string name() const override { return "MuJoCo"; }
-  MethodStyle style() const override { return {"#9467bd", 3}; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     return std::make_unique<MujocoSimulation>(scene, host_rate);
   }

@@ -178,7 +178,6 @@ class OdeSimulation final : public Simulation {
 class OdeMethod final : public Method {
  public:
   std::string name() const override { return "ODE"; }
-  MethodStyle style() const override { return {"#17becf", 2}; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     return std::make_unique<OdeSimulation>(scene, host_rate);
   }

@@ -170,7 +170,6 @@ class SimbodySimulation final : public Simulation {
 class SimbodyMethod final : public Method {
  public:
   std::string name() const override { return "Simbody"; }
-  MethodStyle style() const override { return {"#bcbd22", 4}; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     if (!scene.is_smooth)
       throw NotApplicable("Simbody has no rigid contact of boxes, only of listed points and edges");

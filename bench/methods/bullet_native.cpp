@@ -55,11 +55,9 @@ bool hasCoupler(const BenchScene& scene) {
 
 class BulletNativeMethod final : public Method {
  public:
-  BulletNativeMethod(std::string name, MethodStyle style, NativeContact contact,
-                     NativeCouplerKind coupler)
-      : name_(std::move(name)), style_(std::move(style)), contact_(contact), coupler_(coupler) {}
+  BulletNativeMethod(std::string name, NativeContact contact, NativeCouplerKind coupler)
+      : name_(std::move(name)), contact_(contact), coupler_(coupler) {}
   std::string name() const override { return name_; }
-  MethodStyle style() const override { return style_; }
 
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     if (contact_ == NativeContact::kRigid && scene.bodies.empty())
@@ -71,7 +69,6 @@ class BulletNativeMethod final : public Method {
 
  private:
   std::string name_;
-  MethodStyle style_;
   NativeContact contact_;
   NativeCouplerKind coupler_;
 };
@@ -79,20 +76,19 @@ class BulletNativeMethod final : public Method {
 }  // namespace
 
 std::unique_ptr<Method> makeBulletRigid() {
-  return std::make_unique<BulletNativeMethod>("Bullet rigid", MethodStyle{"#999999", 1},
-                                              NativeContact::kRigid, NativeCouplerKind::kImpulse);
+  return std::make_unique<BulletNativeMethod>("Bullet rigid", NativeContact::kRigid,
+                                              NativeCouplerKind::kImpulse);
 }
 std::unique_ptr<Method> makeBulletSoft() {
-  return std::make_unique<BulletNativeMethod>("Bullet soft", MethodStyle{"#d55e00", 9},
-                                              NativeContact::kSoft, NativeCouplerKind::kImpulse);
+  return std::make_unique<BulletNativeMethod>("Bullet soft", NativeContact::kSoft,
+                                              NativeCouplerKind::kImpulse);
 }
 std::unique_ptr<Method> makeBulletSpring6Dof() {
-  return std::make_unique<BulletNativeMethod>("Bullet 6DofSpring2", MethodStyle{"#cc79a7", 11},
-                                              NativeContact::kSoft, NativeCouplerKind::kSpring6Dof);
+  return std::make_unique<BulletNativeMethod>("Bullet 6DofSpring2", NativeContact::kSoft,
+                                              NativeCouplerKind::kSpring6Dof);
 }
 std::unique_ptr<Method> makeBulletPointToPoint() {
-  return std::make_unique<BulletNativeMethod>("Bullet Point2Point", MethodStyle{"#8c564b", 13},
-                                              NativeContact::kSoft,
+  return std::make_unique<BulletNativeMethod>("Bullet Point2Point", NativeContact::kSoft,
                                               NativeCouplerKind::kPointToPoint);
 }
 

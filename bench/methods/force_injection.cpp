@@ -64,7 +64,6 @@ class ForceInjection final : public Simulation {
 class ForceInjectionMethod final : public Method {
  public:
   std::string name() const override { return "force injection"; }
-  MethodStyle style() const override { return {"#e69f00", 8}; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     return std::make_unique<ForceInjection>(scene, host_rate);
   }

@@ -13,7 +13,8 @@
 /// To add one: write bench/methods/<name>.cpp with a class derived from Simulation that sets the
 /// scene up in its constructor and moves it on in step(), and one derived from Method that makes
 /// it; declare its factory in methods/all_methods.h and list it in methods/all_methods.cpp. The
-/// build finds the file; runs, timing, errors, tables and figures are the bench's.
+/// build finds the file; runs, timing, errors, tables and figures are the bench's. Its colour and
+/// marker in figures go into demos/program/plot/benches.py.
 namespace tandem::demos::bench {
 
 /// A scene that a method cannot run, and why: one line for the table.
@@ -46,18 +47,11 @@ class Simulation {
   [[nodiscard]] virtual std::vector<TickSample> tickSamples() const { return {}; }
 };
 
-/// Looks of a method, equal in all figures.
-struct MethodStyle {
-  std::string colour;  ///< "#rrggbb"
-  int point = 7;       ///< gnuplot's number of a point symbol
-};
-
 /// A way to simulate. Stateless.
 class Method {
  public:
   virtual ~Method() = default;
   [[nodiscard]] virtual std::string name() const = 0;
-  [[nodiscard]] virtual MethodStyle style() const = 0;
 
   /// Sets a scene up at `host_rate` [Hz] steps per second. Throws NotApplicable, or whatever the
   /// engine throws, when it cannot: the message becomes the reason in the table.

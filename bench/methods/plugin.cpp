@@ -174,10 +174,8 @@ bool isMovedByHost(const BenchTool& tool) {
 
 class PluginMethod final : public Method {
  public:
-  PluginMethod(std::string name, MethodStyle style, Variant variant)
-      : name_(std::move(name)), style_(std::move(style)), variant_(variant) {}
+  PluginMethod(std::string name, Variant variant) : name_(std::move(name)), variant_(variant) {}
   std::string name() const override { return name_; }
-  MethodStyle style() const override { return style_; }
 
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     if (variant_ == Variant::kLate &&
@@ -188,23 +186,19 @@ class PluginMethod final : public Method {
 
  private:
   std::string name_;
-  MethodStyle style_;
   Variant variant_;
 };
 
 }  // namespace
 
 std::unique_ptr<Method> makePluginHandoff() {
-  return std::make_unique<PluginMethod>("plugin handoff", MethodStyle{"#0072b2", 7},
-                                        Variant::kHandoff);
+  return std::make_unique<PluginMethod>("plugin handoff", Variant::kHandoff);
 }
 std::unique_ptr<Method> makePluginLate() {
-  return std::make_unique<PluginMethod>("plugin handoff, late", MethodStyle{"#56b4e9", 6},
-                                        Variant::kLate);
+  return std::make_unique<PluginMethod>("plugin handoff, late", Variant::kLate);
 }
 std::unique_ptr<Method> makePluginImpulse() {
-  return std::make_unique<PluginMethod>("plugin impulse", MethodStyle{"#009e73", 5},
-                                        Variant::kImpulse);
+  return std::make_unique<PluginMethod>("plugin impulse", Variant::kImpulse);
 }
 
 }  // namespace tandem::demos::bench

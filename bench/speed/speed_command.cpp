@@ -1,7 +1,7 @@
 #include "bench/speed/speed_command.h"
 
 #include "bench/speed/speed_report.h"
-#include "demos/program/plot/gnuplot.h"
+#include "demos/program/plot/drawing.h"
 #include "demos/program/run/run_output.h"
 #include "demos/program/terminal/progress_line.h"
 #include "demos/program/terminal/standard_output.h"
@@ -11,7 +11,7 @@ namespace tandem::demos::bench {
 void runSpeedCommand(const SpeedCommand& command) {
   if (command.folder) {
     prepareFolder(*command.folder);
-    plot::requireGnuplot(*command.folder);
+    requireDrawing();
   }
   SpeedReport report;
   {
@@ -21,8 +21,9 @@ void runSpeedCommand(const SpeedCommand& command) {
   }
   const std::string json = makeSpeedJson(report, command.quick).dump(2) + "\n";
   if (command.folder) {
-    plot::writeText(std::filesystem::path(*command.folder) / "speed.json", json);
-    plot::drawFigure(makeSpeedFigure(report), *command.folder);
+    const auto file = std::filesystem::path(*command.folder) / "speed.json";
+    writeText(file, json);
+    drawBench(file);
   }
   writeOutput(command.json ? json : makeSpeedTable(report));
 }

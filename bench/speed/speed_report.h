@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/speed/speed.h"
-#include "demos/program/plot/figure.h"
 
 namespace tandem::demos::bench {
 
@@ -13,8 +12,5 @@ namespace tandem::demos::bench {
 
 /// As docs/benchmarks.md describes it.
 [[nodiscard]] nlohmann::json makeSpeedJson(const SpeedReport& report, bool quick);
-
-/// Run time per simulated second against bodies of the host and against shared objects.
-[[nodiscard]] plot::Figure makeSpeedFigure(const SpeedReport& report);
 
 }  // namespace tandem::demos::bench

@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/stress/stress.h"
-#include "bench/stress/stress_figure.h"
 #include "bench/stress/stress_report.h"
-#include "demos/program/plot/gnuplot.h"
+#include "demos/program/plot/drawing.h"
 #include "demos/program/run/run_output.h"
 #include "demos/program/terminal/progress_line.h"
 #include "demos/program/terminal/standard_output.h"
@@ -70,7 +69,7 @@ bool runStressCommand(const StressCommand& command) {
     throw UsageError(fmt::format("--cases {}: must be 1 to {}", options.cases, kMostCases));
   if (command.folder) {
     prepareFolder(*command.folder);
-    plot::requireGnuplot(*command.folder);
+    requireDrawing();
   }
   StressResult result;
   {
@@ -80,8 +79,9 @@ bool runStressCommand(const StressCommand& command) {
   }
   const std::string json = makeStressJson(result).dump(2) + "\n";
   if (command.folder) {
-    plot::writeText(std::filesystem::path(*command.folder) / "stress.json", json);
-    plot::drawFigure(makeStabilityFigure(result.maps), *command.folder);
+    const auto file = std::filesystem::path(*command.folder) / "stress.json";
+    writeText(file, json);
+    drawBench(file);
   }
   writeOutput(command.json ? json : makeStressTable(result));
   return result.countFailed() == 0;

@@ -132,10 +132,14 @@ nlohmann::json makeStressJson(const StressResult& result) {
       for (std::size_t r = 0; r < map.host_rates.size(); ++r) line.push_back(nameOf(map.at(k, r)));
       cells.push_back(line);
     }
-    json["maps"].push_back({{"method", map.method},
-                            {"stiffness", map.stiffness},
-                            {"host_rates", map.host_rates},
-                            {"cells", cells}});
+    nlohmann::json one = {{"method", map.method},
+                          {"stiffness", map.stiffness},
+                          {"host_rates", map.host_rates},
+                          {"cells", cells}};
+    if (map.method == "force injection")
+      for (const double stiffness : map.stiffness)
+        one["step_limit"].push_back(computeInjectionLimit(stiffness));
+    json["maps"].push_back(std::move(one));
   }
   return json;
 }

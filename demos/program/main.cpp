@@ -16,7 +16,7 @@
 #include "device/command/arguments.h"
 #include "link/link_command.h"
 #include "peer/peer_command.h"
-#include "plot/plot.h"
+#include "plot/drawing.h"
 #include "run/run_output.h"
 #include "run/virtual_run.h"
 #include "scenario/scenario.h"
@@ -224,8 +224,7 @@ int runProgram(int argc, char** argv) {
     return kDone;
   }
   if (stress->parsed()) return bench::runStressCommand(stress_options) ? kDone : kCheckFailed;
-  plotRuns({plot_folders.begin(), plot_folders.end()});
-  return kDone;
+  return plotRuns(plot_folders);
 }
 
 /// One line, whatever file names and values are quoted in it.

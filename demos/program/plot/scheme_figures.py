@@ -67,8 +67,8 @@ def coherency_over_time(runs, name):
             axes.plot(tables[0]["t"][:len(distance)], distance, **looks[run.scheme])
             times += recorded_time(tables[0]["t"])
             highest = max(highest, np.nanmax(distance, initial=0.0))
-        set_axis(axes, "x", (min(times), max(times)), 80)
-        set_axis(axes, "y", (0, 1.08 * highest), 40)
+        set_axis(axes, "x", (min(times), max(times)), 110)
+        set_axis(axes, "y", (0, 1.08 * highest), 34)
 
     return Figure(name, title, "Both copies at the same instant: the distance is zero when the "
                   "users share one object.", 424, paint)

@@ -11,14 +11,6 @@
 namespace tandem::demos {
 namespace {
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file)
-    throw Error("cannot write " + path.string() + ": is the folder there, writable and not full?");
-}
-
 /// A folder for files in the making: gone at the end, with all that was not moved out of it.
 class UnfinishedFolder {
  public:
@@ -74,6 +66,14 @@ std::string makeSceneCsv(const VirtualRun& run) {
 }
 
 }  // namespace
+
+void writeText(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file)
+    throw Error("cannot write " + path.string() + ": is the folder there, writable and not full?");
+}
 
 nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run) {
   const RunSummary& s = run.summary();
