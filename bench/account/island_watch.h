@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "tandem/coordination/scheme.h"
 #include "tandem/coordination/simulated_link.h"
 
 #include "bench/account/energy_account.h"
+#include "coordination/src/schemes/remote_user.h"
 
 namespace tandem::demos::bench {
 

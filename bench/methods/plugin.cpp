@@ -12,6 +12,7 @@
 
 #include "bench/methods/all_methods.h"
 #include "bench/methods/bullet_scene.h"
+#include "coordination/src/schemes/remote_user.h"
 
 namespace tandem::demos::bench {
 namespace {

@@ -12,6 +12,7 @@
 #include "bench/accuracy/comparison.h"
 #include "bench/methods/bullet_scene.h"
 #include "bench/reference/planar_reference.h"
+#include "coordination/src/schemes/remote_user.h"
 #include "support/fakes.h"
 
 /// \file

@@ -1,11 +1,11 @@
-#include "tandem/coordination/packet.h"
-
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tandem/coordination/link.h"
 
 namespace tandem {
 namespace {

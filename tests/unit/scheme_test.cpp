@@ -1,8 +1,8 @@
-#include "tandem/coordination/scheme.h"
-
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "coordination/src/schemes/remote_user.h"
 
 namespace tandem {
 namespace {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "tandem/coordination/convex_polyhedron.h"
+#include "tandem/coordination/triangle_mesh.h"
+
 #include "bad_value.h"
 
 namespace tandem {

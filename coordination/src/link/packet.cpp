@@ -1,7 +1,7 @@
-#include "tandem/coordination/packet.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "tandem/coordination/link.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/coordination/scheme.h"
+#include "schemes/remote_user.h"
 
 namespace tandem {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "tandem/coordination/coupling_settings.h"
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/coordination/types.h"
-#include "tandem/coordination/virtual_coupler.h"
 
 namespace tandem::demos {
 

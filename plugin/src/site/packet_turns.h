@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tandem/coordination/packet.h"
+#include "tandem/coordination/link.h"
 
 namespace tandem {
 

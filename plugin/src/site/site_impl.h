@@ -7,6 +7,12 @@
 #include <vector>
 
 #include "tandem/coordination/island.h"
+#include "tandem/coordination/island_counters.h"
+#include "tandem/coordination/link.h"
+#include "tandem/coordination/link_health.h"
+#include "tandem/coordination/passivity_observer.h"
+#include "tandem/coordination/scheme.h"
+#include "tandem/falcon/haptic_device.h"
 #include "tandem/plugin/recording.h"
 #include "tandem/plugin/site.h"
 
@@ -17,6 +23,7 @@
 #include "bullet_bridge/src/surroundings/obstacles.h"
 #include "bullet_bridge/src/surroundings/standing_watch.h"
 #include "bullet_bridge/src/world/host_world.h"
+#include "coordination/src/schemes/remote_user.h"
 #include "live/island_desk.h"
 #include "site/detour.h"
 #include "site/force_guard.h"

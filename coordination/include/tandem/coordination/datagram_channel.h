@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "tandem/coordination/datagram.h"
 #include "tandem/coordination/impairments.h"
-#include "tandem/coordination/wire.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

@@ -2,43 +2,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
-#include "tandem/coordination/packet.h"
-#include "tandem/coordination/virtual_coupler.h"
+#include "tandem/coordination/coupling_settings.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// How a remote peer is doing, by the age of the state of it that was taken in last.
-enum class LinkState {
-  kWaiting,    ///< nothing heard yet, and it does not count as there
-  kLive,       ///< heard lately: full gains
-  kStale,      ///< late: what is pulled to stands, and its velocity dies away
-  kFading,     ///< later: the gains go to zero
-  kLost,       ///< silent: no contribution
-  kRejoining,  ///< heard again: the gains come back
-};
-
-/// As it is written in reports: "live", "stale", ...
-[[nodiscard]] std::string_view nameOf(LinkState state) noexcept;
-
-/// What is done when a peer falls silent. Ages are for a sender whose packets come no farther apart
-/// than a third of `stale_after`; for others they are longer, see LinkHealth.
-struct LinkLossSettings {
-  bool enabled = true;         ///< false: the last state heard pulls for ever
-  bool start_live = true;      ///< until the first packet a peer counts as live, at its start pose
-  double stale_after = 0.025;  ///< age at which targets stand [s]
-  double fade_after = 0.1;     ///< age at which gains begin to fall [s]
-  double lost_after = 0.25;    ///< age at which they are zero [s]
-  double hold_decay = 0.02;    ///< time constant in which a stale velocity dies away [s]
-  double ramp_in = 0.5;        ///< in which gains come back [s]
-  double rejoin_overlap = 2e-3;  ///< as a pressing hand has it; a proxy deeper in something than
-                                 ///< this is not let in again [m]
-};
-
-/// Throws std::invalid_argument, naming the value and what is allowed.
-void checkLinkLossSettings(const LinkLossSettings& settings);
 
 /// Damping against the world that brings a proxy to rest while its gains fade [N s/m]. With the
 /// share s of K and B left and 1 - s of this, the damping ratio stays at least what it was, or 1:

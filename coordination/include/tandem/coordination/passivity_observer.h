@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/coordination/coupling_settings.h"
+
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// What a hand may get out of a connection. Checked by checkPassivitySettings().
-struct PassivitySettings {
-  bool enabled = true;
-  double tank = 0.02;  ///< may be given before anybody puts in any [J]; the paper needs 5.7 mJ
-  double band = 0.01;  ///< below this rest the force fades [J], at most `tank`
-  double most = 10.0;  ///< of what was put in counts as still there [J]: more than springs and
-                       ///< moving masses of a scene hold; the rest has become heat
-};
-
-/// Throws std::invalid_argument, naming the value and what is allowed.
-void checkPassivitySettings(const PassivitySettings& settings);
 
 /// Watches the connection between one hand and all others as a network with a port at each hand:
 /// none may get more energy out than others and itself have put in, and a tank.

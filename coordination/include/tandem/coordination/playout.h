@@ -8,22 +8,11 @@
 #include <vector>
 
 #include "tandem/coordination/link.h"
+#include "tandem/coordination/playout_settings.h"
 #include "tandem/coordination/windowed_minimum.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
-
-struct PlayoutSettings {
-  bool is_on = true;       ///< off: states are applied as they come, as in the paper
-  double most = 0.05;      ///< longest wait for slower packets [s]; longer smooths more jitter
-  double quantile = 0.99;  ///< share of the last 256 packets that the wait should cover
-  double slew = 0.01;      ///< change of the wait [s/s]; faster follows, slower is steadier
-  double max_late = 0.5;   ///< later than the fastest by more [s]: too old to be applied
-  std::size_t room = 64;   ///< packets that may wait at a time
-};
-
-/// Throws std::invalid_argument, naming the value and what is allowed.
-void checkPlayoutSettings(const PlayoutSettings& settings);
 
 /// Turns jitter into constant delay: a state is given when the time since it was sent is that of
 /// the fastest packets plus a wait that covers most of the slower ones. Only differences of the

@@ -1,27 +1,16 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
-
-#include "tandem/coordination/island.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// The body that stands for a remote user where a scheme has one.
-struct ProxySettings {
-  double mass = 0.1;     ///< m_h, the mass of the remote user's device [kg]
-  double damping = 0.0;  ///< b_h [N s/m]
-  double radius = 0.01;  ///< of the sphere [m]
-};
-
-/// A remote user at this site: what a scheme made of it in the island.
-struct RemoteUser {
-  std::optional<BodyIndex> body;        ///< nothing: the user is felt through shared objects only
-  std::optional<CouplerIndex> coupler;  ///< ties a dynamic body to the user's delayed state
-};
+class Island;
+struct CouplerGains;
+struct PointState;
+struct ProxySettings;
+struct RemoteUser;
 
 /// A way to let a remote user be present: the interchangeable heart of the comparison.
 ///

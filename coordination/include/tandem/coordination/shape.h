@@ -4,12 +4,13 @@
 #include <memory>
 #include <variant>
 
-#include "tandem/coordination/convex_polyhedron.h"
-#include "tandem/coordination/triangle_mesh.h"
 #include "tandem/coordination/types.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+class ConvexPolyhedron;
+class TriangleMesh;
 
 /// Ball around the body's origin.
 struct Sphere {

@@ -18,6 +18,9 @@ using Quat = Eigen::Quaterniond;
 /// A user together with the computer that runs that user's copy of the virtual environment.
 enum class PeerId : std::uint32_t {};
 
+/// Identity of a shared object, agreed between the peers (its place in the scenario).
+using ObjectId = std::uint32_t;
+
 /// Counts haptic periods since the start; time is `tick * haptic_period`, never an accumulated sum.
 using Tick = std::uint64_t;
 

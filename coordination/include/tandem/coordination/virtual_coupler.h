@@ -1,15 +1,10 @@
 #pragma once
 
+#include "tandem/coordination/coupling_settings.h"
 #include "tandem/coordination/types.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// Gains of one spring-damper; checked where they enter (Island::addCoupler, Island::addContact).
-struct CouplerGains {
-  double stiffness = 0.0;  ///< [N/m], >= 0; higher feels stiffer and needs a shorter delay
-  double damping = 0.0;    ///< [N s/m], >= 0; higher calms the coupling, too high rings with delay
-};
 
 /// Force that pulls `follower` towards `leader`, expressed in W [N]:
 ///

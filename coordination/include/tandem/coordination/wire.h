@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tandem/coordination/datagram.h"
 #include "tandem/coordination/types.h"
 
 /// \file
@@ -13,26 +14,13 @@
 namespace tandem {
 
 inline constexpr std::uint8_t kWireVersion = 1;
-inline constexpr std::size_t kMaxDatagramSize = 1200;  ///< [bytes], with tag
-inline constexpr std::size_t kHeaderSize = 20;         ///< [bytes]
-inline constexpr std::size_t kTagSize = 16;            ///< [bytes] behind a sealed payload
+inline constexpr std::size_t kHeaderSize = 20;  ///< [bytes]
+inline constexpr std::size_t kTagSize = 16;     ///< [bytes] behind a sealed payload
 inline constexpr std::size_t kMaxPayloadSize = kMaxDatagramSize - kHeaderSize - kTagSize;
 inline constexpr std::uint32_t kMaxWirePeer = 8;  ///< ids on the wire are 1 to this
 
 /// Latest time on the wire [us], 35 years: seconds in a double still name each microsecond.
 inline constexpr std::int64_t kMaxWireTimeUs = std::int64_t{1} << 50;
-
-/// Bytes to read; whoever owns them must outlive the view.
-struct ByteView {
-  const std::uint8_t* data = nullptr;
-  std::size_t size = 0;
-};
-
-/// Room to write to.
-struct ByteSpan {
-  std::uint8_t* data = nullptr;
-  std::size_t size = 0;
-};
 
 /// Why bytes are not taken (section 10). A receiver drops them and counts by this.
 enum class WireRefusal : std::uint8_t {
@@ -138,9 +126,6 @@ struct ClearHeader {
 [[nodiscard]] inline ByteView payloadOf(ByteView datagram) noexcept {
   return {datagram.data + kHeaderSize, datagram.size - kHeaderSize};
 }
-
-/// Why the sender leaves (section 9).
-enum class ByeReason : std::uint8_t { kUserLeaves, kProgramEnds, kFault, kConfigurationsDiffer };
 
 inline constexpr std::size_t kByeSize = 1;  ///< [bytes], payload
 

@@ -55,14 +55,6 @@ struct AcceptMessage {
   NoiseMessage noise{};
 };
 
-enum class RefuseCode : std::uint8_t {
-  kVersion = 1,
-  kUnknownPeer = 2,
-  kCookie = 3,
-  kKey = 4,
-  kBusy = 5,
-};
-
 /// Either: why not. Not authentic, so for the user's eyes only; never ends a live session.
 struct RefuseMessage {
   HandshakeRoute route;

@@ -3,16 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tandem/coordination/packet.h"
+#include "tandem/coordination/link.h"
 #include "tandem/coordination/wire.h"
 
 /// \file
 /// STATE (section 6): a state packet with the times, acknowledgements and energy that go with it.
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// How wide the reals of the records are on the wire.
-enum class WireProfile : std::uint8_t { kFloat32, kFloat64 };
 
 /// Bits of StateMessage::flags.
 enum StateFlag : std::uint16_t {

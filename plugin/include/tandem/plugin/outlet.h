@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tandem/coordination/wire.h"
+#include "tandem/coordination/datagram.h"
 #include "tandem/plugin/address.h"
 
 #pragma GCC visibility push(default)

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tandem/coordination/configuration.h"
+#include "tandem/coordination/datagram.h"
 #include "tandem/coordination/types.h"
-#include "tandem/coordination/wire_handshake.h"
 #include "tandem/plugin/address.h"
 
 #pragma GCC visibility push(default)

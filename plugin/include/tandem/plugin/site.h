@@ -7,9 +7,6 @@
 #include <vector>
 
 #include "tandem/bullet_bridge/bullet_abi.h"
-#include "tandem/coordination/island_counters.h"
-#include "tandem/coordination/link.h"
-#include "tandem/falcon/haptic_device.h"
 #include "tandem/plugin/site_settings.h"
 
 class btDiscreteDynamicsWorld;
@@ -18,8 +15,13 @@ class btRigidBody;
 #pragma GCC visibility push(default)
 namespace tandem {
 
+class HapticDevice;
 class HapticLoop;
+class Link;
+class PassivityObserver;
 class Recording;
+struct IslandCounters;
+struct StatePacket;
 
 /// What a tick has to report; each bit says what to do.
 enum TickStatus : std::uint32_t {

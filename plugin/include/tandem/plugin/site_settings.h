@@ -2,12 +2,13 @@
 
 #include <optional>
 
-#include "tandem/coordination/link_health.h"
-#include "tandem/coordination/passivity_observer.h"
-#include "tandem/coordination/scheme.h"
+#include "tandem/coordination/coupling_settings.h"
+#include "tandem/coordination/types.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+class Scheme;
 
 /// How forces reach the host's bodies.
 enum class Injection {

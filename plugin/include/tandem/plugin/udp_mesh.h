@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "tandem/coordination/configuration.h"
-#include "tandem/coordination/link.h"
-#include "tandem/coordination/playout.h"
-#include "tandem/coordination/wire_state.h"
+#include "tandem/coordination/datagram.h"
+#include "tandem/coordination/playout_settings.h"
 #include "tandem/plugin/peer_status.h"
 #include "tandem/plugin/secret_key.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+class Link;
 
 /// A remote site and how it is reached.
 struct UdpPeer {
