@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "tandem/coordination/contact_geometry.h"
-#include "tandem/coordination/island.h"
+#include "coordination/src/geometry/contact_geometry.h"
+#include "coordination/src/island/island.h"
 
 namespace tandem::demos::bench {
 

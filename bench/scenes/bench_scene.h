@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "tandem/coordination/types.h"
-#include "tandem/coordination/virtual_coupler.h"
+
+#include "coordination/src/island/virtual_coupler.h"
 
 /// \file
 /// The scenes of `tandem bench accuracy`: each is one value that every method and the reference

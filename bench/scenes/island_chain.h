@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/island.h"
 
 namespace tandem::demos::bench {
 

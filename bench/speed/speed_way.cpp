@@ -3,10 +3,10 @@
 #include <chrono>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/coordination/contact_geometry.h"
-#include "tandem/coordination/virtual_coupler.h"
 
 #include "bench/speed/speed_site.h"
+#include "coordination/src/geometry/contact_geometry.h"
+#include "coordination/src/island/virtual_coupler.h"
 
 namespace tandem::demos::bench {
 namespace {

@@ -7,7 +7,8 @@
 
 #include "tandem/coordination/shape.h"
 #include "tandem/coordination/simulated_link.h"
-#include "tandem/coordination/virtual_coupler.h"
+
+#include "coordination/src/island/virtual_coupler.h"
 
 /// \file
 /// What `tandem bench stress` draws: scenes with absurd gains, masses, steps and delays.

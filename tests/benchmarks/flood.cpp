@@ -12,8 +12,9 @@
 #include <random>
 #include <thread>
 
-#include "tandem/coordination/wire_handshake.h"
 #include "tandem/plugin/udp_socket.h"
+
+#include "coordination/src/wire/wire_handshake.h"
 
 namespace tandem {
 namespace {

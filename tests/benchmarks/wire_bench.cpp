@@ -8,9 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "tandem/coordination/wire_state.h"
-
 #include "coordination/src/wire/replay_window.h"
+#include "coordination/src/wire/wire_state.h"
 
 namespace tandem {
 namespace {

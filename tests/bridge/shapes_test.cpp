@@ -5,9 +5,8 @@
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
 
-#include "tandem/coordination/contact_geometry.h"
-
 #include "bridge/obstacle_scene.h"
+#include "coordination/src/geometry/contact_geometry.h"
 #include "support/solids.h"
 
 namespace tandem {

@@ -11,8 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "tandem/coordination/contact_geometry.h"
-
+#include "coordination/src/geometry/contact_geometry.h"
 #include "support/solids.h"
 
 namespace tandem {

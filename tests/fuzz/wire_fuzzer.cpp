@@ -9,10 +9,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "tandem/coordination/wire_handshake.h"
-#include "tandem/coordination/wire_state.h"
-
 #include "coordination/src/wire/wire_agree.h"
+#include "coordination/src/wire/wire_handshake.h"
+#include "coordination/src/wire/wire_state.h"
 #include "wire/opened_datagram.h"
 
 namespace tandem {

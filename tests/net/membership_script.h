@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tandem/coordination/wire.h"
+#include "coordination/src/wire/wire.h"
 
 namespace tandem::test {
 

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/island.h"
-
+#include "coordination/src/island/island.h"
 #include "reference/rigid_reference.h"
 
 namespace tandem {

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/island.h"
-
+#include "coordination/src/island/island.h"
 #include "realtime/allocation_count.h"
 #include "support/solids.h"
 

@@ -6,10 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/wire_state.h"
-
 #include "coordination/src/wire/replay_window.h"
 #include "coordination/src/wire/wire_sealing.h"
+#include "coordination/src/wire/wire_state.h"
 #include "realtime/allocation_count.h"
 
 namespace tandem {

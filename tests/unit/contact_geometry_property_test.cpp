@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/contact_geometry.h"
-
+#include "coordination/src/geometry/contact_geometry.h"
 #include "support/random.h"
 #include "support/solids.h"
 

@@ -1,4 +1,4 @@
-#include "tandem/coordination/contact_geometry.h"
+#include "coordination/src/geometry/contact_geometry.h"
 
 #include <cmath>
 #include <cstdint>

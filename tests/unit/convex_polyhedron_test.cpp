@@ -1,11 +1,10 @@
-#include "tandem/coordination/convex_polyhedron.h"
+#include "coordination/src/geometry/convex_polyhedron.h"
 
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/contact_geometry.h"
-
+#include "coordination/src/geometry/contact_geometry.h"
 #include "support/random.h"
 #include "support/solids.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/island.h"
 
 namespace tandem {
 namespace {

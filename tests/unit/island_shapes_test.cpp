@@ -9,9 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/contact_geometry.h"
-#include "tandem/coordination/island.h"
-
+#include "coordination/src/geometry/contact_geometry.h"
+#include "coordination/src/island/island.h"
 #include "support/random.h"
 #include "support/solids.h"
 

@@ -1,4 +1,4 @@
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/island.h"
 
 #include <cmath>
 #include <random>

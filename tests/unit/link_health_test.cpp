@@ -1,4 +1,4 @@
-#include "tandem/coordination/link_health.h"
+#include "coordination/src/link/link_health.h"
 
 #include <cmath>
 #include <limits>

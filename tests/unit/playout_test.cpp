@@ -1,4 +1,4 @@
-#include "tandem/coordination/playout.h"
+#include "coordination/src/link/playout.h"
 
 #include <algorithm>
 #include <cmath>

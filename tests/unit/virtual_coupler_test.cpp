@@ -1,4 +1,4 @@
-#include "tandem/coordination/virtual_coupler.h"
+#include "coordination/src/island/virtual_coupler.h"
 
 #include <cstdint>
 #include <limits>

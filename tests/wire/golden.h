@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tandem/coordination/wire_handshake.h"
-#include "tandem/coordination/wire_state.h"
-
 #include "coordination/src/wire/wire_agree.h"
+#include "coordination/src/wire/wire_handshake.h"
+#include "coordination/src/wire/wire_state.h"
 
 /// \file
 /// The golden files as bytes, and their values as golden/index.txt has them.

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/wire_handshake.h"
-
+#include "coordination/src/wire/wire_handshake.h"
 #include "wire/golden.h"
 
 namespace tandem {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "tandem/coordination/wire_handshake.h"
-#include "tandem/coordination/wire_state.h"
-
 #include "coordination/src/wire/wire_agree.h"
+#include "coordination/src/wire/wire_handshake.h"
+#include "coordination/src/wire/wire_state.h"
 
 /// \file
 /// Every decoder behind one door.

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/coordination/wire_state.h"
-
+#include "coordination/src/wire/wire_state.h"
 #include "wire/golden.h"
 
 namespace tandem {

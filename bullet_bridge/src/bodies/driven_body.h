@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/island.h"
 
 class btDiscreteDynamicsWorld;
 class btRigidBody;

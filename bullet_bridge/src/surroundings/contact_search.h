@@ -7,8 +7,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 
-#include "tandem/coordination/contact_finder.h"
-
+#include "coordination/src/island/contact_finder.h"
 #include "surroundings/private_copies.h"
 
 namespace tandem {

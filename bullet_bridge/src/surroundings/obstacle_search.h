@@ -4,8 +4,7 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
-#include "tandem/coordination/island.h"
-
+#include "coordination/src/island/island.h"
 #include "surroundings/known_shapes.h"
 #include "surroundings/regions.h"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "tandem/coordination/contact_finder.h"
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/contact_finder.h"
+#include "coordination/src/island/island.h"
 
 class btDiscreteDynamicsWorld;
 class btRigidBody;

@@ -5,8 +5,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
 
-#include "tandem/coordination/contact_finder.h"
-
+#include "coordination/src/island/contact_finder.h"
 #include "surroundings/regions.h"
 
 class btStaticPlaneShape;

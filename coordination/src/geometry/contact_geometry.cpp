@@ -1,4 +1,4 @@
-#include "tandem/coordination/contact_geometry.h"
+#include "geometry/contact_geometry.h"
 
 #include "geometry/separation.h"
 

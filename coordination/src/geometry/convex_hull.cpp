@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tandem/coordination/convex_polyhedron.h"
+#include "geometry/convex_polyhedron.h"
 
 // The hull grows from a tetrahedron: the point that is farthest out of a face becomes a corner, and
 // what is seen from it is replaced by triangles to it.

@@ -1,4 +1,4 @@
-#include "tandem/coordination/convex_polyhedron.h"
+#include "geometry/convex_polyhedron.h"
 
 #include <algorithm>
 #include <set>

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tandem/coordination/convex_polyhedron.h"
-#include "tandem/coordination/triangle_mesh.h"
-
 #include "bad_value.h"
+#include "geometry/convex_polyhedron.h"
+#include "geometry/triangle_mesh.h"
 
 namespace tandem {
 namespace {

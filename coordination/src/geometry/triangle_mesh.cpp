@@ -1,4 +1,4 @@
-#include "tandem/coordination/triangle_mesh.h"
+#include "geometry/triangle_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tandem/coordination/island.h"
+#include "island/island.h"
 
 #include <cmath>
 

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "tandem/coordination/island.h"
-
+#include "island/island.h"
 #include "island/island_model.h"
 #include "island/spatial_motion.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "tandem/coordination/island.h"
+#include "island/island.h"
 
 /// \file
 /// What the island's laws of motion work on. Private to coordination.

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tandem/coordination/contact_finder.h"
+#include "island/contact_finder.h"
 
 namespace tandem {
 

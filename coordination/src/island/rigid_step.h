@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tandem/coordination/contact_finder.h"
-
+#include "island/contact_finder.h"
 #include "island/overlap_allowance.h"
 #include "island/rigid_row.h"
 #include "island/touch.h"

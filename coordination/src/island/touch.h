@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include "tandem/coordination/contact_geometry.h"
-
-#include "island/island_model.h"
+#include "geometry/contact_geometry.h"
 #include "geometry/mesh_pieces.h"
+#include "island/island_model.h"
 
 namespace tandem {
 

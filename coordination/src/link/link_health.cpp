@@ -1,4 +1,4 @@
-#include "tandem/coordination/link_health.h"
+#include "link/link_health.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tandem/coordination/windowed_minimum.h"
+#include "link/windowed_minimum.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

@@ -3,8 +3,9 @@
 #include <optional>
 
 #include "tandem/coordination/coupling_settings.h"
-#include "tandem/coordination/island.h"
 #include "tandem/coordination/scheme.h"
+
+#include "island/island.h"
 
 namespace tandem {
 

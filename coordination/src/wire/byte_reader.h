@@ -7,9 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "tandem/coordination/wire.h"
-
 #include "wire/little_endian.h"
+#include "wire/wire.h"
 
 namespace tandem::wire {
 

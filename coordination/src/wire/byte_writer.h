@@ -6,10 +6,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "tandem/coordination/wire.h"
-
 #include "tandem_assert.h"
 #include "wire/little_endian.h"
+#include "wire/wire.h"
 
 namespace tandem::wire {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tandem/coordination/wire_state.h"
+#include "wire/wire_state.h"
 
 /// \file
 /// The gate of STATE, the same for what is sent and what is taken. Bounds are asked so that a NaN

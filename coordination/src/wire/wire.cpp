@@ -1,4 +1,4 @@
-#include "tandem/coordination/wire.h"
+#include "wire/wire.h"
 
 #include <array>
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "tandem/coordination/configuration.h"
-#include "tandem/coordination/wire.h"
+
+#include "wire/wire.h"
 
 /// \file
 /// AGREE and AGREE_ACK (section 8): configurations in parts, and the answers. For set-up: these

@@ -1,4 +1,4 @@
-#include "tandem/coordination/wire_handshake.h"
+#include "wire/wire_handshake.h"
 
 #include <algorithm>
 

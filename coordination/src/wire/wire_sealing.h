@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tandem/coordination/wire.h"
+#include "wire/wire.h"
 
 /// \file
 /// The bytes that go into Noise and into sealing besides keys and payload (sections 4 and 5).

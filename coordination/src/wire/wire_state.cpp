@@ -1,4 +1,4 @@
-#include "tandem/coordination/wire_state.h"
+#include "wire/wire_state.h"
 
 #include <cmath>
 

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tandem/coordination/virtual_coupler.h"
 #include "tandem/falcon/hand.h"
 
+#include "coordination/src/island/virtual_coupler.h"
 #include "guard/settings_check.h"
 
 namespace tandem {

@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
-#include "tandem/coordination/wire_handshake.h"
 #include "tandem/plugin/outlet.h"
 
+#include "coordination/src/wire/wire_handshake.h"
 #include "net/session_keys.h"
 
 namespace tandem::net {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "tandem/coordination/wire_handshake.h"
 #include "tandem/plugin/outlet.h"
 
+#include "coordination/src/wire/wire_handshake.h"
 #include "net/retry.h"
 #include "net/session_keys.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tandem/coordination/wire.h"
+#include "coordination/src/wire/wire.h"
 
 namespace tandem::net {
 

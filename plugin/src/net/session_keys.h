@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "tandem/coordination/wire.h"
-
 #include "coordination/src/wire/replay_window.h"
+#include "coordination/src/wire/wire.h"
 #include "coordination/src/wire/wire_sealing.h"
 #include "net/refusal.h"
 #include "secure/handshake.h"

@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "tandem/coordination/playout.h"
-#include "tandem/coordination/wire_state.h"
-
+#include "coordination/src/link/playout.h"
 #include "coordination/src/link/round_trip.h"
+#include "coordination/src/wire/wire_state.h"
 #include "net/refusal.h"
 
 namespace tandem::net {

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "tandem/bullet_bridge/native_coupling.h"
-#include "tandem/coordination/island.h"
 #include "tandem/plugin/site_settings.h"
+
+#include "coordination/src/island/island.h"
 
 namespace tandem {
 

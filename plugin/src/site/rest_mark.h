@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/island.h"
 
 namespace tandem {
 

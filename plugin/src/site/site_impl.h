@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tandem/coordination/island.h"
 #include "tandem/coordination/island_counters.h"
 #include "tandem/coordination/link.h"
-#include "tandem/coordination/link_health.h"
 #include "tandem/coordination/passivity_observer.h"
 #include "tandem/coordination/scheme.h"
 #include "tandem/falcon/haptic_device.h"
@@ -23,6 +21,8 @@
 #include "bullet_bridge/src/surroundings/obstacles.h"
 #include "bullet_bridge/src/surroundings/standing_watch.h"
 #include "bullet_bridge/src/world/host_world.h"
+#include "coordination/src/island/island.h"
+#include "coordination/src/link/link_health.h"
 #include "coordination/src/schemes/remote_user.h"
 #include "live/island_desk.h"
 #include "site/detour.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "tandem/coordination/island.h"
+#include "coordination/src/island/island.h"
 
 class btCollisionObject;
 class btDiscreteDynamicsWorld;

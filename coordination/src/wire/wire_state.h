@@ -4,7 +4,8 @@
 #include <cstdint>
 
 #include "tandem/coordination/link.h"
-#include "tandem/coordination/wire.h"
+
+#include "wire/wire.h"
 
 /// \file
 /// STATE (section 6): a state packet with the times, acknowledgements and energy that go with it.

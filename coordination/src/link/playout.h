@@ -9,7 +9,8 @@
 
 #include "tandem/coordination/link.h"
 #include "tandem/coordination/playout_settings.h"
-#include "tandem/coordination/windowed_minimum.h"
+
+#include "link/windowed_minimum.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tandem/coordination/wire.h"
+#include "wire/wire.h"
 
 /// \file
 /// The clear datagrams of the handshake (section 4), whole, with their header. What Noise puts into

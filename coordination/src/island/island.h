@@ -4,10 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "tandem/coordination/contact_finder.h"
 #include "tandem/coordination/island_counters.h"
 #include "tandem/coordination/shape.h"
-#include "tandem/coordination/virtual_coupler.h"
+
+#include "island/contact_finder.h"
+#include "island/virtual_coupler.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
