@@ -3,10 +3,10 @@
 // (contact.model, docs/native.md). Tools carry the gains of soft contact; Bullet's defaults stay.
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/native_coupling.h"
 
 #include "bench/methods/all_methods.h"
 #include "bench/methods/bullet_scene.h"
+#include "bullet_bridge/src/native/native_coupling.h"
 
 namespace tandem::demos::bench {
 namespace {

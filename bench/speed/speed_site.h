@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tandem/coordination/link.h"
+#include "tandem/falcon/haptic_device.h"
 #include "tandem/plugin/site.h"
 
 #include "bench/speed/speed_world.h"

@@ -1,6 +1,6 @@
 // Couplers by Bullet's own means against closed forms.
 
-#include "tandem/bullet_bridge/native_coupling.h"
+#include "bullet_bridge/src/native/native_coupling.h"
 
 #include <gtest/gtest.h>
 

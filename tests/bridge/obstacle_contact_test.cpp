@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bridge/obstacle_scene.h"
+#include "coordination/src/geometry/triangle_mesh.h"
 
 namespace tandem {
 namespace {

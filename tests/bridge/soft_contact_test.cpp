@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/bullet_bridge/native_coupling.h"
-
 #include "bridge/bullet_rig.h"
+#include "bullet_bridge/src/native/native_coupling.h"
 
 namespace tandem {
 namespace {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/coordination/passivity_observer.h"
+#include "tandem/coordination/scheme.h"
+
 namespace tandem::test {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tandem/coordination/scheme.h"
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/island_counters.h"
+#include "tandem/coordination/scheme.h"
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"

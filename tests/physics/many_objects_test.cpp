@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/island_counters.h"
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"

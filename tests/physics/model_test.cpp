@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/scheme.h"
+
 #include "bench/reference/paper_reference.h"
 #include "demos/program/run/virtual_run.h"
 #include "demos/program/scenario/scenario.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/passivity_observer.h"
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coordination/src/geometry/triangle_mesh.h"
 #include "physics/neighbour_scene.h"
 #include "support/solids.h"
 

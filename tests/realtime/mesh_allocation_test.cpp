@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/link.h"
 #include "tandem/plugin/udp_mesh.h"
 #include "tandem/plugin/udp_socket.h"
 

@@ -6,6 +6,9 @@
 
 #include "tandem/coordination/shape.h"
 
+#include "coordination/src/geometry/convex_polyhedron.h"
+#include "coordination/src/geometry/triangle_mesh.h"
+
 namespace tandem::test {
 
 /// Corners and faces, counter-clockwise seen from outside.

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "coordination/src/geometry/contact_geometry.h"
+#include "coordination/src/geometry/convex_polyhedron.h"
+#include "coordination/src/geometry/triangle_mesh.h"
 #include "support/random.h"
 #include "support/solids.h"
 

@@ -3,9 +3,9 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/native_coupling.h"
 
 #include "bodies/own_body.h"
+#include "native/native_coupling.h"
 #include "world/world_access.h"
 #include "world/world_lookup.h"
 

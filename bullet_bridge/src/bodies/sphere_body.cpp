@@ -6,10 +6,10 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/native_coupling.h"
 
 #include "bodies/haptic_body.h"
 #include "bodies/own_body.h"
+#include "native/native_coupling.h"
 
 namespace tandem {
 namespace {

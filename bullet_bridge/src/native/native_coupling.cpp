@@ -1,4 +1,4 @@
-#include "tandem/bullet_bridge/native_coupling.h"
+#include "native/native_coupling.h"
 
 #include <cmath>
 #include <sstream>

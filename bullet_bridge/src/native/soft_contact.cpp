@@ -5,7 +5,8 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "tandem/bullet_bridge/convert.h"
-#include "tandem/bullet_bridge/native_coupling.h"
+
+#include "native/native_coupling.h"
 
 namespace tandem {
 

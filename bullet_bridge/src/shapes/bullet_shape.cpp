@@ -11,6 +11,9 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "coordination/src/geometry/convex_polyhedron.h"
+#include "coordination/src/geometry/triangle_mesh.h"
+
 namespace tandem {
 namespace {
 

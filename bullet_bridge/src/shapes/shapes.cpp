@@ -16,6 +16,8 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "coordination/src/geometry/convex_polyhedron.h"
+#include "coordination/src/geometry/triangle_mesh.h"
 #include "shapes/only_shape.h"
 
 namespace tandem {

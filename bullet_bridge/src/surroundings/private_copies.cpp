@@ -10,6 +10,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "coordination/src/geometry/convex_polyhedron.h"
 #include "shapes/only_shape.h"
 
 namespace tandem {

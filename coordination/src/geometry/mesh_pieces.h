@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/separation.h"
+#include "geometry/triangle_mesh.h"
 
 namespace tandem {
 

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "geometry/mesh_pieces.h"
+#include "geometry/triangle_mesh.h"
 
 // A feature of a triangle (its face, an edge or a corner that it owns) pushes a centre that is in
 // the feature's region: where all of some margins are positive.

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "geometry/convex_polyhedron.h"
+
 // Cylinders and hulls: where a centre is outside, the nearest point of the surface; where it is
 // inside, the nearest face.
 

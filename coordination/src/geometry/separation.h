@@ -6,6 +6,7 @@
 #include "tandem/coordination/shape.h"
 
 #include "geometry/plain_vec.h"
+#include "geometry/triangle_mesh.h"
 
 /// \file
 /// Signed distance and way out of a shape, worked out in the body's frame, where a centre c has a

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/coordination/link.h"
+
 #include "bad_value.h"
 
 namespace tandem {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "tandem/bullet_bridge/convert.h"
+#include "tandem/coordination/scheme.h"
 
 #include "terminal/usage_error.h"
 

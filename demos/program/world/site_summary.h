@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "tandem/coordination/passivity_observer.h"
 #include "tandem/plugin/recording.h"
 #include "tandem/plugin/site.h"
 

@@ -6,6 +6,7 @@
 #include "bullet_bridge/src/world/world_access.h"
 #include "c/values.h"
 #include "c/world.h"
+#include "coordination/src/geometry/convex_polyhedron.h"
 
 namespace tandem::c_door {
 namespace {

@@ -1,5 +1,7 @@
 #include <stdexcept>
 
+#include "tandem/coordination/scheme.h"
+
 #include "c/site.h"
 #include "c/values.h"
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "tandem/bullet_bridge/native_coupling.h"
 #include "tandem/plugin/site_settings.h"
 
+#include "bullet_bridge/src/native/native_coupling.h"
 #include "coordination/src/island/island.h"
 
 namespace tandem {

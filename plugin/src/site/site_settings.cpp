@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tandem/bullet_bridge/native_coupling.h"
+#include "bullet_bridge/src/native/native_coupling.h"
 
 namespace tandem {
 namespace {
