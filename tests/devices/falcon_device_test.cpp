@@ -14,9 +14,10 @@
 #include <gtest/gtest.h>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/emulated_falcon_port.h"
+#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/monotonic_clock.h"
-#include "tandem/falcon/tty_transport.h"
 
 namespace tandem {
 namespace {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/falcon/falcon_boot.h"
+
 namespace tandem {
 namespace {
 

@@ -1,7 +1,5 @@
 // What is asked of libftdi1, by functions in its place that the linker finds first.
 
-#include "tandem/falcon/ftdi_transport.h"
-
 #include <algorithm>
 #include <deque>
 #include <string>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/byte_transport.h"
 
 namespace tandem {
 namespace {

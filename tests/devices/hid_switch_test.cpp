@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/falcon/hid_stream.h"
+
 #include "devices/fake_hid_port.h"
 
 namespace tandem {

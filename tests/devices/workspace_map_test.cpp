@@ -1,5 +1,3 @@
-#include "tandem/falcon/workspace_map.h"
-
 #include <cmath>
 #include <limits>
 #include <memory>

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tandem/falcon/emulated_falcon_port.h"
+#include "tandem/falcon/falcon_emulator.h"
 
 #include "program/background.h"
 #include "program/device_runs.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/emulated_falcon_port.h"
+#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "demos/program/device/open_device.h"

@@ -1,11 +1,11 @@
-#include "tandem/falcon/hand.h"
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "tandem/falcon/simulated_device.h"
 
 namespace tandem {
 namespace {

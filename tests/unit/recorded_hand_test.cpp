@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tandem/falcon/hand.h"
+#include "tandem/falcon/simulated_device.h"
 
 namespace tandem {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "tandem/falcon/falcon_frames.h"
+#include "tandem/falcon/falcon_status.h"
 
 #include "terminal/usage_error.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/falcon_settings.h"
 
 namespace tandem::demos {
 

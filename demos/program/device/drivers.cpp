@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/falcon_device.h"
 #include "tandem/falcon/raw_hid_device.h"
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/falcon/space_mouse_device.h"
-#include "tandem/falcon/tty_transport.h"
 
 #include "device/plugged_in.h"
 #include "terminal/usage_error.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tandem/falcon/hand.h"
 #include "tandem/falcon/monotonic_clock.h"
+#include "tandem/falcon/simulated_device.h"
 
 namespace tandem::demos {
 namespace {
@@ -50,8 +50,7 @@ class EmulatedUser::Helper final : public Hand {
 };
 
 EmulatedUser::EmulatedUser(UserWish wish)
-    : port_(std::make_unique<EmulatedFalconPort>(FalconEmulatorSettings{},
-                                                 std::make_unique<Helper>(homed_at_, wish))) {}
+    : port_(std::make_unique<EmulatedFalconPort>(std::make_unique<Helper>(homed_at_, wish))) {}
 
 EmulatedUser::~EmulatedUser() = default;
 
@@ -60,16 +59,8 @@ void EmulatedUser::tellHomed() noexcept {
     homed_at_.store(readMonotonicClock(), std::memory_order_relaxed);
 }
 
-Vec3 EmulatedUser::pushNow() {
-  Vec3 push_D = Vec3::Zero();
-  port_->visit([&](FalconEmulator& emulator, double) { push_D = emulator.plant().force(); });
-  return push_D;
-}
+Vec3 EmulatedUser::pushNow() { return port_->readForce(); }
 
-double EmulatedUser::mostFelt() {
-  double most = 0.0;
-  port_->visit([&](FalconEmulator& emulator, double) { most = emulator.felt().most_force; });
-  return most;
-}
+double EmulatedUser::mostFelt() { return port_->readMostForce(); }
 
 }  // namespace tandem::demos

@@ -5,8 +5,8 @@
 #include "tandem/coordination/types.h"
 
 #ifdef TANDEM_HAS_DEVICES
-#include "tandem/falcon/ftdi_transport.h"
-#include "tandem/falcon/hid_uart.h"
+#include "tandem/falcon/byte_transport.h"
+#include "tandem/falcon/hid_port.h"
 #include "tandem/falcon/raw_hid_device.h"
 #include "tandem/falcon/space_mouse_device.h"
 #endif

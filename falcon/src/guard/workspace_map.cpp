@@ -1,7 +1,7 @@
-#include "tandem/falcon/workspace_map.h"
-
 #include <cmath>
 #include <limits>
+
+#include "tandem/falcon/mapped_device.h"
 
 #include "guard/settings_check.h"
 

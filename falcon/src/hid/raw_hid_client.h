@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "tandem/falcon/falcon_force_gate.h"
+#include "tandem/falcon/hid_stream.h"
 #include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/raw_hid_device.h"
+#include "tandem/falcon/raw_hid_report.h"
 
 namespace tandem::falcon_detail {
 

@@ -3,9 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "novint/arm_range.h"
-#include "hid/raw_hid_client.h"
+#include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/hid_stream.h"
+#include "tandem/falcon/velocity_estimator.h"
+
 #include "guard/settings_check.h"
+#include "hid/raw_hid_client.h"
+#include "novint/arm_range.h"
 
 namespace tandem {
 
@@ -52,9 +56,16 @@ Eigen::Matrix3d computeTorquesByForce(const FalconPose& pose) noexcept {
 
 }  // namespace
 
+/// Where the grip is, by the newest report.
+struct RawHidDevice::Grip {
+  FalconKinematics kinematics;
+  std::optional<FalconPose> pose;  ///< nothing: unusable
+  AdaptiveWindow count_rates = makeUsualVelocityEstimator();
+};
+
 RawHidDevice::RawHidDevice(HidOpener open, const RawHidSettings& settings)
     : settings_(checked(settings)),
-      kinematics_(settings.geometry),
+      grip_(std::make_unique<Grip>(Grip{FalconKinematics(settings.geometry), {}})),
       client_(std::make_unique<RawHidClient>(makeLimits(settings_))),
       stream_(std::make_unique<HidStream>(std::move(open), *client_, settings_.stream)) {
   capabilities_.name = "raw HID";
@@ -68,40 +79,42 @@ RawHidDevice::~RawHidDevice() = default;
 const DeviceCapabilities& RawHidDevice::capabilities() const noexcept { return capabilities_; }
 
 DeviceSample RawHidDevice::read(double now) noexcept {
+  std::optional<FalconPose>& pose = grip_->pose;
   const RawHidClient::Heard& heard = client_->newest();
   const std::uint64_t closures = client_->closures();
   const bool was_closed = closures != closures_;
   closures_ = closures;
-  if (was_closed) pose_.reset();  // what comes now is no motion of the grip
+  if (was_closed) pose.reset();  // what comes now is no motion of the grip
   if (heard.count != heard_) {
     heard_ = heard.count;
     heard_at_ = now;
     takeState(heard.state);
   }
-  if (!heard.is_connected || !(now - heard_at_ <= kFresh)) pose_.reset();
+  if (!heard.is_connected || !(now - heard_at_ <= kFresh)) pose.reset();
   const bool was_usable = is_usable_;
-  is_usable_ = pose_ && !was_closed;
+  is_usable_ = pose && !was_closed;
   if (was_usable && !is_usable_ && !was_closed) client_->close();
   if (!is_usable_) return {};
   const Quat& q_WD = settings_.q_WD;
-  return {{q_WD * (pose_->p_D - settings_.origin_D), q_WD * v_D_}, true};
+  return {{q_WD * (pose->p_D - settings_.origin_D), q_WD * v_D_}, true};
 }
 
 void RawHidDevice::takeState(const RawHidState& state) noexcept {
-  const std::optional<FalconPose> last = pose_;
+  std::optional<FalconPose>& pose = grip_->pose;
+  const std::optional<FalconPose> last = pose;
   const double step = 1e-6 * static_cast<std::uint32_t>(state.time_us - time_us_);
   time_us_ = state.time_us;
   const FalconAngles angles(angleOfCounts(state.counts[0]), angleOfCounts(state.counts[1]),
                             angleOfCounts(state.counts[2]));
-  pose_ = state.isHomed() && falcon_detail::areInRange(angles)
-              ? kinematics_.computePoseOfAngles(angles)
-              : std::nullopt;
-  if (pose_ && !computeTorquesByForce(*pose_).allFinite()) pose_.reset();
+  pose = state.isHomed() && falcon_detail::areInRange(angles)
+             ? grip_->kinematics.computePoseOfAngles(angles)
+             : std::nullopt;
+  if (pose && !computeTorquesByForce(*pose).allFinite()) pose.reset();
   device_time_ += step;
-  if (!last || step <= 0.0 || step > kLongestStep) count_rates_.clear();
+  if (!last || step <= 0.0 || step > kLongestStep) grip_->count_rates.clear();
   const Vec3 counts(state.counts[0], state.counts[1], state.counts[2]);
-  const Vec3 angle_rates = angleRatesOfCounts(count_rates_.add(device_time_, counts));
-  const auto v_D = pose_ ? computeVelocity(*pose_, angle_rates) : std::nullopt;
+  const Vec3 angle_rates = angleRatesOfCounts(grip_->count_rates.add(device_time_, counts));
+  const auto v_D = pose ? computeVelocity(*pose, angle_rates) : std::nullopt;
   v_D_ = v_D.value_or(Vec3(Vec3::Zero()));
 }
 
@@ -111,7 +124,7 @@ void RawHidDevice::write(const Vec3& f_W) noexcept {
   wish.closures = closures_;
   if (wish.is_usable) {  // else the force fades where the grip was last
     Eigen::Map<Vec3>(wish.f_D.data()) = settings_.q_WD.conjugate() * f_W;
-    Eigen::Map<Eigen::Matrix3d>(wish.torques_by_force.data()) = computeTorquesByForce(*pose_);
+    Eigen::Map<Eigen::Matrix3d>(wish.torques_by_force.data()) = computeTorquesByForce(*grip_->pose);
   }
   client_->passWishOn();
 }

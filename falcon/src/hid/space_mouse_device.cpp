@@ -4,7 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "tandem/falcon/hid_stream.h"
 #include "tandem/falcon/latest_value.h"
+#include "tandem/falcon/rate_control.h"
+#include "tandem/falcon/space_mouse_report.h"
 
 #include "guard/settings_check.h"
 
@@ -58,7 +61,7 @@ class SpaceMouseDevice::Client final : public HidClient {
 };
 
 SpaceMouseDevice::SpaceMouseDevice(HidOpener open, const SpaceMouseSettings& settings)
-    : motion_(settings.motion),
+    : motion_(std::make_unique<RateControl>(settings.motion)),
       silence_(checkedSilence(settings.silence)),
       client_(std::make_unique<Client>()),
       stream_(
@@ -83,13 +86,13 @@ DeviceSample SpaceMouseDevice::read(double now) noexcept {
   time_ = now;
   was_read_ = true;
   if (!sum.is_connected) {
-    motion_.stop();
-    return {motion_.point(), false};
+    motion_->stop();
+    return {motion_->point(), false};
   }
   const bool is_silent = now - heard_at_ > silence_;
-  motion_.setDisplacement(is_silent ? Vec3(Vec3::Zero()) : toUser(sum.state.axes));
-  motion_.advance(std::min(interval, kLongestStep));
-  return {motion_.point(), true};
+  motion_->setDisplacement(is_silent ? Vec3(Vec3::Zero()) : toUser(sum.state.axes));
+  motion_->advance(std::min(interval, kLongestStep));
+  return {motion_->point(), true};
 }
 
 SpaceMouseStatus SpaceMouseDevice::status() {

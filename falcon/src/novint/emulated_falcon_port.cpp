@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "guard/realtime_rights.h"
@@ -151,9 +152,11 @@ class EmulatedFalconPort::Server {
   std::thread thread_;
 };
 
-EmulatedFalconPort::EmulatedFalconPort(FalconEmulatorSettings settings, std::unique_ptr<Hand> hand,
-                                       int thread_priority)
+EmulatedFalconPort::EmulatedFalconPort(const FalconEmulatorSettings& settings,
+                                       std::unique_ptr<Hand> hand, int thread_priority)
     : server_(std::make_unique<Server>(settings, std::move(hand), thread_priority)) {}
+EmulatedFalconPort::EmulatedFalconPort(std::unique_ptr<Hand> hand)
+    : EmulatedFalconPort(FalconEmulatorSettings{}, std::move(hand)) {}
 EmulatedFalconPort::~EmulatedFalconPort() = default;
 
 const std::string& EmulatedFalconPort::path() const noexcept { return server_->path(); }
@@ -161,6 +164,18 @@ void EmulatedFalconPort::unplug() { server_->unplug(); }
 void EmulatedFalconPort::plugIn() { server_->plugIn(); }
 void EmulatedFalconPort::visit(const std::function<void(FalconEmulator&, double now)>& visitor) {
   server_->visit(visitor);
+}
+
+Vec3 EmulatedFalconPort::readForce() {
+  Vec3 force_D = Vec3::Zero();
+  visit([&](FalconEmulator& emulator, double) { force_D = emulator.plant().force(); });
+  return force_D;
+}
+
+double EmulatedFalconPort::readMostForce() {
+  double most = 0.0;
+  visit([&](FalconEmulator& emulator, double) { most = emulator.felt().most_force; });
+  return most;
 }
 
 namespace {

@@ -1,10 +1,14 @@
 #include "tandem/falcon/falcon_device.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <exception>
+#include <thread>
 #include <utility>
 
+#include "tandem/falcon/falcon_driver.h"
+#include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "guard/realtime_rights.h"
@@ -21,7 +25,59 @@ constexpr double kStiffness = 3000.0;  // that still feels calm [N/m]
 
 }  // namespace
 
-FalconDevice::FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open)
+/// The thread that owns the line, and what it shares with the side that ticks.
+class FalconDevice::Impl {
+ public:
+  Impl(const FalconSettings& settings, FirmwareImage image, OpenTransport open);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept { return capabilities_; }
+  [[nodiscard]] DeviceSample read(double now) noexcept;
+  void write(const Vec3& f_W) noexcept;
+  [[nodiscard]] const FalconStatus& status() noexcept { return status_.read(); }
+  [[nodiscard]] std::uint8_t buttons() const noexcept {
+    return buttons_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  struct Wish {
+    std::array<double, 3> f{};
+    std::uint64_t number = 0;
+  };
+
+  void run() noexcept;
+  void serve(ByteTransport& line) noexcept;
+  void giveLastFrames(ByteTransport& line) noexcept;
+  [[nodiscard]] std::unique_ptr<ByteTransport> tryOpen() noexcept;
+  [[nodiscard]] bool exchange(ByteTransport& line) noexcept;
+  void passOn() noexcept;
+
+  DeviceCapabilities capabilities_;
+  OpenTransport open_;
+  int priority_;
+
+  // The thread's.
+  FalconDriver driver_;
+  std::array<char, 160> open_error_{};
+  std::uint64_t seen_wish_ = 0;
+
+  // Between the threads.
+  LatestValue<FalconReading> reading_;
+  LatestValue<Wish> wish_;
+  LatestValue<FalconStatus> status_;
+  std::atomic<std::uint8_t> buttons_{0};
+  std::atomic<bool> stops_{false};
+
+  // The ticking side's.
+  std::uint64_t newest_ = 0, wishes_ = 0;
+  double newest_since_ = 0.0;
+
+  std::thread thread_;
+};
+
+FalconDevice::Impl::Impl(const FalconSettings& settings, FirmwareImage image, OpenTransport open)
     : open_(std::move(open)),
       priority_(settings.thread_priority),
       driver_(settings, std::move(image)) {
@@ -33,12 +89,12 @@ FalconDevice::FalconDevice(const FalconSettings& settings, FirmwareImage image, 
   thread_ = std::thread([this] { run(); });
 }
 
-FalconDevice::~FalconDevice() {
+FalconDevice::Impl::~Impl() {
   stops_.store(true, std::memory_order_relaxed);
   thread_.join();
 }
 
-DeviceSample FalconDevice::read(double now) noexcept {
+DeviceSample FalconDevice::Impl::read(double now) noexcept {
   const FalconReading& reading = reading_.read();
   if (reading.number != newest_) {
     newest_ = reading.number;
@@ -53,11 +109,11 @@ DeviceSample FalconDevice::read(double now) noexcept {
   return sample;
 }
 
-void FalconDevice::write(const Vec3& f_W) noexcept {
+void FalconDevice::Impl::write(const Vec3& f_W) noexcept {
   wish_.write({{f_W.x(), f_W.y(), f_W.z()}, ++wishes_});
 }
 
-void FalconDevice::run() noexcept {
+void FalconDevice::Impl::run() noexcept {
   RealtimeRights rights;
   rights.take(priority_, false);
   while (!stops_.load(std::memory_order_relaxed)) {
@@ -68,7 +124,7 @@ void FalconDevice::run() noexcept {
   }
 }
 
-std::unique_ptr<ByteTransport> FalconDevice::tryOpen() noexcept {
+std::unique_ptr<ByteTransport> FalconDevice::Impl::tryOpen() noexcept {
   const double now = readMonotonicClock();
   try {
     std::unique_ptr<ByteTransport> line = open_();
@@ -91,7 +147,7 @@ std::unique_ptr<ByteTransport> FalconDevice::tryOpen() noexcept {
 }
 
 /// Until the line is gone, or the device is stopped.
-void FalconDevice::serve(ByteTransport& line) noexcept {
+void FalconDevice::Impl::serve(ByteTransport& line) noexcept {
   while (!stops_.load(std::memory_order_relaxed) && exchange(line)) passOn();
   giveLastFrames(line);
   if (!stops_.load(std::memory_order_relaxed))
@@ -101,7 +157,7 @@ void FalconDevice::serve(ByteTransport& line) noexcept {
 
 /// The device keeps the last force it was told, and a line that failed may yet take something:
 /// the force goes frame by frame, or at once if only one frame more can be sent.
-void FalconDevice::giveLastFrames(ByteTransport& line) noexcept {
+void FalconDevice::Impl::giveLastFrames(ByteTransport& line) noexcept {
   driver_.beginStop();
   const double until = readMonotonicClock() + kStopTime;
   for (double now = readMonotonicClock(); !driver_.hasStopped() && now < until;
@@ -116,7 +172,7 @@ void FalconDevice::giveLastFrames(ByteTransport& line) noexcept {
   (void)perform(rest, line);
 }
 
-bool FalconDevice::exchange(ByteTransport& line) noexcept {
+bool FalconDevice::Impl::exchange(ByteTransport& line) noexcept {
   const double now = readMonotonicClock();
   if (const Wish& wish = wish_.read(); wish.number != seen_wish_) {
     seen_wish_ = wish.number;
@@ -131,7 +187,7 @@ bool FalconDevice::exchange(ByteTransport& line) noexcept {
   return count >= 0;
 }
 
-void FalconDevice::passOn() noexcept {
+void FalconDevice::Impl::passOn() noexcept {
   reading_.write(driver_.reading());
   FalconStatus status = driver_.status();
   status.open_error = open_error_;
@@ -139,5 +195,17 @@ void FalconDevice::passOn() noexcept {
   buttons_.store(answers ? status.buttons : std::uint8_t{0}, std::memory_order_relaxed);
   status_.write(status);
 }
+
+FalconDevice::FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open)
+    : impl_(std::make_unique<Impl>(settings, std::move(image), std::move(open))) {}
+FalconDevice::~FalconDevice() = default;
+
+const DeviceCapabilities& FalconDevice::capabilities() const noexcept {
+  return impl_->capabilities();
+}
+DeviceSample FalconDevice::read(double now) noexcept { return impl_->read(now); }
+void FalconDevice::write(const Vec3& f_W) noexcept { impl_->write(f_W); }
+const FalconStatus& FalconDevice::status() noexcept { return impl_->status(); }
+std::uint8_t FalconDevice::buttons() const noexcept { return impl_->buttons(); }
 
 }  // namespace tandem

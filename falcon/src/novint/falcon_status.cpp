@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tandem/falcon/falcon_boot.h"
+
 namespace tandem {
 
 const char* nameOf(FalconState state) noexcept {

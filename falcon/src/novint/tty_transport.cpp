@@ -1,5 +1,3 @@
-#include "tandem/falcon/tty_transport.h"
-
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -13,6 +11,7 @@
 #include <unistd.h>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/byte_transport.h"
 
 namespace tandem {
 namespace {

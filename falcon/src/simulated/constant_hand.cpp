@@ -1,4 +1,4 @@
-#include "tandem/falcon/hand.h"
+#include "tandem/falcon/simulated_device.h"
 
 #include "guard/settings_check.h"
 

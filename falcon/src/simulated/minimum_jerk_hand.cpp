@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tandem/falcon/hand.h"
+#include "tandem/falcon/simulated_device.h"
 
 #include "coordination/src/island/virtual_coupler.h"
 #include "guard/settings_check.h"

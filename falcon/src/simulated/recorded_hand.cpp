@@ -2,7 +2,7 @@
 #include <iterator>
 #include <utility>
 
-#include "tandem/falcon/hand.h"
+#include "tandem/falcon/simulated_device.h"
 
 #include "simulated/force_recording.h"
 

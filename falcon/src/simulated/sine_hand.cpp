@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "tandem/falcon/hand.h"
+#include "tandem/falcon/simulated_device.h"
 
 #include "guard/settings_check.h"
 

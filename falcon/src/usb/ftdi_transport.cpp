@@ -1,11 +1,10 @@
-#include "tandem/falcon/ftdi_transport.h"
-
 #include <algorithm>
 #include <cstdio>
 
 #include <ftdi.h>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem {

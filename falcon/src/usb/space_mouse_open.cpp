@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tandem/falcon/space_mouse_device.h"
+#include "tandem/falcon/space_mouse_report.h"
 
 namespace tandem {
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <memory>
 
-#include "tandem/falcon/hand.h"
 #include "tandem/falcon/haptic_device.h"
 #include "tandem/falcon/latest_value.h"
+#include "tandem/falcon/simulated_device.h"
 
 #include "c/handle.h"
 

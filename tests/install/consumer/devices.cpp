@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "tandem/coordination/types.h"
-#include "tandem/falcon/ftdi_transport.h"
+#include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/hid_port.h"
 
 int main() try {

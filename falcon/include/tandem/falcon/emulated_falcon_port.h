@@ -4,10 +4,15 @@
 #include <memory>
 #include <string>
 
-#include "tandem/falcon/falcon_emulator.h"
+#include "tandem/coordination/types.h"
+#include "tandem/falcon/simulated_device.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+class ByteTransport;
+class FalconEmulator;
+struct FalconEmulatorSettings;
 
 /// An emulated Falcon behind a pseudo terminal, served by a thread in real time: any program that
 /// opens a tty meets it. Pseudo terminals have no DTR, so the emulator does without. Linux.
@@ -16,8 +21,10 @@ class EmulatedFalconPort {
   /// `thread_priority`: SCHED_FIFO where it is granted, as a real device waits for no processor; 0:
   /// as the process has it. Throws tandem::Error without pseudo terminals or a folder for temporary
   /// files, std::invalid_argument as FalconEmulator does.
-  explicit EmulatedFalconPort(FalconEmulatorSettings settings = {},
+  explicit EmulatedFalconPort(const FalconEmulatorSettings& settings,
                               std::unique_ptr<Hand> hand = nullptr, int thread_priority = 0);
+  /// With the emulator's default settings.
+  explicit EmulatedFalconPort(std::unique_ptr<Hand> hand = nullptr);
   ~EmulatedFalconPort();
   EmulatedFalconPort(const EmulatedFalconPort&) = delete;
   EmulatedFalconPort& operator=(const EmulatedFalconPort&) = delete;
@@ -32,6 +39,11 @@ class EmulatedFalconPort {
 
   /// Looks at the emulator, or does something to it, at the emulator's time [s]; its thread waits.
   void visit(const std::function<void(FalconEmulator&, double now)>& visitor);
+
+  /// What the motors push the grip with now, in the device's frame [N].
+  [[nodiscard]] Vec3 readForce();
+  /// The most that they ever did [N].
+  [[nodiscard]] double readMostForce();
 
  private:
   class Server;

@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "tandem/falcon/falcon_frames.h"
+#include "tandem/falcon/falcon_settings.h"
+#include "tandem/falcon/falcon_status.h"
 #include "tandem/falcon/firmware_image.h"
 #include "tandem/falcon/line_step.h"
 
@@ -20,17 +22,7 @@ enum class BootFault : std::uint8_t {
   kNotRunning  ///< all was loaded, yet the firmware gives no reply
 };
 
-/// How patiently a Falcon is booted. Real ones often fail the first times.
-struct BootSettings {
-  int tries = 10;             ///< of the whole load, >= 1
-  double back_off = 0.1;      ///< after the first failed try [s], doubled each time...
-  double max_back_off = 2;    ///< ...up to this [s]
-  double probe_time = 0.15;   ///< how long to look for firmware that runs already [s]
-  double call_period = 0.05;  ///< between calls of the boot loader [s]
-  int calls = 20;             ///< of the boot loader, in one try
-  double echo_time = 0.5;     ///< for the echo of a piece [s]
-  double start_time = 1.0;    ///< for the firmware's first reply [s]
-};
+[[nodiscard]] FalconFault faultOf(BootFault fault) noexcept;
 
 /// How a Falcon boots, as a machine without I/O and clock:
 ///

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include "tandem/falcon/byte_transport.h"
-#include "tandem/falcon/falcon_driver.h"
+#include "tandem/falcon/falcon_settings.h"
+#include "tandem/falcon/falcon_status.h"
 #include "tandem/falcon/haptic_device.h"
-#include "tandem/falcon/latest_value.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
@@ -40,54 +39,19 @@ class FalconDevice final : public HapticDevice {
   FalconDevice(const FalconDevice&) = delete;
   FalconDevice& operator=(const FalconDevice&) = delete;
 
-  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
-    return capabilities_;
-  }
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override;
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3& f_W) noexcept override;
 
   /// How it does; for one thread, whichever it is. Wait-free.
-  [[nodiscard]] const FalconStatus& status() noexcept { return status_.read(); }
+  [[nodiscard]] const FalconStatus& status() noexcept;
   /// Of FalconButton, those that are pressed; none while it does not answer. Wait-free, for any
   /// thread.
-  [[nodiscard]] std::uint8_t buttons() const noexcept {
-    return buttons_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::uint8_t buttons() const noexcept;
 
  private:
-  struct Wish {
-    std::array<double, 3> f{};
-    std::uint64_t number = 0;
-  };
-
-  void run() noexcept;
-  void serve(ByteTransport& line) noexcept;
-  void giveLastFrames(ByteTransport& line) noexcept;
-  [[nodiscard]] std::unique_ptr<ByteTransport> tryOpen() noexcept;
-  [[nodiscard]] bool exchange(ByteTransport& line) noexcept;
-  void passOn() noexcept;
-
-  DeviceCapabilities capabilities_;
-  OpenTransport open_;
-  int priority_;
-
-  // The thread's.
-  FalconDriver driver_;
-  std::array<char, 160> open_error_{};
-  std::uint64_t seen_wish_ = 0;
-
-  // Between the threads.
-  LatestValue<FalconReading> reading_;
-  LatestValue<Wish> wish_;
-  LatestValue<FalconStatus> status_;
-  std::atomic<std::uint8_t> buttons_{0};
-  std::atomic<bool> stops_{false};
-
-  // The ticking side's.
-  std::uint64_t newest_ = 0, wishes_ = 0;
-  double newest_since_ = 0.0;
-
-  std::thread thread_;
+  class [[gnu::visibility("hidden")]] Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace tandem

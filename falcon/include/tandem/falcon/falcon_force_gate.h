@@ -1,21 +1,13 @@
 #pragma once
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/falcon_settings.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
 
 /// Force that must go is gone after so much time of frames, however slowly else it may change [s].
 constexpr double kLongestForceFade = 0.03;
-
-/// The last word on a Falcon's force, whoever asks for it.
-struct FalconForceLimits {
-  double max_force = 8.0;    ///< [N], norm; direction kept. The maker gives 8.9 N
-  double max_slew = 2000.0;  ///< [N/s]: fastest change, at most so much a millisecond
-  double ramp_in = 0.5;      ///< over which force comes in once it may [s]
-  double hold = 0.05;        ///< a force that is not renewed begins to fade after this [s]...
-  double fade = 0.04;        ///< ...and is zero after this [s]
-};
 
 /// Makes of the force that is asked for the one that is sent. Pure; real-time safe.
 class FalconForceGate {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/falcon_status.h"
 
 /// \file
 /// What a Novint Falcon with its firmware running says and hears: frames of 16 bytes, each command
@@ -29,13 +30,6 @@ struct FalconCommand {
   FalconMotors motors{};    ///< clamped to what the motors take
   bool homes = false;       ///< homing mode: must be asked for in every frame
   std::uint8_t lights = 0;  ///< of FalconLight
-};
-
-enum FalconButton : std::uint8_t {
-  kPlusButton = 0x01,
-  kForwardButton = 0x02,
-  kCentreButton = 0x04,
-  kMinusButton = 0x08
 };
 
 struct FalconReply {

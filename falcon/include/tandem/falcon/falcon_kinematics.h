@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/falcon_settings.h"
 
 /// \file
 /// The Novint Falcon as a mechanism: three legs, each an arm that a motor turns and a parallelogram
@@ -12,17 +13,6 @@
 /// right, y up, z out of the device towards the user.
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// What a leg is made of [m]; only these combinations of the drawing's lengths matter.
-struct FalconGeometry {
-  double arm = 0.060;               ///< a: from the motor's axis to the elbow
-  double rod = 0.1025;              ///< b: of the parallelogram
-  double rod_ends = 0.0225;         ///< d + e: from the elbow, and to the grip
-  double base_less_grip = 0.02557;  ///< r - c: radii of the base's axes and the grip's
-  double aside = 0.00191;           ///< s - f: of the leg's plane
-  /// Of the legs 1 top, 2 right, 3 left, seen from the front [rad].
-  std::array<double, 3> azimuths = {1.8325957145940461, -0.26179938779914941, -2.3561944901923448};
-};
 
 /// Angles of the three arms, from the base plane towards the user [rad].
 using FalconAngles = Vec3;
@@ -101,10 +91,6 @@ class FalconKinematics {
 /// What the motors take: -4095 to 4095.
 using FalconMotors = std::array<std::int16_t, 3>;
 inline constexpr std::int16_t kMostMotor = 4095;
-
-/// A Falcon's counts by torque are not published; fits to traces of the maker's driver give 3500 to
-/// 4500, and the smaller the value the smaller the force [1/(N m)].
-inline constexpr double kUsualMotorsPerTorque = 4200.0;
 
 /// Commands for torques, all three scaled alike where one is out of range, so that the force keeps
 /// its direction. Zero for torques that are not finite: it never wraps.

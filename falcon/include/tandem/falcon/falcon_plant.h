@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "tandem/falcon/falcon_kinematics.h"
-#include "tandem/falcon/hand.h"
+#include "tandem/falcon/simulated_device.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

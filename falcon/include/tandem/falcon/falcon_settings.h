@@ -1,11 +1,51 @@
 #pragma once
 
-#include "tandem/falcon/falcon_boot.h"
-#include "tandem/falcon/falcon_force_gate.h"
-#include "tandem/falcon/falcon_kinematics.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tandem/coordination/types.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+/// What a leg is made of [m]; only these combinations of the drawing's lengths matter.
+struct FalconGeometry {
+  double arm = 0.060;               ///< a: from the motor's axis to the elbow
+  double rod = 0.1025;              ///< b: of the parallelogram
+  double rod_ends = 0.0225;         ///< d + e: from the elbow, and to the grip
+  double base_less_grip = 0.02557;  ///< r - c: radii of the base's axes and the grip's
+  double aside = 0.00191;           ///< s - f: of the leg's plane
+  /// Of the legs 1 top, 2 right, 3 left, seen from the front [rad].
+  std::array<double, 3> azimuths = {1.8325957145940461, -0.26179938779914941, -2.3561944901923448};
+};
+
+/// A Falcon's counts by torque are not published; fits to traces of the maker's driver give 3500 to
+/// 4500, and the smaller the value the smaller the force [1/(N m)].
+inline constexpr double kUsualMotorsPerTorque = 4200.0;
+
+/// The last word on a Falcon's force, whoever asks for it.
+struct FalconForceLimits {
+  double max_force = 8.0;    ///< [N], norm; direction kept. The maker gives 8.9 N
+  double max_slew = 2000.0;  ///< [N/s]: fastest change, at most so much a millisecond
+  double ramp_in = 0.5;      ///< over which force comes in once it may [s]
+  double hold = 0.05;        ///< a force that is not renewed begins to fade after this [s]...
+  double fade = 0.04;        ///< ...and is zero after this [s]
+};
+
+/// How patiently a Falcon is booted. Real ones often fail the first times.
+struct BootSettings {
+  int tries = 10;             ///< of the whole load, >= 1
+  double back_off = 0.1;      ///< after the first failed try [s], doubled each time...
+  double max_back_off = 2;    ///< ...up to this [s]
+  double probe_time = 0.15;   ///< how long to look for firmware that runs already [s]
+  double call_period = 0.05;  ///< between calls of the boot loader [s]
+  int calls = 20;             ///< of the boot loader, in one try
+  double echo_time = 0.5;     ///< for the echo of a piece [s]
+  double start_time = 1.0;    ///< for the firmware's first reply [s]
+};
 
 struct FalconSettings {
   FalconForceLimits force;
@@ -30,6 +70,19 @@ struct FalconSettings {
 
 /// Throws std::invalid_argument, naming the value and what is allowed, for one out of range.
 void check(const FalconSettings& settings);
+
+/// An image that has been looked through; empty: there is none.
+struct FirmwareImage {
+  std::vector<std::uint8_t> bytes;
+  [[nodiscard]] bool isEmpty() const noexcept { return bytes.empty(); }
+};
+
+/// Reads and checks a file. Throws tandem::Error, one line with path and remedy.
+[[nodiscard]] FirmwareImage readFirmware(const std::string& path);
+
+/// An image that loads and does nothing, for the emulator and for tests: one block of `words`
+/// pseudo-random words. A real Falcon must never be given it.
+[[nodiscard]] FirmwareImage makeSyntheticFirmware(std::uint64_t seed, std::size_t words = 512);
 
 }  // namespace tandem
 #pragma GCC visibility pop

@@ -3,10 +3,16 @@
 #include <array>
 #include <cstdint>
 
-#include "tandem/falcon/falcon_boot.h"
-
 #pragma GCC visibility push(default)
 namespace tandem {
+
+/// Buttons of the grip; several may be pressed.
+enum FalconButton : std::uint8_t {
+  kPlusButton = 0x01,
+  kForwardButton = 0x02,
+  kCentreButton = 0x04,
+  kMinusButton = 0x08
+};
 
 enum class FalconState : std::uint8_t {
   kClosed,   ///< no line to it
@@ -38,7 +44,6 @@ enum class FalconFault : std::uint8_t {
 [[nodiscard]] const char* nameOf(FalconState state) noexcept;
 /// What is wrong and what to do, one line without the device's name.
 [[nodiscard]] const char* textOf(FalconFault fault) noexcept;
-[[nodiscard]] FalconFault faultOf(BootFault fault) noexcept;
 
 /// Time from a frame to its reply.
 struct FalconRoundTrips {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tandem/falcon/falcon_settings.h"
+
 /// \file
 /// The program that a Falcon is given at every power-up. It belongs to Novint; none comes with
 /// Tandem. It is a boot table of the C28x processor inside, in 16-bit words, low byte first:
@@ -47,24 +49,11 @@ class BootTableReader {
   std::uint8_t low_ = 0;
 };
 
-/// An image that has been looked through; empty: there is none.
-struct FirmwareImage {
-  std::vector<std::uint8_t> bytes;
-  [[nodiscard]] bool isEmpty() const noexcept { return bytes.empty(); }
-};
-
 inline constexpr std::size_t kMostFirmware = 256 * 1024;  ///< [bytes]; known images have 8 KiB
 
 /// What is wrong with `bytes` as an image, in words; nullptr if nothing is. Pure.
 [[nodiscard]] const char* findFaultOfFirmware(const std::uint8_t* bytes,
                                               std::size_t count) noexcept;
-
-/// Reads and checks a file. Throws tandem::Error, one line with path and remedy.
-[[nodiscard]] FirmwareImage readFirmware(const std::string& path);
-
-/// An image that loads and does nothing, for the emulator and for tests: one block of `words`
-/// pseudo-random words. A real Falcon must never be given it.
-[[nodiscard]] FirmwareImage makeSyntheticFirmware(std::uint64_t seed, std::size_t words = 512);
 
 }  // namespace tandem
 #pragma GCC visibility pop

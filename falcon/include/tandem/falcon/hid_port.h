@@ -11,6 +11,8 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
+class ByteTransport;
+
 /// An identifier and the 64 bytes that a full speed interrupt transfer carries.
 inline constexpr std::size_t kMostHidReport = 65;
 
@@ -73,6 +75,28 @@ using HidOpener = std::function<std::unique_ptr<HidPort>()>;
 /// but the right to read and write its hidraw node. Throws tandem::Error with the remedy if it is
 /// not there or may not be opened. Thread safe.
 [[nodiscard]] std::unique_ptr<HidPort> openHid(const HidAddress& address);
+
+/// The serial one of an FT260's two interfaces.
+inline const HidAddress kFt260{0x0403, 0x6030, 0, 0, 1, "", ""};
+
+/// Opens it. Throws tandem::Error with the remedy. Needs tandem_devices.
+[[nodiscard]] std::unique_ptr<ByteTransport> openHidUart(const HidAddress& address = kFt260);
+
+/// How a HID device is written to, and looked for again after it was unplugged.
+struct HidStreamSettings {
+  double write_period = 0.0;   ///< [s], > 0; 0: nothing is ever sent
+  double first_retry = 0.1;    ///< until an unplugged device is looked for again [s], > 0
+  double longest_retry = 2.0;  ///< each try waits twice as long as the last, up to this [s]
+};
+
+/// What a HID device and its line have done.
+struct HidStreamCounters {
+  std::uint64_t reports = 0;       ///< that came
+  std::uint64_t refused = 0;       ///< of them, that the client could make nothing of
+  std::uint64_t written = 0;       ///< that went out
+  std::uint64_t write_misses = 0;  ///< periods without a report, because the last one took longer
+  std::uint64_t losses = 0;        ///< times that the device was unplugged
+};
 
 }  // namespace tandem
 #pragma GCC visibility pop

@@ -37,22 +37,8 @@ class HidClient {
   virtual void setConnected(bool is_connected) noexcept = 0;
 };
 
-struct HidStreamSettings {
-  double write_period = 0.0;   ///< [s], > 0; 0: nothing is ever sent
-  double first_retry = 0.1;    ///< until an unplugged device is looked for again [s], > 0
-  double longest_retry = 2.0;  ///< each try waits twice as long as the last, up to this [s]
-};
-
 /// The same for a device that is only read.
 [[nodiscard]] HidStreamSettings withoutWriting(HidStreamSettings settings) noexcept;
-
-struct HidStreamCounters {
-  std::uint64_t reports = 0;       ///< that came
-  std::uint64_t refused = 0;       ///< of them, that the client could make nothing of
-  std::uint64_t written = 0;       ///< that went out
-  std::uint64_t write_misses = 0;  ///< periods without a report, because the last one took longer
-  std::uint64_t losses = 0;        ///< times that the device was unplugged
-};
 
 /// Carries reports between a HID device and its client, by a thread that reads and one that writes:
 /// a write to a HID device takes 0.3 ms, at times 14 ms, and no haptic tick may wait for it. Opens

@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 
-#include "tandem/falcon/hid_stream.h"
+#include "tandem/falcon/hid_port.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+class HidStream;
 
 /// How a pedal or button shows in a report.
 enum class HidSwitchKind {

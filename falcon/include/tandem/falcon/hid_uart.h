@@ -14,14 +14,8 @@ namespace tandem {
 /// if the device does not take the settings.
 [[nodiscard]] std::unique_ptr<ByteTransport> makeHidUart(std::unique_ptr<HidPort> port);
 
-/// The serial one of an FT260's two interfaces.
-inline const HidAddress kFt260{0x0403, 0x6030, 0, 0, 1, "", ""};
-
 /// Throws tandem::Error for a bridge that cannot carry a Falcon: a CP2110 ends at 1 MBd.
 void requireFastBridge(const HidAddress& address);
-
-/// Opens it. Throws tandem::Error with the remedy. Needs tandem_devices.
-[[nodiscard]] std::unique_ptr<ByteTransport> openHidUart(const HidAddress& address = kFt260);
 
 }  // namespace tandem
 #pragma GCC visibility pop

@@ -1,19 +1,10 @@
 #pragma once
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/space_mouse_device.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// How the displacement of a cap that springs back becomes the motion of a point.
-struct RateControlSettings {
-  double speed = 0.15;      ///< at full displacement along an axis [m/s], > 0
-  double dead_zone = 0.05;  ///< part of the full displacement that is none, 0 to below 1
-  double smoothing = 0.03;  ///< time constant of the velocity [s], > 0; more is smoother and later
-  Vec3 start_W = Vec3::Zero();            ///< where the point begins, the middle of its box [m]
-  Vec3 workspace = Vec3::Constant(0.15);  ///< half extents of the box that it stays in [m], > 0
-  Quat q_WD = Quat(1.0, 0.0, 0.0, 0.0);   ///< from the user's frame (x right, y up, z back) to W
-};
 
 /// A point whose velocity a hand commands:
 ///

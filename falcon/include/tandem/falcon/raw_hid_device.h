@@ -1,20 +1,32 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
-#include "tandem/falcon/falcon_kinematics.h"
+#include "tandem/falcon/falcon_settings.h"
 #include "tandem/falcon/haptic_device.h"
-#include "tandem/falcon/hid_stream.h"
-#include "tandem/falcon/raw_hid_report.h"
-#include "tandem/falcon/velocity_estimator.h"
+#include "tandem/falcon/hid_port.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
 
+class HidStream;
+
 namespace falcon_detail {
 class RawHidClient;
 }
+
+/// What the device says of itself (docs/hid.md).
+struct RawHidState {
+  std::uint16_t number = 0;              ///< one more in every report, wraps
+  std::array<std::int16_t, 3> counts{};  ///< of the legs' encoders, as angleOfCounts() has them
+  std::uint8_t homed = 0;                ///< bit i: leg i + 1 has found its index
+  std::uint8_t buttons = 0;
+  std::uint32_t time_us = 0;  ///< the device's clock when the counts were taken, wraps
+  [[nodiscard]] bool isHomed() const noexcept { return homed == 7; }
+};
 
 struct RawHidSettings {
   FalconGeometry geometry;
@@ -66,14 +78,14 @@ class RawHidDevice final : public HapticDevice {
   [[nodiscard]] RawHidStatus status();
 
  private:
+  struct Grip;
+
   void takeState(const RawHidState& state) noexcept;
 
   RawHidSettings settings_;
   DeviceCapabilities capabilities_;
-  FalconKinematics kinematics_;
 
-  std::optional<FalconPose> pose_;  ///< of the newest report; nothing: unusable
-  AdaptiveWindow count_rates_ = makeUsualVelocityEstimator();
+  std::unique_ptr<Grip> grip_;
   Vec3 v_D_ = Vec3::Zero();
   double device_time_ = 0.0;    ///< of the pose, by the device's clock, from some moment [s]
   std::uint32_t time_us_ = 0;   ///< of the pose, by the device's clock

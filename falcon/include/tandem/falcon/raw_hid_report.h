@@ -8,6 +8,7 @@
 
 #include "tandem/falcon/falcon_kinematics.h"
 #include "tandem/falcon/hid_port.h"
+#include "tandem/falcon/raw_hid_device.h"
 
 /// \file
 /// Reports of a haptic device with the Falcon's legs and a controller of its own, over raw HID:
@@ -24,15 +25,6 @@ namespace tandem {
 
 inline constexpr std::size_t kRawHidSize = 64;
 inline constexpr double kRawHidTorque = 50e-6;  ///< unit of a torque, at the arm [N m]
-
-struct RawHidState {
-  std::uint16_t number = 0;              ///< one more in every report, wraps
-  std::array<std::int16_t, 3> counts{};  ///< of the legs' encoders, as angleOfCounts() has them
-  std::uint8_t homed = 0;                ///< bit i: leg i + 1 has found its index
-  std::uint8_t buttons = 0;
-  std::uint32_t time_us = 0;  ///< the device's clock when the counts were taken, wraps
-  [[nodiscard]] bool isHomed() const noexcept { return homed == 7; }
-};
 
 enum RawHidFlag : std::uint8_t {
   kRawHidDrive = 0x01,  ///< motors on; without it torques are 0

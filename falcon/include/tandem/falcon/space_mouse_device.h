@@ -1,14 +1,35 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "tandem/falcon/haptic_device.h"
-#include "tandem/falcon/hid_stream.h"
-#include "tandem/falcon/rate_control.h"
-#include "tandem/falcon/space_mouse_report.h"
+#include "tandem/falcon/hid_port.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
+
+class HidStream;
+class RateControl;
+
+/// How the displacement of a cap that springs back becomes the motion of a point.
+struct RateControlSettings {
+  double speed = 0.15;      ///< at full displacement along an axis [m/s], > 0
+  double dead_zone = 0.05;  ///< part of the full displacement that is none, 0 to below 1
+  double smoothing = 0.03;  ///< time constant of the velocity [s], > 0; more is smoother and later
+  Vec3 start_W = Vec3::Zero();            ///< where the point begins, the middle of its box [m]
+  Vec3 workspace = Vec3::Constant(0.15);  ///< half extents of the box that it stays in [m], > 0
+  Quat q_WD = Quat(1.0, 0.0, 0.0, 0.0);   ///< from the user's frame (x right, y up, z back) to W
+};
+
+/// What the reports add up to.
+struct SpaceMouseState {
+  std::array<double, 6> axes{};  ///< x y z rx ry rz of the cap, as the device has them, -1 to 1
+  std::uint32_t buttons = 0;     ///< bit i: button i is pressed
+};
 
 struct SpaceMouseSettings {
   RateControlSettings motion;
@@ -50,7 +71,7 @@ class SpaceMouseDevice final : public HapticDevice {
   class Client;
 
   DeviceCapabilities capabilities_;
-  RateControl motion_;
+  std::unique_ptr<RateControl> motion_;
   double silence_;
   double time_ = 0.0, heard_at_ = 0.0;
   std::uint64_t heard_ = 0;

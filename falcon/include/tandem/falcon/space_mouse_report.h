@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "tandem/falcon/hid_port.h"
+#include "tandem/falcon/space_mouse_device.h"
 
 /// \file
 /// What a SpaceMouse of 3Dconnexion says. Two layouts are in use, told apart by the length of
@@ -23,12 +24,6 @@ namespace tandem {
 
 /// A full displacement in counts; some units go beyond.
 inline constexpr double kSpaceMouseFull = 350.0;
-
-/// What the reports add up to.
-struct SpaceMouseState {
-  std::array<double, 6> axes{};  ///< x y z rx ry rz of the cap, as the device has them, -1 to 1
-  std::uint32_t buttons = 0;     ///< bit i: button i is pressed
-};
 
 enum class SpaceMouseNews {
   kRefused,  ///< no such report, or of another length: the state is as it was
