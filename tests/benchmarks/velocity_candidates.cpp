@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tandem/falcon/velocity_estimator.h"
+#include "falcon/src/guard/velocity_estimator.h"
 
 namespace tandem::bench {
 namespace {

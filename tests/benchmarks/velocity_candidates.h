@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "tandem/coordination/types.h"
-#include "tandem/falcon/falcon_kinematics.h"
+
+#include "falcon/src/novint/falcon_kinematics.h"
 
 namespace tandem::bench {
 

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_boot.h"
+#include "falcon/src/novint/falcon_boot.h"
 
 #include <fstream>
 #include <string>

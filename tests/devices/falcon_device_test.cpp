@@ -16,8 +16,9 @@
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/emulated_falcon_port.h"
-#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/monotonic_clock.h"
+
+#include "falcon/src/novint/falcon_emulator.h"
 
 namespace tandem {
 namespace {

@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/falcon_force_gate.h"
-
 #include "devices/falcon_rig.h"
+#include "falcon/src/novint/falcon_force_gate.h"
 #include "support/random.h"
 
 namespace tandem {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "tandem/falcon/falcon_driver.h"
-#include "tandem/falcon/falcon_emulator.h"
+#include "falcon/src/novint/falcon_driver.h"
+#include "falcon/src/novint/falcon_emulator.h"
 
 namespace tandem::test {
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/falcon_boot.h"
+#include "falcon/src/novint/falcon_boot.h"
 
 namespace tandem {
 namespace {

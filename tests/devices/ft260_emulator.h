@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "tandem/falcon/falcon_frames.h"
-
 #include "devices/fake_hid_port.h"
+#include "falcon/src/novint/falcon_frames.h"
 
 namespace tandem::test {
 

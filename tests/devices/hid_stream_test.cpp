@@ -1,4 +1,4 @@
-#include "tandem/falcon/hid_stream.h"
+#include "falcon/src/hid/hid_stream.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/hid_stream.h"
-
 #include "devices/fake_hid_port.h"
+#include "falcon/src/hid/hid_stream.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/falcon/hid_uart.h"
+#include "falcon/src/hid/hid_uart.h"
 
 #include <numeric>
 

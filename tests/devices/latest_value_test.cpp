@@ -1,4 +1,4 @@
-#include "tandem/falcon/latest_value.h"
+#include "falcon/src/guard/latest_value.h"
 
 #include <cstdint>
 #include <thread>

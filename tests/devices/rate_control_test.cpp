@@ -1,4 +1,4 @@
-#include "tandem/falcon/rate_control.h"
+#include "falcon/src/hid/rate_control.h"
 
 #include <cmath>
 #include <limits>

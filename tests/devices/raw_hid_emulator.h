@@ -2,9 +2,8 @@
 
 #include <stdexcept>
 
-#include "tandem/falcon/raw_hid_report.h"
-
 #include "devices/fake_hid_port.h"
+#include "falcon/src/hid/raw_hid_report.h"
 
 namespace tandem::test {
 

@@ -1,4 +1,4 @@
-#include "tandem/falcon/raw_hid_report.h"
+#include "falcon/src/hid/raw_hid_report.h"
 
 #include <limits>
 

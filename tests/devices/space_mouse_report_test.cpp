@@ -1,4 +1,4 @@
-#include "tandem/falcon/space_mouse_report.h"
+#include "falcon/src/hid/space_mouse_report.h"
 
 #include <gtest/gtest.h>
 

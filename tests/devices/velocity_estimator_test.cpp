@@ -1,4 +1,4 @@
-#include "tandem/falcon/velocity_estimator.h"
+#include "falcon/src/guard/velocity_estimator.h"
 
 #include <cmath>
 #include <limits>
@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/falcon_kinematics.h"
-
+#include "falcon/src/novint/falcon_kinematics.h"
 #include "support/random.h"
 
 namespace tandem {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "tandem/falcon/falcon_driver.h"
-#include "tandem/falcon/falcon_emulator.h"
+#include "falcon/src/novint/falcon_driver.h"
+#include "falcon/src/novint/falcon_emulator.h"
 
 namespace tandem {
 namespace {

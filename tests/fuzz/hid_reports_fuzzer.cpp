@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "tandem/falcon/hid_switch.h"
-#include "tandem/falcon/raw_hid_report.h"
-#include "tandem/falcon/space_mouse_report.h"
 
 #include "falcon/src/hid/ft260_reports.h"
+#include "falcon/src/hid/raw_hid_report.h"
+#include "falcon/src/hid/space_mouse_report.h"
 
 namespace tandem {
 namespace {

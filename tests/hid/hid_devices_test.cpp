@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/hid_switch.h"
-#include "tandem/falcon/hid_uart.h"
 #include "tandem/falcon/raw_hid_device.h"
 
 #include "devices/ft260_emulator.h"
 #include "devices/raw_hid_emulator.h"
+#include "falcon/src/hid/hid_uart.h"
 #include "hid/user_hidraw.h"
 
 // What tests/devices asks of each device with a port in memory, here through hidapi as it is.

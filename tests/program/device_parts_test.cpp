@@ -6,13 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tandem/falcon/falcon_frames.h"
-
 #include "demos/program/device/bars.h"
 #include "demos/program/device/clutch.h"
 #include "demos/program/device/device_spec.h"
 #include "demos/program/device/user_axes.h"
 #include "demos/program/terminal/usage_error.h"
+#include "falcon/src/novint/falcon_frames.h"
 
 namespace tandem::demos {
 namespace {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tandem/falcon/emulated_falcon_port.h"
-#include "tandem/falcon/falcon_emulator.h"
 
+#include "falcon/src/novint/falcon_emulator.h"
 #include "program/background.h"
 #include "program/device_runs.h"
 

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/emulated_falcon_port.h"
-#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "demos/program/device/open_device.h"
 #include "demos/program/device/user_axes.h"
+#include "falcon/src/novint/falcon_emulator.h"
 
 namespace tandem::demos {
 namespace {

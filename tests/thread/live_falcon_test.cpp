@@ -14,11 +14,11 @@
 #include "tandem/falcon/byte_transport.h"
 #include "tandem/falcon/emulated_falcon_port.h"
 #include "tandem/falcon/falcon_device.h"
-#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/guarded_device.h"
 #include "tandem/plugin/haptic_loop.h"
 
 #include "bridge/bullet_rig.h"
+#include "falcon/src/novint/falcon_emulator.h"
 #include "support/fakes.h"
 
 namespace tandem {

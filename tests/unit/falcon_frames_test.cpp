@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_frames.h"
+#include "falcon/src/novint/falcon_frames.h"
 
 #include <string>
 #include <vector>

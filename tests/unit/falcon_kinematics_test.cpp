@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_kinematics.h"
+#include "falcon/src/novint/falcon_kinematics.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "tandem/falcon/velocity_estimator.h"
+#include "guard/velocity_estimator.h"
 
 #include <algorithm>
 #include <cmath>

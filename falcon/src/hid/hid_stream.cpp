@@ -1,4 +1,4 @@
-#include "tandem/falcon/hid_stream.h"
+#include "hid/hid_stream.h"
 
 #include <algorithm>
 #include <chrono>

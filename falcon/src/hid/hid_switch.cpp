@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "tandem/falcon/hid_stream.h"
-
 #include "guard/settings_check.h"
+#include "hid/hid_stream.h"
 
 namespace tandem {
 namespace {

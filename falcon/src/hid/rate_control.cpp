@@ -1,4 +1,4 @@
-#include "tandem/falcon/rate_control.h"
+#include "hid/rate_control.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <limits>
 
-#include "tandem/falcon/falcon_force_gate.h"
-#include "tandem/falcon/hid_stream.h"
-#include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/raw_hid_device.h"
-#include "tandem/falcon/raw_hid_report.h"
+
+#include "guard/latest_value.h"
+#include "hid/hid_stream.h"
+#include "hid/raw_hid_report.h"
+#include "novint/falcon_force_gate.h"
 
 namespace tandem::falcon_detail {
 

@@ -3,13 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "tandem/falcon/falcon_kinematics.h"
-#include "tandem/falcon/hid_stream.h"
-#include "tandem/falcon/velocity_estimator.h"
-
 #include "guard/settings_check.h"
+#include "guard/velocity_estimator.h"
+#include "hid/hid_stream.h"
 #include "hid/raw_hid_client.h"
 #include "novint/arm_range.h"
+#include "novint/falcon_kinematics.h"
 
 namespace tandem {
 

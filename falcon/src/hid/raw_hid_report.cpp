@@ -1,4 +1,4 @@
-#include "tandem/falcon/raw_hid_report.h"
+#include "hid/raw_hid_report.h"
 
 #include <algorithm>
 #include <cmath>

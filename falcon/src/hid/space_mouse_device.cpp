@@ -4,12 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "tandem/falcon/hid_stream.h"
-#include "tandem/falcon/latest_value.h"
-#include "tandem/falcon/rate_control.h"
-#include "tandem/falcon/space_mouse_report.h"
-
+#include "guard/latest_value.h"
 #include "guard/settings_check.h"
+#include "hid/hid_stream.h"
+#include "hid/rate_control.h"
+#include "hid/space_mouse_report.h"
 
 namespace tandem {
 namespace {

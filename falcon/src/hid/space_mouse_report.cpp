@@ -1,4 +1,4 @@
-#include "tandem/falcon/space_mouse_report.h"
+#include "hid/space_mouse_report.h"
 
 #include <algorithm>
 

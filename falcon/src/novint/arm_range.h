@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tandem/falcon/falcon_kinematics.h"
+#include "novint/falcon_kinematics.h"
 
 namespace tandem::falcon_detail {
 

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "tandem/coordination/types.h"
-#include "tandem/falcon/falcon_emulator.h"
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "guard/realtime_rights.h"
+#include "novint/falcon_emulator.h"
 #include "novint/pseudo_terminal.h"
 
 namespace tandem {

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_boot.h"
+#include "novint/falcon_boot.h"
 
 #include <algorithm>
 #include <utility>

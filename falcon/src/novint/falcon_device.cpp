@@ -7,11 +7,11 @@
 #include <thread>
 #include <utility>
 
-#include "tandem/falcon/falcon_driver.h"
-#include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/monotonic_clock.h"
 
+#include "guard/latest_value.h"
 #include "guard/realtime_rights.h"
+#include "novint/falcon_driver.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_driver.h"
+#include "novint/falcon_driver.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_emulator.h"
+#include "novint/falcon_emulator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_force_gate.h"
+#include "novint/falcon_force_gate.h"
 
 #include <algorithm>
 

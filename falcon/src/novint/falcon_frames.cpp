@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_frames.h"
+#include "novint/falcon_frames.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_kinematics.h"
+#include "novint/falcon_kinematics.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_plant.h"
+#include "novint/falcon_plant.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "tandem/falcon/falcon_force_gate.h"
-
 #include "guard/settings_check.h"
+#include "novint/falcon_force_gate.h"
 
 namespace tandem {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tandem/falcon/falcon_boot.h"
+#include "novint/falcon_boot.h"
 
 namespace tandem {
 

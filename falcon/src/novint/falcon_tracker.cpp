@@ -1,4 +1,4 @@
-#include "tandem/falcon/falcon_tracker.h"
+#include "novint/falcon_tracker.h"
 
 #include <algorithm>
 

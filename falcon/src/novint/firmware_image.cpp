@@ -1,4 +1,4 @@
-#include "tandem/falcon/firmware_image.h"
+#include "novint/firmware_image.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "tandem/falcon/hid_uart.h"
+#include "hid/hid_uart.h"
 
 namespace tandem {
 

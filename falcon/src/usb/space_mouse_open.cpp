@@ -1,7 +1,8 @@
 #include <algorithm>
 
 #include "tandem/falcon/space_mouse_device.h"
-#include "tandem/falcon/space_mouse_report.h"
+
+#include "hid/space_mouse_report.h"
 
 namespace tandem {
 

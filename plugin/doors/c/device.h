@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "tandem/falcon/haptic_device.h"
-#include "tandem/falcon/latest_value.h"
 #include "tandem/falcon/simulated_device.h"
 
 #include "c/handle.h"
+#include "falcon/src/guard/latest_value.h"
 
 namespace tandem::c_door {
 

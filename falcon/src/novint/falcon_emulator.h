@@ -9,9 +9,10 @@
 #include <random>
 
 #include "tandem/falcon/byte_transport.h"
-#include "tandem/falcon/falcon_frames.h"
-#include "tandem/falcon/falcon_plant.h"
-#include "tandem/falcon/firmware_image.h"
+
+#include "novint/falcon_frames.h"
+#include "novint/falcon_plant.h"
+#include "novint/firmware_image.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

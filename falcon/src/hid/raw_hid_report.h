@@ -6,9 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "tandem/falcon/falcon_kinematics.h"
 #include "tandem/falcon/hid_port.h"
 #include "tandem/falcon/raw_hid_device.h"
+
+#include "novint/falcon_kinematics.h"
 
 /// \file
 /// Reports of a haptic device with the Falcon's legs and a controller of its own, over raw HID:

@@ -3,11 +3,12 @@
 #include <array>
 #include <cstdint>
 
-#include "tandem/falcon/falcon_frames.h"
 #include "tandem/falcon/falcon_settings.h"
 #include "tandem/falcon/falcon_status.h"
-#include "tandem/falcon/firmware_image.h"
-#include "tandem/falcon/line_step.h"
+
+#include "novint/falcon_frames.h"
+#include "novint/firmware_image.h"
+#include "novint/line_step.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

@@ -5,8 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "tandem/falcon/falcon_kinematics.h"
 #include "tandem/falcon/simulated_device.h"
+
+#include "novint/falcon_kinematics.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "tandem/falcon/falcon_kinematics.h"
 #include "tandem/falcon/falcon_status.h"
+
+#include "novint/falcon_kinematics.h"
 
 /// \file
 /// What a Novint Falcon with its firmware running says and hears: frames of 16 bytes, each command

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "tandem/falcon/falcon_boot.h"
-#include "tandem/falcon/falcon_force_gate.h"
 #include "tandem/falcon/falcon_settings.h"
 #include "tandem/falcon/falcon_status.h"
-#include "tandem/falcon/falcon_tracker.h"
+
+#include "novint/falcon_boot.h"
+#include "novint/falcon_force_gate.h"
+#include "novint/falcon_tracker.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "tandem/falcon/falcon_kinematics.h"
-#include "tandem/falcon/velocity_estimator.h"
+#include "guard/velocity_estimator.h"
+#include "novint/falcon_kinematics.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
