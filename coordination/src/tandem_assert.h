@@ -1,14 +1,15 @@
 #pragma once
 
 /// \file
-/// TANDEM_ASSERT(condition): a bug in the caller or in Tandem, not bad input. On in builds without
-/// NDEBUG; calls the handler, which by default prints one line and aborts.
+/// TANDEM_ASSERT(condition) catches a bug in the caller or in Tandem, not bad input. It is
+/// active in builds without NDEBUG. On failure it calls the handler, which by default prints one
+/// line and aborts.
 #pragma GCC visibility push(default)
 namespace tandem {
 
 using AssertHandler = void (*)(const char* condition, const char* file, int line);
 
-/// Replaces the handler; returns the one before. Not thread safe: call before the first tick.
+/// Replaces the handler and returns the previous one. Not thread safe: call before the first tick.
 AssertHandler setAssertHandler(AssertHandler handler) noexcept;
 
 namespace detail {

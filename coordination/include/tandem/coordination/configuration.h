@@ -8,8 +8,8 @@
 #include <vector>
 
 /// \file
-/// What peers must have the same before anything is coupled, as named items (section 8 of
-/// coordination/STANDARD.md). For set-up: these functions allocate.
+/// Named settings that all peers must share before they are coupled
+/// (coordination/STANDARD.md, section 8). For set-up only: these functions allocate.
 #pragma GCC visibility push(default)
 namespace tandem {
 
@@ -26,27 +26,27 @@ struct ConfigurationItem {
 /// Items in rising order of their keys.
 using Configuration = std::vector<ConfigurationItem>;
 
-/// 1 to 64 characters of A-Z a-z 0-9 . _ -
+/// True for 1 to 64 characters of A-Z a-z 0-9 . _ -
 [[nodiscard]] bool isConfigurationKey(std::string_view key) noexcept;
 
-/// 1 to 255 bytes of UTF-8 without control characters.
+/// True for 1 to 255 bytes of UTF-8 without control characters.
 [[nodiscard]] bool isConfigurationValue(std::string_view value) noexcept;
 
-/// The items, sorted. Throws std::invalid_argument, with key and value, if one is no item or a key
-/// is there twice.
+/// Sorts the items by key. Throws std::invalid_argument, with key and value, if an item is invalid
+/// or a key occurs twice.
 [[nodiscard]] Configuration makeConfiguration(std::vector<ConfigurationItem> items);
 
-/// Equal for equal configurations; finds differences, proves nothing.
+/// Hash that is equal for equal configurations. It finds differences but proves nothing.
 [[nodiscard]] std::uint32_t hashConfiguration(const Configuration& configuration) noexcept;
 
-/// An item that two peers do not have alike; a value is empty where there is none.
+/// An item that differs between two peers; a value is empty where the key is missing.
 struct ConfigurationDifference {
   std::string key;
   std::string here;
   std::string there;
 };
 
-/// The difference with the lowest key; nothing if there is none.
+/// The difference with the lowest key; nothing if the configurations are equal.
 [[nodiscard]] std::optional<ConfigurationDifference> findFirstDifference(
     const Configuration& here, const Configuration& there);
 

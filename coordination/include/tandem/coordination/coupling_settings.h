@@ -3,60 +3,59 @@
 #include <string_view>
 
 /// \file
-/// How a site is coupled to the others: gains, proxies, what silence and energy do to them.
+/// Settings that couple a site to the others: gains, proxies, link loss and passivity.
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Gains of one spring-damper; checked where they enter (Island::addCoupler, Island::addContact).
+/// Gains of one spring-damper. Island::addCoupler and Island::addContact check them.
 struct CouplerGains {
   double stiffness = 0.0;  ///< [N/m], >= 0; higher feels stiffer and needs a shorter delay
   double damping = 0.0;    ///< [N s/m], >= 0; higher calms the coupling, too high rings with delay
 };
 
-/// The body that stands for a remote user where a scheme has one.
+/// The remote dynamic proxy: the body that stands for a remote user in some schemes.
 struct ProxySettings {
   double mass = 0.1;     ///< m_h, the mass of the remote user's device [kg]
-  double damping = 0.0;  ///< b_h [N s/m]
-  double radius = 0.01;  ///< of the sphere [m]
+  double damping = 0.0;  ///< b_h, damping of the remote user's hand [N s/m]
+  double radius = 0.01;  ///< radius of the sphere [m]
 };
 
-/// How a remote peer is doing, by the age of the state of it that was taken in last.
+/// State of a remote peer, by the age of its last applied state.
 enum class LinkState {
-  kWaiting,    ///< nothing heard yet, and it does not count as there
-  kLive,       ///< heard lately: full gains
-  kStale,      ///< late: what is pulled to stands, and its velocity dies away
-  kFading,     ///< later: the gains go to zero
-  kLost,       ///< silent: no contribution
-  kRejoining,  ///< heard again: the gains come back
+  kWaiting,    ///< nothing has arrived yet; the peer is absent
+  kLive,       ///< a state arrived lately: full gains
+  kStale,      ///< late: the target stands still and its velocity decays
+  kFading,     ///< later: the gains fall to zero
+  kLost,       ///< silent: no force
+  kRejoining,  ///< states arrive again: the gains rise
 };
 
-/// As it is written in reports: "live", "stale", ...
+/// Name of the state in reports: "live", "stale", ...
 [[nodiscard]] std::string_view nameOf(LinkState state) noexcept;
 
-/// What is done when a peer falls silent. Ages are for a sender whose packets come no farther apart
-/// than a third of `stale_after`; for others they are longer, see LinkHealth.
+/// Reaction to a silent peer. The ages hold for packet periods of at most a third of `stale_after`;
+/// longer periods scale them up, see LinkHealth.
 struct LinkLossSettings {
-  bool enabled = true;         ///< false: the last state heard pulls for ever
-  bool start_live = true;      ///< until the first packet a peer counts as live, at its start pose
+  bool enabled = true;         ///< false: the last state pulls forever
+  bool start_live = true;      ///< a peer is live at its start pose until its first packet arrives
   double stale_after = 0.025;  ///< age at which targets stand [s]
   double fade_after = 0.1;     ///< age at which gains begin to fall [s]
-  double lost_after = 0.25;    ///< age at which they are zero [s]
-  double hold_decay = 0.02;    ///< time constant in which a stale velocity dies away [s]
-  double ramp_in = 0.5;        ///< in which gains come back [s]
-  double rejoin_overlap = 2e-3;  ///< as a pressing hand has it; a proxy deeper in something than
-                                 ///< this is not let in again [m]
+  double lost_after = 0.25;    ///< age at which gains are zero [s]
+  double hold_decay = 0.02;    ///< time constant with which a stale velocity decays [s]
+  double ramp_in = 0.5;        ///< time in which gains rise after a loss [s]
+  double rejoin_overlap = 2e-3;  ///< a proxy that overlaps a body by more stays out [m]; 2 mm is a
+                                 ///< pressing hand's overlap
 };
 
 /// Throws std::invalid_argument, naming the value and what is allowed.
 void checkLinkLossSettings(const LinkLossSettings& settings);
 
-/// What a hand may get out of a connection. Checked by checkPassivitySettings().
+/// Limits of the energy a hand may extract. checkPassivitySettings() checks them.
 struct PassivitySettings {
   bool enabled = true;
-  double tank = 0.02;  ///< may be given before anybody puts in any [J]; the paper needs 5.7 mJ
-  double band = 0.01;  ///< below this rest the force fades [J], at most `tank`
-  double most = 10.0;  ///< of what was put in counts as still there [J]: more than springs and
-                       ///< moving masses of a scene hold; the rest has become heat
+  double tank = 0.02;  ///< energy available at the start [J]; the paper needs 5.7 mJ
+  double band = 0.01;  ///< the force fades below this remaining energy [J], at most `tank`
+  double most = 10.0;  ///< most stored energy that counts [J]; the rest has become heat
 };
 
 /// Throws std::invalid_argument, naming the value and what is allowed.

@@ -5,26 +5,25 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// What an island did since Island::prepare(), to see that it does no more than a scene needs. A
-/// guided island counts only `advances`.
+/// Work of an island since Island::prepare(), which reveals needless work. A guided island counts
+/// only `advances`.
 struct IslandCounters {
   std::uint64_t advances = 0;           ///< calls of Island::advance
-  std::uint64_t asleep = 0;             ///< of these, the ones that had nothing to do
-  std::uint64_t exact_bodies = 0;       ///< bodies moved by their exact map, one by one
-  std::uint64_t exact_turns = 0;        ///< bodies turned exactly, one by one
-  std::uint64_t integrated_bodies = 0;  ///< bodies handed to the integrator, one by one
-  std::uint64_t integrated_steps = 0;   ///< its steps
-  std::uint64_t rejected_steps = 0;     ///< tries that were too long for the tolerance
+  std::uint64_t asleep = 0;             ///< calls that had nothing to do
+  std::uint64_t exact_bodies = 0;       ///< moves by a body's exact map
+  std::uint64_t exact_turns = 0;        ///< exact turns of a body
+  std::uint64_t integrated_bodies = 0;  ///< bodies handed to the integrator
+  std::uint64_t integrated_steps = 0;   ///< steps of the integrator
+  std::uint64_t rejected_steps = 0;     ///< integrator steps rejected as too long for the tolerance
   std::uint64_t events = 0;             ///< contacts made and broken inside a step
-  std::uint64_t contact_searches = 0;   ///< looks at two bodies' exact geometry, to find contact
-  std::uint64_t contact_searches_skipped = 0;  ///< pairs whose bounding balls are too far apart
-  std::uint64_t repeated = 0;      ///< advances done again because a body alone was met after all
-  std::uint64_t rigid_points = 0;  ///< points of rigid contact solved, one by one
-  std::uint64_t rigid_relaxations = 0;  ///< of these points, one by one
-  std::uint64_t rigid_steps = 0;        ///< inner steps that asked the ContactFinder
-  std::uint64_t asleep_bodies = 0;      ///< bodies left out, at rest with nothing near, one by one
-  std::uint64_t resting_bodies =
-      0;  ///< bodies at rest on something rigid that were not moved, one by one
+  std::uint64_t contact_searches = 0;   ///< exact geometry queries of a pair of bodies
+  std::uint64_t contact_searches_skipped = 0;  ///< pairs whose bounding spheres are far apart
+  std::uint64_t repeated = 0;      ///< advances repeated because a body moved alone met another
+  std::uint64_t rigid_points = 0;  ///< rigid contact points solved
+  std::uint64_t rigid_relaxations = 0;  ///< relaxations of rigid contact points
+  std::uint64_t rigid_steps = 0;        ///< inner steps that called the ContactFinder
+  std::uint64_t asleep_bodies = 0;      ///< bodies skipped at rest with nothing near
+  std::uint64_t resting_bodies = 0;     ///< bodies at rest on a rigid contact that were not moved
 };
 
 }  // namespace tandem

@@ -12,31 +12,31 @@ struct PointState;
 struct ProxySettings;
 struct RemoteUser;
 
-/// A way to let a remote user be present: the interchangeable heart of the comparison.
+/// A coordination scheme: how a remote user is represented. Schemes are what Tandem compares.
 ///
-/// A scheme is one file in src/schemes/<name>.cpp that defines `const Scheme& <name>Scheme()`; the
-/// build finds it by its name. Schemes hold no state: what they make lives in the island.
+/// A scheme is one file src/schemes/<name>.cpp that defines `const Scheme& <name>Scheme()`; the
+/// build finds it by its name. Schemes hold no state: the bodies they make live in the island.
 class Scheme {
  public:
   virtual ~Scheme() = default;
 
-  /// Name in scenario files.
+  /// The scheme's name in scenario files.
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
 
-  /// Set-up: what stands for a remote user whose device is at `start`.
+  /// Set-up: makes the representation of a remote user whose device is at `start`.
   [[nodiscard]] virtual RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy,
                                                   const CouplerGains& coordination,
                                                   const PointState& start) const = 0;
 
-  /// In the tick, real-time safe: the user's newest (delayed) state has come in.
+  /// Applies the user's newest (delayed) state. Called in the tick; real-time safe.
   virtual void follow(Island& island, const RemoteUser& user,
                       const PointState& latest) const noexcept = 0;
 };
 
-/// All schemes that were built in, ordered by file name.
+/// All built-in schemes, ordered by file name.
 [[nodiscard]] const std::vector<const Scheme*>& allSchemes();
 
-/// The scheme of that name. Throws std::invalid_argument listing the names there are.
+/// The scheme of that name. Throws std::invalid_argument listing all names.
 [[nodiscard]] const Scheme& findScheme(std::string_view name);
 
 }  // namespace tandem

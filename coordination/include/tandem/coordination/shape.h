@@ -25,36 +25,36 @@ struct Box {
 /// An axis of a body's frame.
 enum class Axis : std::uint8_t { kX, kY, kZ };
 
-/// Segment along an axis of the body through its origin, fattened by a radius.
+/// Segment along an axis through the body's origin, thickened by a radius.
 struct Capsule {
   double radius = 0.0;       ///< [m], > 0
   double half_length = 0.0;  ///< half of the segment [m], >= 0
   Axis axis = Axis::kY;
 };
 
-/// Round bar with flat ends around the body's origin.
+/// Cylinder around the body's origin.
 struct Cylinder {
   double radius = 0.0;       ///< [m], > 0
   double half_length = 0.0;  ///< [m], > 0
   Axis axis = Axis::kY;
 };
 
-/// A convex solid, fattened all round by a rounding (the margin that Bullet lays around hulls).
-/// Copies share the solid, which nobody changes: copying allocates nothing, and whoever drops the
-/// last copy frees it, so keep one where that must not be the tick.
+/// A convex solid, thickened all round by a rounding (Bullet's collision margin). Copies share the
+/// immutable solid, so copying allocates nothing. Destroying the last copy frees it: keep one copy
+/// outside the tick.
 struct ConvexHull {
   std::shared_ptr<const ConvexPolyhedron> solid;  ///< not null
   double rounding = 0.0;                          ///< [m], >= 0
 };
 
-/// Half-space `normal_B . p <= offset` of the body's frame; solid below, free above.
+/// Half-space `normal_B . p <= offset` in the body's frame; solid below, free above.
 struct Plane {
   Vec3 normal_B = Vec3::UnitY();  ///< unit vector out of the solid
   double offset = 0.0;            ///< [m]
 };
 
-/// A surface of triangles, fattened by a skin on its outer side; for obstacles only. Copies share
-/// the surface as those of a ConvexHull do.
+/// A triangle surface, thickened by a skin on its outer side; for obstacles only. Copies share the
+/// surface, as with ConvexHull.
 struct Mesh {
   std::shared_ptr<const TriangleMesh> surface;  ///< not null
   double skin = 0.0;                            ///< [m], >= 0
@@ -62,14 +62,13 @@ struct Mesh {
 
 using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Mesh>;
 
-/// Radius of a ball around the body's origin that holds the shape [m]; infinite for a plane.
+/// Radius of the sphere around the body's origin that holds the shape [m]; infinite for a plane.
 [[nodiscard]] double computeBoundingRadius(const Shape& shape) noexcept;
 
-/// How far the shape reaches along a direction of the body, from its origin [m]; infinite for a
-/// plane.
+/// Extent of the shape from its origin along a direction of the body [m]; infinite for a plane.
 [[nodiscard]] double computeReach(const Shape& shape, const Vec3& direction_B) noexcept;
 
-/// Throws std::invalid_argument, naming the value, unless all sizes are finite and as documented.
+/// Throws std::invalid_argument, naming the value, unless all sizes are finite and in range.
 void checkShape(const Shape& shape);
 
 }  // namespace tandem

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 
 /// \file
-/// The words that all of Tandem shares. SI units everywhere. Frames: W is the world, the same for
-/// all peers, right-handed; B a body (origin at its centre of mass); D the device.
+/// Basic types of Tandem, in SI units. Frames: W is the world, right-handed and the same for
+/// all peers. B is a body, with its origin at the centre of mass. D is the device.
 #pragma GCC visibility push(default)
 namespace tandem {
 
@@ -18,7 +18,7 @@ using Quat = Eigen::Quaterniond;
 /// A user together with the computer that runs that user's copy of the virtual environment.
 enum class PeerId : std::uint32_t {};
 
-/// Identity of a shared object, agreed between the peers (its place in the scenario).
+/// Identity of a shared object, equal at all peers (its place in the scenario).
 using ObjectId = std::uint32_t;
 
 /// Counts haptic periods since the start; time is `tick * haptic_period`, never an accumulated sum.
@@ -49,7 +49,7 @@ struct RigidState {
   return s.p_W.allFinite() && s.v_W.allFinite() && s.w_W.allFinite() && s.q_WB.coeffs().allFinite();
 }
 
-/// Running a set-up that cannot work: the message is one line and names the value and the remedy.
+/// A set-up that cannot work. The message is one line with the value and the remedy.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
