@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tandem/coordination/datagram_channel.h"
-#include "tandem/plugin/outlet.h"
+#include "tandem/plugin/udp_socket.h"
 
 #include "matrix/condition.h"
 #include "net/virtual_net.h"

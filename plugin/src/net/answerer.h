@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "tandem/plugin/outlet.h"
+#include "tandem/plugin/udp_socket.h"
 
 #include "coordination/src/wire/wire_handshake.h"
 #include "net/session_keys.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "tandem/plugin/outlet.h"
+#include "tandem/plugin/udp_socket.h"
 
 #include "coordination/src/wire/wire_handshake.h"
 #include "net/retry.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "tandem/plugin/peer_status.h"
+#include "tandem/plugin/udp_mesh.h"
 
 #include "net/agreement.h"
 #include "net/answerer.h"

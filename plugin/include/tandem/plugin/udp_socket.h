@@ -3,10 +3,19 @@
 #include <cstdint>
 #include <optional>
 
-#include "tandem/plugin/outlet.h"
+#include "tandem/coordination/datagram.h"
+#include "tandem/plugin/address.h"
 
 #pragma GCC visibility push(default)
 namespace tandem::net {
+
+/// Takes datagrams that are to be sent: a socket, or a simulated network.
+class Outlet {
+ public:
+  virtual ~Outlet() = default;
+  /// Never blocks; what cannot be sent is lost, as on any network.
+  virtual void send(ByteView datagram, const Address& to) noexcept = 0;
+};
 
 /// A non-blocking UDP socket for IPv6 and IPv4. Datagrams are never fragmented by us and the
 /// buffers are small: what cannot be sent or taken in at once is too old to be of use.
