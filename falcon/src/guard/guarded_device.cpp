@@ -16,10 +16,10 @@ namespace {
 using falcon_detail::require;
 using falcon_detail::shorten;
 
-constexpr double kLongestSilence = 0.05;  // between reads, or between writes [s]
-constexpr double kLongestFade = 0.03;     // [s]
+constexpr double kLongestSilence = 0.05;  // longest time between reads, or between writes [s]
+constexpr double kLongestFade = 0.03;     // longest time from max_force to zero [s]
 constexpr int kMostStanding = 50;         // reads in a row at the same time
-constexpr double kMostCounted = 2e-3;     // time that a write counts: two haptic periods [s]
+constexpr double kMostCounted = 2e-3;     // most time that a write counts: two haptic periods [s]
 
 }  // namespace
 
@@ -57,7 +57,7 @@ DeviceSample GuardedDevice::read(double now) noexcept {
   else if (now_ - last_write_ > kLongestSilence)
     cut(GuardCut::kStale);
   else if (status_.is_cut)
-    status_.is_cut = status_.force != Vec3::Zero();  // once it is gone, the ramp begins
+    status_.is_cut = status_.force != Vec3::Zero();  // the ramp begins at zero force
   else
     status_.share = ramp_ > 0.0 ? std::min(1.0, status_.share + passed_ / ramp_) : 1.0;
 
@@ -67,7 +67,7 @@ DeviceSample GuardedDevice::read(double now) noexcept {
 
 void GuardedDevice::write(const Vec3& f) noexcept {
   last_write_ = now_;
-  if (status_.is_cut) return;  // read() has seen to the force
+  if (status_.is_cut) return;  // read() already fades the force
   if (!f.allFinite()) {
     cut(GuardCut::kNotFinite);
     fade();
@@ -82,7 +82,7 @@ void GuardedDevice::write(const Vec3& f) noexcept {
   send(wanted, most_change);
 }
 
-/// How much time there is for a change; none on a time that makes no sense.
+/// Updates the time available for a change of force, and detects invalid times.
 void GuardedDevice::takeTime(double now) noexcept {
   standing_ = now > now_ ? 0 : standing_ + 1;
   is_time_wrong_ = !std::isfinite(now) || (was_read_ && now < now_) || standing_ > kMostStanding;

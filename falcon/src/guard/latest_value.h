@@ -7,9 +7,9 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// The newest value that one thread has for another: three rooms, of which the writer has one, the
-/// reader one, and the third changes hands. Neither waits, nothing is torn, old values are lost.
-/// One thread writes, one reads; wait-free and real-time safe on both sides.
+/// Passes the newest value from one thread to another. There are three slots: the writer owns one,
+/// the reader owns one, and the third is exchanged. No side waits, no value is torn, and older
+/// values are lost. One thread writes, one reads. Wait-free and real-time safe on both sides.
 template <typename Value>
 class LatestValue {
  public:
@@ -22,14 +22,14 @@ class LatestValue {
     writers_ = between_.exchange(writers_ | kIsNew, std::memory_order_acq_rel) & kRoom;
   }
 
-  /// The newest value; the same again as long as there is no newer one.
+  /// Returns the newest value; the same one again until a newer one is written.
   [[nodiscard]] const Value& read() noexcept {
     if (between_.load(std::memory_order_relaxed) & kIsNew)
       readers_ = between_.exchange(readers_, std::memory_order_acq_rel) & kRoom;
     return rooms_[readers_];
   }
 
-  /// True if read() would bring another value than it did last. For the reader.
+  /// True if read() would return a new value. For the reader.
   [[nodiscard]] bool isNew() const noexcept {
     return between_.load(std::memory_order_relaxed) & kIsNew;
   }

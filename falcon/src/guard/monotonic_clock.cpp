@@ -21,7 +21,7 @@ void sleepUntil(double moment) noexcept {
     until.tv_nsec -= kNanoseconds;
     ++until.tv_sec;
   }
-  // A signal that this thread handles ends it early.
+  // A handled signal interrupts clock_nanosleep(), so it is repeated.
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }

@@ -13,7 +13,7 @@
 namespace tandem {
 namespace {
 
-/// A tick's stack, with much to spare.
+/// Touches more stack than a tick needs, so that no tick waits for a page.
 void touchStack() noexcept {
   std::array<std::uint8_t, 64 * 1024> stack;
   explicit_bzero(stack.data(), stack.size());
@@ -24,8 +24,8 @@ void touchStack() noexcept {
 void RealtimeRights::take(int priority, bool locks_memory) noexcept {
   touchStack();
   if (locks_memory) {
-    // On fault: what is never touched needs no memory. Not what comes later: a limit would be met
-    // there by whoever takes memory next.
+    // MCL_ONFAULT: untouched pages need no memory. No MCL_FUTURE: a memory limit would then fail
+    // later allocations anywhere in the process.
     if (mlockall(MCL_CURRENT | MCL_ONFAULT) != 0)
       notes_.push_back(std::string("memory is not locked (") + std::strerror(errno) +
                        "): a tick may wait for a page; raise ulimit -l");
@@ -39,7 +39,7 @@ void RealtimeRights::take(int priority, bool locks_memory) noexcept {
                      "/etc/security/limits.d, or the program CAP_SYS_NICE");
     return;
   }
-  // Optional, and for the system's administrator only.
+  // Optional; normally only an administrator may open it.
   wakefulness_ = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
   const std::int32_t none = 0;
   if (wakefulness_ >= 0 && write(wakefulness_, &none, sizeof none) != sizeof none) {

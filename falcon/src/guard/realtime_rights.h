@@ -6,8 +6,8 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// What makes a thread punctual, as far as the system grants it; given back with the thread and
-/// with this, but for memory: what was locked stays so, it may be others' too.
+/// Real-time rights of a thread, as far as the system grants them. They end with the thread and
+/// with this object. Locked memory stays locked, because other threads may rely on it.
 class RealtimeRights {
  public:
   RealtimeRights() = default;
@@ -15,11 +15,11 @@ class RealtimeRights {
   RealtimeRights(const RealtimeRights&) = delete;
   RealtimeRights& operator=(const RealtimeRights&) = delete;
 
-  /// For the calling thread: SCHED_FIFO at `priority` (0: as it is), the process's memory locked,
-  /// its stack there, and the processor kept from sleeping deeply.
+  /// Acts on the calling thread. Sets SCHED_FIFO at `priority` (0: unchanged), locks the process's
+  /// memory, touches the stack and keeps the processor out of deep sleep.
   void take(int priority, bool locks_memory) noexcept;
 
-  /// What was not granted, with the remedy.
+  /// Rights that were not granted, with the remedy.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 }  // namespace
 
 std::string toText(double value) {
-  std::array<char, 32> buffer{};  // the longest shortest form of a double has 24 characters
+  std::array<char, 32> buffer{};  // the shortest exact text of a double has at most 24 characters
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
 }

@@ -7,10 +7,10 @@
 
 namespace tandem::falcon_detail {
 
-/// The shortest text that reads back as the same number; independent of the locale.
+/// Shortest text that reads back as the same number. Independent of the locale.
 [[nodiscard]] std::string toText(double value);
 
-/// "[x, y, z]".
+/// Text "[x, y, z]".
 [[nodiscard]] std::string toText(const Vec3& value);
 
 /// Throws std::invalid_argument "NAME is VALUE, must be ALLOWED" unless `is_allowed`.

@@ -11,7 +11,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 bool isUsable(double time, const Vec3& p) noexcept { return std::isfinite(time) && p.allFinite(); }
 
-/// Slope of the line of least squares, from sums over points relative to the newest.
+/// Least-squares slope from sums over points relative to the newest one.
 class BestFit {
  public:
   void add(double t, double x) noexcept {
@@ -26,7 +26,7 @@ class BestFit {
   }
 
  private:
-  double n_ = 1.0, t_ = 0.0, x_ = 0.0, tt_ = 0.0, tx_ = 0.0;  // the newest itself is (0, 0)
+  double n_ = 1.0, t_ = 0.0, x_ = 0.0, tt_ = 0.0, tx_ = 0.0;  // the newest point is (0, 0)
 };
 
 }  // namespace
@@ -63,7 +63,7 @@ Vec3 AdaptiveWindow::add(double time, const Vec3& p) noexcept {
 double AdaptiveWindow::findSlope(Eigen::Index axis) const noexcept {
   const TimedReading& newest = reading(0);
   const double band = settings_.tolerance + settings_.stamp_error * std::abs(velocity_[axis]);
-  // Slopes of lines through the newest reading that miss none looked at by more than the tolerance.
+  // Range of slopes through the newest reading that miss no visited reading by more than the band.
   double least = -std::numeric_limits<double>::infinity(), most = -least;
   double slope = 0.0;
   BestFit best;

@@ -7,25 +7,26 @@
 #include "tandem/coordination/types.h"
 
 /// \file
-/// Velocities from readings of a position that is counted in steps. Small values of one shape:
+/// Velocity estimators for positions that are counted in steps. All have the same interface:
 ///
-///   Vec3 add(double time, const Vec3& p) noexcept   takes a reading in, gives the newest velocity
-///   void clear() noexcept                           forgets all: after a jump (homing, reconnect)
+///    Vec3 add(double time, const Vec3& p) noexcept   adds a reading, returns the newest velocity
+///    void clear() noexcept                           forgets all readings: after homing,
+///    reconnection
 ///
-/// A reading may be anything with three axes: a point [m], or the counts of a Falcon's three
-/// encoders, where every axis has the same known step. The first reading gives zero. One that is
-/// not finite, or not later than the last, is left out and gives the last velocity again. Fixed
-/// size, real-time safe. Measured against each other in docs/devices.md.
+/// A reading is any quantity with three axes: a point [m], or the counts of a Falcon's encoders.
+/// All axes have the same known step. The first reading gives zero velocity. A reading that is not
+/// finite or not later than the last is skipped; add() then returns the last velocity. Fixed size,
+/// real-time safe. docs/devices.md compares them by measurement.
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A reading and when it was taken [s].
+/// A reading with its time [s].
 struct TimedReading {
   double time = 0.0;
   Vec3 p = Vec3::Zero();
 };
 
-/// (p_k - p_k-1) / (t_k - t_k-1): half a period late, and as coarse as a step per period.
+/// (p_k - p_k-1) / (t_k - t_k-1). Half a period late; its resolution is one step per period.
 class FirstDifference {
  public:
   Vec3 add(double time, const Vec3& p) noexcept;
@@ -37,11 +38,11 @@ class FirstDifference {
   bool has_last_ = false;
 };
 
-/// First difference behind a first-order low-pass, exact for readings at uneven times:
-/// v += (1 - exp(-2 pi cutoff dt)) (difference - v).
+/// First difference behind a first-order low-pass. It is exact for uneven times: v += (1 - exp(-2
+/// pi cutoff dt)) (difference - v).
 class LowPassDifference {
  public:
-  /// `cutoff` [Hz], > 0; higher is noisier and 1 / (2 pi cutoff) less late.
+  /// `cutoff` [Hz], > 0. A higher cutoff is noisier; the delay is 1 / (2 pi cutoff).
   explicit LowPassDifference(double cutoff) noexcept : cutoff_(cutoff) {}
 
   Vec3 add(double time, const Vec3& p) noexcept;
@@ -54,34 +55,36 @@ class LowPassDifference {
   bool has_last_ = false;
 };
 
-/// How an AdaptiveWindow's slope is drawn through the readings of its window.
+/// Fit of an AdaptiveWindow's line to the readings of its window.
 enum class WindowFit : std::uint8_t {
-  kEnds,  ///< from the oldest to the newest
-  kBest   ///< least squares
+  kEnds,  ///< line from the oldest to the newest reading
+  kBest   ///< least-squares line
 };
 
-/// What an AdaptiveWindow takes for one line. The defaults are those that docs/devices.md chooses,
-/// for readings in counts.
+/// Settings of an AdaptiveWindow. The defaults are for readings in counts; docs/devices.md derives
+/// them.
 struct AdaptiveWindowSettings {
-  /// How far off the line a reading may be, in the reading's unit: less than a step, or a reading
-  /// that goes to and fro by one counts as rest. Higher is calmer and later.
+  /// Largest distance of a reading from the line, in the reading's unit. Higher is calmer and
+  /// later. Keep it below one step: otherwise a reading that toggles by one step counts as rest.
   double tolerance = 0.7;
-  /// How far two readings' times may be off against each other [s]: the tolerance is wider by the
-  /// way that the motion makes in it. 0: times are exact.
+  /// Largest error between two readings' times [s]; 0: times are exact. It widens the tolerance by
+  /// the distance moved in that time.
   double stamp_error = 0.4e-3;
-  double longest = 8e-3;  ///< of a window [s]; higher is calmer when slow, and later by half of it
+  double longest =
+      8e-3;  ///< longest window [s]; higher is calmer in slow motion and later by half of it
   WindowFit fit = WindowFit::kBest;
 };
 
-/// First-order adaptive windowing (Janabi-Sharifi, Hayward & Chen 2000): each axis looks back as
-/// far as a line through the newest reading misses none in between by more than the tolerance, and
-/// takes the slope of that stretch. Long and calm in slow motion, short and quick in fast.
+/// First-order adaptive windowing (Janabi-Sharifi, Hayward & Chen 2000). Each axis takes the
+/// longest window whose line through the newest reading stays within the tolerance of all readings.
+/// The velocity is the slope of that line. Windows are long and calm in slow motion, short and
+/// quick in fast motion.
 ///
-/// What a line misses is not asked reading by reading: the range of slopes that miss none so far is
-/// kept, so that a reading costs the window's length once.
+/// The estimator keeps the range of slopes that fit all readings so far. The cost of a reading is
+/// therefore linear in the window's length.
 class AdaptiveWindow {
  public:
-  /// Readings kept: at 1 kHz a window ends here, whatever `longest` says.
+  /// Capacity of the window in readings: 64 ms at 1 kHz, whatever `longest` is.
   static constexpr std::size_t kRoom = 64;
 
   explicit AdaptiveWindow(const AdaptiveWindowSettings& settings = {}) noexcept
@@ -91,7 +94,7 @@ class AdaptiveWindow {
   void clear() noexcept { *this = AdaptiveWindow(settings_); }
 
  private:
-  /// `back` = 0: the newest.
+  /// The reading `back` places before the newest.
   [[nodiscard]] const TimedReading& reading(std::size_t back) const noexcept {
     return readings_[(newest_ + kRoom - back) % kRoom];
   }
@@ -103,8 +106,8 @@ class AdaptiveWindow {
   Vec3 velocity_ = Vec3::Zero();
 };
 
-/// What is usual for a device that counts its position in steps of `step`, in the reading's unit:
-/// 1 for a Falcon's counts.
+/// Default estimator for positions counted in steps of `step`, in the reading's unit: 1 for a
+/// Falcon's counts.
 [[nodiscard]] AdaptiveWindow makeUsualVelocityEstimator(double step = 1.0) noexcept;
 
 }  // namespace tandem

@@ -10,7 +10,7 @@ namespace {
 
 using falcon_detail::require;
 
-constexpr double kUnitTolerance = 1e-6;  // a quaternion written with seven digits is a unit
+constexpr double kUnitTolerance = 1e-6;  // accepts a unit quaternion written with seven digits
 
 WorkspaceSettings checked(WorkspaceSettings settings) {
   const double norm = settings.q_WD.norm();
@@ -48,7 +48,7 @@ DeviceCapabilities WorkspaceMap::toWorld(DeviceCapabilities capabilities) const 
   capabilities.max_force /= settings_.force_scale;
   capabilities.max_slew /= settings_.force_scale;
   capabilities.max_stiffness /= settings_.scale * settings_.force_scale;
-  // Infinity times a zero of the rotation is no number; what has no end one way has none here.
+  // Infinity times a zero of the rotation is NaN, so one infinite extent makes all infinite.
   if (capabilities.workspace.allFinite())
     capabilities.workspace = settings_.scale * (r_WD_.cwiseAbs() * capabilities.workspace);
   else

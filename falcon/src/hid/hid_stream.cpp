@@ -17,17 +17,17 @@
 //       |               +---------------------|-------------------+
 //       +-----------------------------------------------------------------> writeUntilGone()
 //
-// Whoever notices first that the device is gone, or that the stream ends, tells the other by a
-// flag. The writer lives as long as the port that it writes to.
+// The thread that first notices the loss of the device or the end of the stream sets a flag for the
+// other one. The writer's thread ends before its port is closed.
 
 namespace tandem {
 namespace {
 
-// Enough for a force of 8 N to fade by 2 N each, and for one that fails.
+// Enough to fade 8 N by 2 N per report, with reports to spare.
 constexpr int kLastReports = 6;
 constexpr double kLastPeriod = 1e-3;  // [s]
 
-/// So long a reader without reports does not see that the stream ends [s].
+/// Longest time before a reader without reports notices the end of the stream [s].
 constexpr double kReadWait = 0.02;
 
 HidStreamSettings checked(const HidStreamSettings& settings) {
@@ -118,7 +118,7 @@ bool HidStream::reconnect() noexcept {
     return true;
   } catch (const std::exception& error) {
     trouble = error.what();
-  } catch (...) {  // whatever the caller's function threw, this thread goes on
+  } catch (...) {  // this thread survives whatever the caller's function throws
   }
   port_.reset();
   const std::lock_guard held(mutex_);
@@ -134,7 +134,7 @@ void HidStream::disconnect() noexcept {
   port_.reset();
 }
 
-/// Each connect() is followed by a disconnect(), also if the stream ends in between.
+/// Each connect() is followed by one disconnect(), also if the stream ends in between.
 void HidStream::run() noexcept {
   for (;;) {
     readUntilGone();
@@ -157,7 +157,7 @@ void HidStream::readUntilGone() noexcept {
     if (!client_.takeReport(report.bytes.data(), static_cast<std::size_t>(size),
                             readMonotonicClock()))
       ++refused_;
-    ++reports_;  // last: who has seen the count can see what the report did
+    ++reports_;  // counted last: a thread that sees the count also sees the report's effect
   }
 }
 
@@ -178,7 +178,7 @@ void HidStream::writeUntilGone() noexcept {
   sayLastWords();
 }
 
-/// Also to a device that seems to be gone: it may have missed one report only.
+/// Also writes to a device that seems gone: perhaps only one report failed.
 void HidStream::sayLastWords() noexcept {
   for (int i = 0; i < kLastReports; ++i) {
     send(client_.giveLastReport(readMonotonicClock()));

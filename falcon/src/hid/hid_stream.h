@@ -13,42 +13,43 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Whose reports a HidStream carries. Reports that tell changes only (a SpaceMouse tells places and
-/// turns in turn) must all be seen: they are taken on the reader's thread, and what they add up to
-/// is published from there.
+/// Handles the reports of a HidStream. Some devices report changes only: a SpaceMouse alternates
+/// translation and rotation. No report may then be skipped, so the reader's thread takes each one
+/// and publishes the accumulated state.
 class HidClient {
  public:
   virtual ~HidClient() = default;
 
-  /// On the reader's thread: an input report that came at `now` [s] of the stream's clock. False:
-  /// the device cannot have meant it; it is counted.
+  /// Takes an input report that came at `now` [s] of the stream's clock. Called on the reader's
+  /// thread. Returns false for an invalid report, which is counted.
   [[nodiscard]] virtual bool takeReport(const std::uint8_t* report, std::size_t size,
                                         double now) noexcept = 0;
 
-  /// On the writer's thread, once in a write period: what to send now; size 0: nothing.
+  /// Returns the report to send now; size 0 sends nothing. Called on the writer's thread once per
+  /// write period.
   [[nodiscard]] virtual HidReport giveReport(double now) noexcept;
 
-  /// On the writer's thread, six times at least a millisecond apart before the port is closed,
-  /// whether the device is still there or not: the way to motors off. Size 0: nothing.
+  /// Returns a report that leads to motors off; size 0 sends nothing. Called on the writer's thread
+  /// six times, at least 1 ms apart, before the port is closed. The device may be gone already.
   [[nodiscard]] virtual HidReport giveLastReport(double now) noexcept;
 
-  /// The device has come, or has gone. Never together with takeReport(); there is no writer's
-  /// thread while it comes, while it goes there is.
+  /// The device was connected or lost. Never called together with takeReport(). The writer's thread
+  /// does not exist on connection, but may run on loss.
   virtual void setConnected(bool is_connected) noexcept = 0;
 };
 
-/// The same for a device that is only read.
+/// The same settings for a device that is only read.
 [[nodiscard]] HidStreamSettings withoutWriting(HidStreamSettings settings) noexcept;
 
-/// Carries reports between a HID device and its client, by a thread that reads and one that writes:
-/// a write to a HID device takes 0.3 ms, at times 14 ms, and no haptic tick may wait for it. Opens
-/// the device again by itself after it was unplugged.
+/// Carries reports between a HID device and its client, with one thread for reading and one for
+/// writing. A write to a HID device takes 0.3 ms, at times 14 ms, so the haptic thread must not
+/// wait for it. Reopens the device by itself after it was unplugged.
 class HidStream {
  public:
-  /// Opens the device, or throws what `open` throws, tandem::Error if it gives none. Throws
+  /// Opens the device. Throws what `open` throws, and tandem::Error if it returns no port. Throws
   /// std::invalid_argument for settings out of range. The client must outlive the stream.
   HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings = {});
-  /// Says the last words, waits for both threads.
+  /// Sends the last reports and joins both threads.
   ~HidStream();
   HidStream(const HidStream&) = delete;
   HidStream& operator=(const HidStream&) = delete;
@@ -57,8 +58,8 @@ class HidStream {
   [[nodiscard]] bool isConnected() const noexcept { return is_connected_; }
   [[nodiscard]] HidStreamCounters counters() const noexcept;
 
-  /// What the device is called, and why it could not be opened again ("" if it could). Not for the
-  /// haptic thread.
+  /// Name of the device, and why it could not be reopened ("" if it could). Not for the haptic
+  /// thread.
   [[nodiscard]] std::string name() const;
   [[nodiscard]] std::string trouble() const;
 
@@ -72,7 +73,7 @@ class HidStream {
   void writeUntilGone() noexcept;
   void sayLastWords() noexcept;
   void send(const HidReport& report) noexcept;
-  /// False if the stream ends meanwhile.
+  /// Sleeps for `time` [s]. Returns false if the stream ends meanwhile.
   [[nodiscard]] bool sleep(double time) noexcept;
 
   HidOpener open_;
@@ -83,7 +84,7 @@ class HidStream {
   std::atomic<bool> is_connected_{false}, is_gone_{false}, is_ending_{false};
   std::atomic<std::uint64_t> reports_{0}, refused_{0}, written_{0}, write_misses_{0}, losses_{0};
 
-  mutable std::mutex mutex_;  ///< of the texts and of the end
+  mutable std::mutex mutex_;  ///< guards the texts, and is_ending_ for the condition variable
   std::condition_variable ends_;
   std::string name_, trouble_;
   std::thread reader_, writer_;

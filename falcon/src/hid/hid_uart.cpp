@@ -11,7 +11,7 @@
 namespace tandem {
 namespace {
 
-/// Reports that purge() drops at most; the kernel keeps 64.
+/// Most reports that purge() drops; the kernel buffers 64.
 constexpr int kMostPurged = 256;
 
 bool setFeature(HidPort& port, const HidReport& report) noexcept {
@@ -58,8 +58,8 @@ class HidUart final : public ByteTransport {
   }
 
  private:
-  /// The next report with bytes, or none when the time is up; the chip also tells of its lines.
-  /// False: the device is gone.
+  /// Waits up to `wait` [s] for the next report with data; skips the chip's status reports. Returns
+  /// false if the device is gone.
   [[nodiscard]] bool fetch(double wait) noexcept {
     waiting_.count = taken_ = 0;
     const double until = readMonotonicClock() + wait;
@@ -75,8 +75,8 @@ class HidUart final : public ByteTransport {
   }
 
   std::unique_ptr<HidPort> port_;
-  UartBytes waiting_;      ///< of the last report
-  std::size_t taken_ = 0;  ///< of them, that have been read
+  UartBytes waiting_;      ///< bytes of the last report
+  std::size_t taken_ = 0;  ///< number of those already read
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ RateControlSettings checked(RateControlSettings settings) {
   return settings;
 }
 
-/// From the edge of the dead zone on, so that there is no step.
+/// Scales the rest from the edge of the dead zone, so that there is no step.
 double cutDeadZone(double part, double dead_zone) noexcept {
   const double beyond = std::min(std::abs(part), 1.0) - dead_zone;
   return beyond > 0.0 ? std::copysign(beyond / (1.0 - dead_zone), part) : 0.0;

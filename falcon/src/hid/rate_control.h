@@ -6,24 +6,24 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A point whose velocity a hand commands:
+/// A point whose velocity a displacement commands:
 ///
 ///   tau v' = v_wanted - v      x' = v      v_wanted = speed q_WD (displacement beyond the dead
 ///   zone)
 ///
-/// integrated exactly while v_wanted stands, so that it does not matter when it is asked, and a
-/// report every 8 ms makes no jump of the velocity. At a wall of the box the point stops along that
-/// axis. Pure and real-time safe.
+/// v_wanted is piecewise constant and the integration is exact, so the times of the calls do not
+/// matter. A report every 8 ms makes no jump of the velocity. At a wall of the box the point stops
+/// along that axis. Pure and real-time safe.
 class RateControl {
  public:
-  /// Throws std::invalid_argument, naming the value, for settings out of range.
+  /// Throws std::invalid_argument with the value's name for settings out of range.
   explicit RateControl(const RateControlSettings& settings = {});
 
-  /// Displacement of the cap in the user's frame, each part -1 to 1. Not finite: none.
+  /// Displacement of the cap in the user's frame, each part -1 to 1. Non-finite counts as zero.
   void setDisplacement(const Vec3& displacement_D) noexcept;
-  /// Stands still at once.
+  /// Stops the point at once.
   void stop() noexcept;
-  /// Moves for `interval` [s]; not above 0 or not finite: does not.
+  /// Advances the point by `interval` [s]. Does nothing unless it is finite and above 0.
   void advance(double interval) noexcept;
 
   [[nodiscard]] const PointState& point() const noexcept { return point_; }

@@ -14,19 +14,18 @@
 
 namespace tandem::falcon_detail {
 
-/// What the haptic thread asks for; plain numbers, as they go from thread to thread.
+/// Command of the haptic thread, as plain numbers to copy between threads.
 struct RawHidWish {
   std::array<double, 3> f_D{};  ///< [N]
-  /// Torques at the arms by force [m], column by column, where the grip is or was last.
+  /// Torques at the arms per force [m], column by column, at the grip's last known pose.
   std::array<double, 9> torques_by_force{};
-  std::uint64_t closures = 0;  ///< that were known when it was made
-  bool is_usable = false;      ///< there is a position, and the force is a number
+  std::uint64_t closures = 0;  ///< closures known when the command was made
+  bool is_usable = false;      ///< the position is valid and the force is finite
 };
 
-/// What lies between the haptic thread and the two that carry reports: the newest state, the newest
-/// wish, and the gate that has the last word on the force. The gate is the writer's and goes by its
-/// clock, so that each fault ends in a force that fades and comes back by the ramp, whichever
-/// thread has seen the fault.
+/// Connects the haptic thread with the two threads that carry reports. It holds the newest state,
+/// the newest command and the gate that limits the force last. The gate belongs to the writer and
+/// uses its clock. Whichever thread sees a fault, the force fades and later returns by the ramp.
 class RawHidClient final : public HidClient {
  public:
   struct Heard {
@@ -37,18 +36,18 @@ class RawHidClient final : public HidClient {
 
   explicit RawHidClient(const FalconForceLimits& limits) noexcept : gate_(limits) {}
 
-  // The haptic thread's.
+  // For the haptic thread.
   [[nodiscard]] const Heard& newest() noexcept { return heard_.read(); }
-  /// The last one, to be changed and passed on.
+  /// The last command, to be changed and passed on.
   [[nodiscard]] RawHidWish& nextWish() noexcept { return next_wish_; }
   void passWishOn() noexcept { wishes_.write(next_wish_); }
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
-  /// How often there was a reason to take the force away, also for one report only. Newer than
-  /// newest() if read after it.
+  /// Number of reasons to take the force away, even for one report. If read after newest(), it is
+  /// at least as new.
   [[nodiscard]] std::uint64_t closures() const noexcept { return closures_; }
   void close() noexcept { ++closures_; }
 
-  // The reader's.
+  // For the reader's thread.
   [[nodiscard]] bool takeReport(const std::uint8_t* report, std::size_t size,
                                 double now) noexcept override {
     const std::optional<RawHidState> state = decodeRawState(report, size);
@@ -56,7 +55,7 @@ class RawHidClient final : public HidClient {
     const auto step = static_cast<std::uint16_t>(state->number - last_.state.number);
     const bool is_first = !was_heard_;
     was_heard_ = true;
-    if (!is_first && step == 0) return true;  // a device that repeats itself tells nothing
+    if (!is_first && step == 0) return true;  // a repeated report carries no news
     if (!is_first) lost_ += step - 1U;
     const bool was_late = !is_first && now - heard_at_ > RawHidDevice::kFresh;
     if (was_late || (is_homed_ && !state->isHomed())) close();
@@ -69,7 +68,7 @@ class RawHidClient final : public HidClient {
   }
   void setConnected(bool is_connected) noexcept override {
     if (is_connected)
-      gate_.clear();  // a device that comes has no force that could fade
+      gate_.clear();  // a newly connected device has no force to fade
     else
       close();
     was_heard_ = false;
@@ -79,7 +78,7 @@ class RawHidClient final : public HidClient {
     heard_.write(last_);
   }
 
-  // The writer's.
+  // For the writer's thread.
   [[nodiscard]] HidReport giveReport(double now) noexcept override {
     if (wishes_.isNew()) {
       wish_ = wishes_.read();
@@ -101,7 +100,7 @@ class RawHidClient final : public HidClient {
            now - heard_at_ <= RawHidDevice::kFresh && now - wished_at_ <= RawHidDevice::kCommand;
   }
 
-  /// Without leave to drive the force fades with the motors on; then `idle_flags` are sent.
+  /// Unless the force may drive, it fades with the motors on; then `idle_flags` are sent.
   [[nodiscard]] HidReport make(bool may_drive, std::uint8_t idle_flags, double now) noexcept {
     const Vec3 f_D =
         gate_.advance(Eigen::Map<const Vec3>(wish_.f_D.data()), now - wished_at_, may_drive, now);
@@ -116,14 +115,14 @@ class RawHidClient final : public HidClient {
   LatestValue<RawHidWish> wishes_;
   std::atomic<std::uint64_t> lost_{0}, closures_{0};
 
-  RawHidWish next_wish_;  // the haptic thread's
+  RawHidWish next_wish_;  // of the haptic thread
 
-  Heard last_;  // the reader's
+  Heard last_;  // of the reader's thread
   bool was_heard_ = false;
-  std::atomic<bool> is_homed_{false};  // from the reader to the writer, with the time
+  std::atomic<bool> is_homed_{false};  // from the reader to the writer, with heard_at_
   std::atomic<double> heard_at_{-std::numeric_limits<double>::infinity()};
 
-  FalconForceGate gate_;  // the writer's
+  FalconForceGate gate_;  // of the writer's thread
   RawHidWish wish_;
   double wished_at_ = -std::numeric_limits<double>::infinity();
   std::uint64_t closures_seen_ = 0;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kMostForce = 8.0;       // [N]
 constexpr double kMostSlew = 2000.0;     // [N/s]
 constexpr double kHalfWorkspace = 0.05;  // [m]
-constexpr double kLongestStep = 0.1;     // between two positions that make a velocity [s]
+constexpr double kLongestStep = 0.1;     // longest step between two positions for a velocity [s]
 
 RawHidSettings checked(RawHidSettings settings) {
   using falcon_detail::require;
@@ -44,21 +44,21 @@ FalconForceLimits makeLimits(const RawHidSettings& settings) noexcept {
   limits.max_slew = kMostSlew;
   limits.ramp_in = settings.ramp_in;
   limits.hold = RawHidDevice::kCommand;
-  limits.fade = 0.0;  // it is closed then: by the slew
+  limits.fade = 0.0;  // no fade: the gate closes and the slew limits the force
   return limits;
 }
 
-/// Torques of a force of 1 N along each axis. Not finite where the legs are stretched.
+/// Torques per force of 1 N along each axis. Not finite where the legs are stretched.
 Eigen::Matrix3d computeTorquesByForce(const FalconPose& pose) noexcept {
   return pose.dangles_dp.transpose().inverse();
 }
 
 }  // namespace
 
-/// Where the grip is, by the newest report.
+/// State of the grip from the newest report.
 struct RawHidDevice::Grip {
   FalconKinematics kinematics;
-  std::optional<FalconPose> pose;  ///< nothing: unusable
+  std::optional<FalconPose> pose;  ///< empty: unusable
   AdaptiveWindow count_rates = makeUsualVelocityEstimator();
 };
 
@@ -83,7 +83,7 @@ DeviceSample RawHidDevice::read(double now) noexcept {
   const std::uint64_t closures = client_->closures();
   const bool was_closed = closures != closures_;
   closures_ = closures;
-  if (was_closed) pose.reset();  // what comes now is no motion of the grip
+  if (was_closed) pose.reset();  // a jump after the fault is no motion of the grip
   if (heard.count != heard_) {
     heard_ = heard.count;
     heard_at_ = now;
@@ -121,7 +121,7 @@ void RawHidDevice::write(const Vec3& f_W) noexcept {
   falcon_detail::RawHidWish& wish = client_->nextWish();
   wish.is_usable = is_usable_ && f_W.allFinite();
   wish.closures = closures_;
-  if (wish.is_usable) {  // else the force fades where the grip was last
+  if (wish.is_usable) {  // otherwise the force fades at the grip's last pose
     Eigen::Map<Vec3>(wish.f_D.data()) = settings_.q_WD.conjugate() * f_W;
     Eigen::Map<Eigen::Matrix3d>(wish.torques_by_force.data()) = computeTorquesByForce(*grip_->pose);
   }

@@ -38,7 +38,7 @@ void seal(RawHidBytes& bytes) noexcept {
   writeBytes(computeCrc16(bytes.data(), kCrc), 2, &bytes[kCrc]);
 }
 
-/// What both kinds have in common; bytes from `end` to the CRC must be 0.
+/// Checks common to both kinds. Bytes from `end` to the CRC must be 0.
 bool isSound(const std::uint8_t* bytes, std::size_t size, std::uint8_t kind,
              std::size_t end) noexcept {
   return size == kRawHidSize && bytes[0] == kVersion && bytes[1] == kind &&

@@ -13,7 +13,7 @@
 namespace tandem {
 namespace {
 
-/// A site that has stood for longer lets the point go on from where it was, without a jump [s].
+/// Longest integration step [s]. After a longer pause the point continues without a jump.
 constexpr double kLongestStep = 0.02;
 
 double checkedSilence(double silence) {
@@ -22,12 +22,13 @@ double checkedSilence(double silence) {
   return silence;
 }
 
-/// From the device's axes (y towards the user, z down) to the user's (y up, z towards the user).
+/// Converts the device's axes (y towards the user, z down) to the user's (y up, z towards the
+/// user).
 Vec3 toUser(const std::array<double, 6>& axes) noexcept { return {axes[0], -axes[2], axes[1]}; }
 
 }  // namespace
 
-/// Adds reports up where they come, and publishes the sum.
+/// Accumulates the reports on the reader's thread, and publishes the sum.
 class SpaceMouseDevice::Client final : public HidClient {
  public:
   struct Sum {

@@ -10,28 +10,29 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// How a SpaceMouse lays out its reports.
+/// Layout of a SpaceMouse's reports.
 enum class SpaceMouseLayout {
-  kOld,  ///< place and turn in turn, 7 bytes each
-  kNew   ///< both in 13 bytes
+  kOld,  ///< alternating translation and rotation, 7 bytes each
+  kNew   ///< translation and rotation in 13 bytes
 };
 
-/// Report descriptor of an emulated one: a multi-axis controller with two buttons.
+/// Report descriptor of an emulated SpaceMouse: a multi-axis controller with two buttons.
 [[nodiscard]] std::vector<std::uint8_t> makeSpaceMouseDescriptor(SpaceMouseLayout layout);
 
-/// The bytes of a SpaceMouse, in a time that is told: a report every 8 ms while the cap is moved,
-/// then three times zero, then silence. Buttons are told when they change.
+/// Emulates the reports of a SpaceMouse at a given time. While the cap is displaced there is a
+/// report every 8 ms. At rest there are three reports of zero, then silence. Buttons are reported
+/// when they change.
 class SpaceMouseEmulator {
  public:
   static constexpr double kPeriod = 0.008;  ///< between reports [s]
 
   explicit SpaceMouseEmulator(SpaceMouseLayout layout) : layout_(layout) {}
 
-  /// Displacement in counts, -350 to 350 for most units: x y z rx ry rz.
+  /// Sets the displacement in counts, -350 to 350 for most units: x y z rx ry rz.
   void move(const std::array<std::int16_t, 6>& counts) noexcept;
   void press(std::uint16_t buttons) noexcept;
 
-  /// The next report that is due at `now` [s], if one is; to be asked until none is.
+  /// Returns the next report due at `now` [s]. Call it until it returns nothing.
   [[nodiscard]] std::optional<HidReport> next(double now) noexcept;
 
  private:
@@ -41,8 +42,8 @@ class SpaceMouseEmulator {
   std::array<std::int16_t, 6> counts_{};
   std::uint16_t buttons_ = 0;
   bool buttons_changed_ = false, tells_turn_ = false;
-  int remaining_ = 0;  ///< reports until it is silent, while the cap is at rest
-  double due_ = 0.0;   ///< when the next report about the cap is [s]
+  int remaining_ = 0;  ///< reports of zero left before silence; -1: the cap is displaced
+  double due_ = 0.0;   ///< time of the next report about the cap [s]
 };
 
 }  // namespace tandem

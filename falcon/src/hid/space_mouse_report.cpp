@@ -15,7 +15,7 @@ constexpr std::array kOf3Dconnexion = {0xC62E, 0xC62F, 0xC631, 0xC632, 0xC633,
                                        0xC635, 0xC636, 0xC638, 0xC63A};
 constexpr int kGenericDesktop = 1, kMultiAxis = 8;
 
-/// `count` axes from the one named first.
+/// Reads `count` axes, starting at axis `first`.
 void readAxes(const std::uint8_t* from, std::size_t first, std::size_t count,
               SpaceMouseState& state) noexcept {
   for (std::size_t i = 0; i < count; ++i) {

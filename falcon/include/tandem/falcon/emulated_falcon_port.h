@@ -14,35 +14,38 @@ class ByteTransport;
 class FalconEmulator;
 struct FalconEmulatorSettings;
 
-/// An emulated Falcon behind a pseudo terminal, served by a thread in real time: any program that
-/// opens a tty meets it. Pseudo terminals have no DTR, so the emulator does without. Linux.
+/// An emulated Falcon behind a pseudo terminal, served in real time by its own thread. Any program
+/// that opens a tty can use it. Pseudo terminals have no DTR, so the emulator ignores DTR. Linux
+/// only.
 class EmulatedFalconPort {
  public:
-  /// `thread_priority`: SCHED_FIFO where it is granted, as a real device waits for no processor; 0:
-  /// as the process has it. Throws tandem::Error without pseudo terminals or a folder for temporary
-  /// files, std::invalid_argument as FalconEmulator does.
+  /// `thread_priority` is the SCHED_FIFO priority, where the system grants it; 0 keeps the
+  /// scheduling of the process. Real-time priority helps because a real device never waits for a
+  /// processor. Throws tandem::Error if there are no pseudo terminals or no temporary folder.
+  /// Throws std::invalid_argument as FalconEmulator does.
   explicit EmulatedFalconPort(const FalconEmulatorSettings& settings,
                               std::unique_ptr<Hand> hand = nullptr, int thread_priority = 0);
-  /// With the emulator's default settings.
+  /// Uses the emulator's default settings.
   explicit EmulatedFalconPort(std::unique_ptr<Hand> hand = nullptr);
   ~EmulatedFalconPort();
   EmulatedFalconPort(const EmulatedFalconPort&) = delete;
   EmulatedFalconPort& operator=(const EmulatedFalconPort&) = delete;
 
-  /// What to open: a link that stays while what it leads to changes, as /dev/serial/by-id does.
+  /// Path to open: a symbolic link that stays the same while its target changes, like
+  /// /dev/serial/by-id.
   [[nodiscard]] const std::string& path() const noexcept;
 
-  /// The line goes away as if the cable were pulled, and comes back, or throws as above. The device
-  /// keeps its power.
+  /// Removes the line as if the cable were pulled, and brings it back. The device keeps its power.
+  /// plugIn() throws like the constructor.
   void unplug();
   void plugIn();
 
-  /// Looks at the emulator, or does something to it, at the emulator's time [s]; its thread waits.
+  /// Calls `visitor` with the emulator and its time [s]. The emulator's thread waits meanwhile.
   void visit(const std::function<void(FalconEmulator&, double now)>& visitor);
 
-  /// What the motors push the grip with now, in the device's frame [N].
+  /// Force of the motors on the grip now, in the device's frame [N].
   [[nodiscard]] Vec3 readForce();
-  /// The most that they ever did [N].
+  /// Largest norm of that force so far [N].
   [[nodiscard]] double readMostForce();
 
  private:
@@ -50,8 +53,8 @@ class EmulatedFalconPort {
   std::unique_ptr<Server> server_;
 };
 
-/// A line to an emulator in this program, without pseudo terminal: for one thread, in which the
-/// emulator then runs in real time. The emulator must outlive it.
+/// Opens a line to an emulator in this program, without a pseudo terminal. For one thread only: the
+/// emulator runs in that thread, in real time. The emulator must outlive the line.
 [[nodiscard]] std::unique_ptr<ByteTransport> openEmulator(FalconEmulator& emulator);
 
 }  // namespace tandem

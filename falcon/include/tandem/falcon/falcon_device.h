@@ -12,29 +12,29 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Opens the line to a device, or throws; called again and again until it succeeds, from the
-/// device's thread. Must not block for long.
+/// Opens the line to a device, or throws. The device's thread calls it until it succeeds. Must not
+/// block for long.
 using OpenTransport = std::function<std::unique_ptr<ByteTransport>()>;
 
-/// A Novint Falcon. A thread of its own runs the driver and owns the line: it opens it, boots the
-/// device, asks it a thousand times a second, and begins anew after a loss. Before it leaves a
-/// line, whyever, it tries to take the force away. A force asked for while there was no line does
-/// not count. The side that ticks
-/// meets that thread in two latest values: read() and write() are wait-free, without lock,
+/// A Novint Falcon. Its own thread owns the line and runs the driver. The thread opens the line,
+/// boots the device, polls it at 1 kHz and starts again after a loss. Before it closes a line it
+/// tries to send zero force. Forces written while there was no line are ignored.
+///
+/// read() and write() exchange two latest values with that thread. They are wait-free: no lock,
 /// allocation or system call.
 ///
-/// Clocks are not mixed. read(now) gives the newest reading, valid as long as its number grows: one
-/// that is the newest for more than 20 ms of the caller's own time is not. Its position is older
-/// than the first read that sees it by one exchange with the device and one read at most. The
-/// force's age is told by the thread's clock from when a write is seen, within a millisecond.
+/// The two clocks are never mixed. read(now) returns the newest reading. It is valid until the same
+/// reading has been the newest for 20 ms of the caller's time. A position is at most one exchange
+/// and one read older than the first read that returns it. The age of the force is measured by the
+/// thread's clock, from when it sees a write, within 1 ms.
 ///
-/// W is the device's frame D (x right, y up, z to the user) moved to its centre.
+/// W is the device's frame D (x right, y up, z to the user) with its origin at the device's centre.
 class FalconDevice final : public HapticDevice {
  public:
-  /// Starts the thread; returns at once. Throws std::invalid_argument as FalconDriver does.
+  /// Starts the thread and returns at once. Throws std::invalid_argument as FalconDriver does.
   FalconDevice(const FalconSettings& settings, FirmwareImage image, OpenTransport open);
-  /// Takes the force away, frame by frame, puts the lights out and closes the line; 0.2 s at most,
-  /// and what the line's own calls take.
+  /// Ramps the force to zero, turns the lights off and closes the line. Takes at most 0.2 s plus
+  /// the time of the line's own calls.
   ~FalconDevice() override;
   FalconDevice(const FalconDevice&) = delete;
   FalconDevice& operator=(const FalconDevice&) = delete;
@@ -43,10 +43,10 @@ class FalconDevice final : public HapticDevice {
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3& f_W) noexcept override;
 
-  /// How it does; for one thread, whichever it is. Wait-free.
+  /// Status of the device. Wait-free. Only one thread may call it, any one.
   [[nodiscard]] const FalconStatus& status() noexcept;
-  /// Of FalconButton, those that are pressed; none while it does not answer. Wait-free, for any
-  /// thread.
+  /// Pressed buttons as bits of FalconButton; 0 while the device does not answer. Wait-free, for
+  /// any thread.
   [[nodiscard]] std::uint8_t buttons() const noexcept;
 
  private:

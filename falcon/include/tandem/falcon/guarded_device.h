@@ -11,73 +11,74 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// What a GuardedDevice holds its device to. The device's own capabilities count where smaller.
+/// Limits of a GuardedDevice. Smaller limits of the device itself take precedence.
 struct GuardSettings {
-  double max_force = 8.0;    ///< [N], norm, > 0; about what a Falcon gives
-  double max_slew = 2000.0;  ///< fastest change of the force [N/s], > 0: 2 N in a millisecond
-  double ramp = 0.5;         ///< from nothing to the whole force after a cut [s], >= 0
+  double max_force = 8.0;  ///< [N], norm, > 0; about the force of a Falcon
+  double max_slew =
+      2000.0;  ///< fastest change of the force [N/s], > 0; the default is 2 N per millisecond
+  double ramp = 0.5;  ///< time from zero to full force after a cut [s], >= 0
 };
 
-/// Why a GuardedDevice takes its device's force away.
+/// Reason why a GuardedDevice takes the force away.
 enum class GuardCut : std::uint8_t {
   kNotValid,   ///< no usable position: not homed, unplugged, not finite
-  kDeadMan,    ///< the dead-man switch is let go
-  kStale,      ///< nobody has written for 50 ms
-  kLate,       ///< more than 50 ms between two reads; the force was held all the while
-  kTime,       ///< the time is not finite, runs back, or stands for 50 reads
-  kNotFinite,  ///< a force that is no number was written
+  kDeadMan,    ///< the dead-man switch is released
+  kStale,      ///< no write for 50 ms
+  kLate,       ///< more than 50 ms between two reads; the device held its force meanwhile
+  kTime,       ///< the time is not finite, runs back, or stands still for 50 reads
+  kNotFinite,  ///< a non-finite force was written
 };
 inline constexpr std::size_t kGuardCuts = 6;
 
-/// What a GuardedDevice has done.
+/// State and counters of a GuardedDevice.
 struct GuardStatus {
-  Vec3 force = Vec3::Zero();  ///< as the device has it now [N]
-  double share = 0.0;         ///< of the force that the ramp lets through, 0 to 1
-  bool is_cut = true;         ///< as of the last read or write; at first there is no position
-  std::uint64_t clamped = 0;  ///< writes beyond the greatest force
-  std::uint64_t slewed = 0;   ///< writes that would have changed it too fast
-  std::uint64_t ramped = 0;   ///< writes that the ramp made smaller
-  std::array<std::uint64_t, kGuardCuts> cuts{};  ///< how often each began, by GuardCut
+  Vec3 force = Vec3::Zero();  ///< force on the device now [N]
+  double share = 0.0;         ///< fraction of the force that the ramp lets through, 0 to 1
+  bool is_cut = true;  ///< as of the last read or write; true before the first valid position
+  std::uint64_t clamped = 0;  ///< writes above max_force
+  std::uint64_t slewed = 0;   ///< writes that changed the force faster than max_slew
+  std::uint64_t ramped = 0;   ///< writes that the ramp reduced
+  std::array<std::uint64_t, kGuardCuts> cuts{};  ///< number of cuts by GuardCut
 };
 
-/// The last guard of a hand before a device, which trusts nothing that is above it. Each write goes
-/// through
+/// Last safety guard before a device; it trusts no caller. Each write passes these stages:
 ///
 ///   not finite: cut  ->  no longer than max_force  ->  ramp  ->  no faster than max_slew
 ///
-/// with the direction of the force kept by the first three. A cut (GuardCut) takes the force to
-/// zero and begins the ramp anew when it is over. Zero is reached within 100 ms of whatever goes
-/// wrong, as long as read() is called every 10 ms at least; usually within 4 ms of its being seen.
-/// A loop that calls no more leaves the force to the device's own watchdog.
+/// The first three stages keep the direction of the force. A cut (GuardCut) takes the force to
+/// zero; the ramp restarts when the cut ends. The force is zero within 100 ms of any fault if
+/// read() is called at least every 10 ms. Usually it is zero within 4 ms of detection. If the loop
+/// stops calling, the device's own watchdog must act.
 ///
-/// Slew counts the time that read() tells, not the calls: a change may be max_slew times the time
-/// since the last one, of which a write counts 2 ms at most, so that a late loop saves nothing up
-/// for a jump. A cut counts all of it, and goes as fast as max_force in 30 ms if max_slew is
-/// slower. Only a time that makes no sense takes the force away at once.
+/// The slew limit uses the time that read() is told, not the number of calls. A change may be at
+/// most max_slew times the time since the last change. A write counts at most 2 ms of it, so a late
+/// loop cannot save up time for a jump. A cut counts all of it, and takes at most 30 ms from
+/// max_force to zero even if max_slew is slower. Only an invalid time removes the force at once.
 ///
-/// Call read(), then write() with the force of it. Real-time safe but for its making; one thread,
-/// and any for the dead-man switch. The device's force is zero when this is destroyed.
+/// Call read(), then write() with the resulting force. Real-time safe except for construction. One
+/// thread uses it; any thread may use the dead-man switch. The destructor sets the device's force
+/// to zero.
 class GuardedDevice final : public HapticDevice {
  public:
-  /// Throws std::invalid_argument for no device or settings out of range.
+  /// Throws std::invalid_argument if there is no device or a setting is out of range.
   explicit GuardedDevice(std::unique_ptr<HapticDevice> device, const GuardSettings& settings = {});
   ~GuardedDevice() override;
   GuardedDevice(const GuardedDevice&) = delete;
   GuardedDevice& operator=(const GuardedDevice&) = delete;
 
-  /// The device's, with the guard's own limits.
+  /// Capabilities of the device within the guard's limits.
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
     return capabilities_;
   }
-  /// The device's, not valid unless finite.
+  /// Sample of the device; not valid unless finite.
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3& f) noexcept override;
 
-  /// The dead-man switch: held (true, as at first) or let go; from the next read on. From any
-  /// thread.
+  /// Sets the dead-man switch: held (true, the initial state) or released. Acts from the next read
+  /// on. For any thread.
   void holdDeadMan(bool is_held) noexcept { is_held_.store(is_held, std::memory_order_relaxed); }
 
-  /// For the thread that reads and writes.
+  /// For the thread that calls read() and write().
   [[nodiscard]] const GuardStatus& status() const noexcept { return status_; }
 
  private:
@@ -90,13 +91,14 @@ class GuardedDevice final : public HapticDevice {
   DeviceCapabilities capabilities_;
   double ramp_, fade_slew_;
   GuardStatus status_;
-  GuardCut reason_ = GuardCut::kNotValid;  ///< of the cut, while there is one
+  GuardCut reason_ = GuardCut::kNotValid;  ///< reason of the current cut
   std::atomic<bool> is_held_{true};
-  double now_ = 0.0, passed_ = 0.0;  ///< of the last read; since the one before [s]
-  double unused_ = 0.0;              ///< time that has not gone into a change yet [s]
-  double last_write_ = 0.0;          ///< [s]
+  double now_ = 0.0,
+         passed_ = 0.0;      ///< time of the last read, and interval since the one before [s]
+  double unused_ = 0.0;      ///< time not yet used for a change of force [s]
+  double last_write_ = 0.0;  ///< time of the last write [s]
   bool was_read_ = false, is_time_wrong_ = false;
-  int standing_ = 0;  ///< reads in a row that told no later time
+  int standing_ = 0;  ///< reads in a row whose time did not advance
 };
 
 }  // namespace tandem

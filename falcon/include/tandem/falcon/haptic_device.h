@@ -8,28 +8,29 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// What a haptic device can do; the site limits itself to it.
+/// Capabilities of a haptic device. The site stays within them.
 struct DeviceCapabilities {
   std::string name;
-  int degrees_of_freedom = 3;                                  ///< rendered forces
+  int degrees_of_freedom = 3;  ///< number of rendered force components
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], norm
   /// Fastest change of the force that the hand should feel [N/s].
   double max_slew = std::numeric_limits<double>::infinity();
-  double max_stiffness = std::numeric_limits<double>::infinity();  ///< [N/m] that still feels calm
+  double max_stiffness =
+      std::numeric_limits<double>::infinity();  ///< stiffest spring that feels stable [N/m]
   Vec3 workspace = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< half extents [m]
-  /// read() is exact at any moment, also between two ticks: packets then carry the state of their
-  /// own moment instead of the last tick's, carried on. No real device is.
+  /// True if read() is exact at any time, also between two ticks. Packets then carry the state of
+  /// their own moment, not the extrapolated state of the last tick. No real device is continuous.
   bool is_continuous = false;
 };
 
 /// One reading of a device.
 struct DeviceSample {
   PointState hip;      ///< haptic interface point, in W
-  bool valid = false;  ///< false: the device gave nothing usable; the site then renders no force
+  bool valid = false;  ///< false: no usable reading; the site then renders no force
 };
 
-/// A haptic device: read the hand's position, render a force. Non-blocking, `noexcept`, no
-/// allocation: called from the thread that ticks the site.
+/// A haptic device: reads the hand's position and renders a force. Calls are non-blocking,
+/// `noexcept` and do not allocate. The thread that ticks the site makes them.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
@@ -38,7 +39,8 @@ class HapticDevice {
   /// State of the haptic interface point at time `now` [s].
   [[nodiscard]] virtual DeviceSample read(double now) noexcept = 0;
 
-  /// Force on the hand, in W [N]; held by the device until the next write. Non-finite means zero.
+  /// Sets the force on the hand, in W [N]. The device holds it until the next write. A non-finite
+  /// force means zero.
   virtual void write(const Vec3& f_W) noexcept = 0;
 };
 

@@ -13,89 +13,90 @@ namespace tandem {
 
 class ByteTransport;
 
-/// An identifier and the 64 bytes that a full speed interrupt transfer carries.
+/// Largest report: the identifier and the 64 bytes of a full-speed interrupt transfer.
 inline constexpr std::size_t kMostHidReport = 65;
 
-/// One report as it goes over the line. With identifiers the first byte is one; a report that is
-/// sent without them starts with a 0 all the same.
+/// One report as sent over the line. The first byte is the identifier; it is 0 for devices without
+/// identifiers.
 struct HidReport {
   std::array<std::uint8_t, kMostHidReport> bytes{};
-  std::size_t size = 0;  ///< 0: there is none
+  std::size_t size = 0;  ///< [bytes]; 0: no report
 };
 
-/// An open HID device. Never throws once it is made; calls may wait. One thread may read while
-/// another writes and uses features; not more.
+/// An open HID device. No call throws once it is open; calls may wait. One thread may read while
+/// another one writes and uses features.
 class HidPort {
  public:
   virtual ~HidPort() = default;
 
-  /// What it is, for messages: "HID 256f:c635 SpaceMouse Compact".
+  /// Name for messages: "HID 256f:c635 SpaceMouse Compact".
   [[nodiscard]] virtual const std::string& name() const noexcept = 0;
 
-  /// The next input report, after waiting for it up to `wait` [s]: its size, 0 for none, negative
-  /// if the device is gone. What is beyond `room` is cut off.
+  /// Waits up to `wait` [s] for the next input report and returns its size. Returns 0 if none came,
+  /// a negative number if the device is gone. Cuts off what exceeds `room`.
   [[nodiscard]] virtual std::ptrdiff_t read(std::uint8_t* report, std::size_t room,
                                             double wait) noexcept = 0;
 
-  /// Sends an output report. False: the device is gone or does not take it.
+  /// Sends an output report. Returns false if the device is gone or refuses it.
   [[nodiscard]] virtual bool write(const std::uint8_t* report, std::size_t size) noexcept = 0;
 
-  /// Sends a feature report. False: the device is gone or does not take it.
+  /// Sends a feature report. Returns false if the device is gone or refuses it.
   [[nodiscard]] virtual bool setFeature(const std::uint8_t* report, std::size_t size) noexcept = 0;
 
-  /// Asks for the feature report that `report[0]` names: its size, with the identifier; negative:
-  /// there is none.
+  /// Requests the feature report with identifier `report[0]`. Returns its size with the identifier,
+  /// or a negative number if there is none.
   [[nodiscard]] virtual std::ptrdiff_t getFeature(std::uint8_t* report,
                                                   std::size_t room) noexcept = 0;
 };
 
-/// How a HID interface is found; 0, -1 and empty mean any.
+/// Search pattern for a HID interface; 0, -1 and empty match any.
 struct HidAddress {
   int vendor = 0, product = 0;
-  int usage_page = 0, usage = 0;  ///< of its first collection
-  int interface_number = -1;      ///< of a USB device with several
+  int usage_page = 0, usage = 0;  ///< of the interface's first collection
+  int interface_number = -1;      ///< for USB devices with several interfaces
   std::string path;               ///< "/dev/hidraw3"
-  std::string product_name;       ///< told by findHid(), not asked for
+  std::string product_name;       ///< filled in by findHid(); not part of the search
 };
 
-/// True if all that `like` names is so.
+/// True if every field that `like` sets matches `found`.
 [[nodiscard]] bool isLike(const HidAddress& found, const HidAddress& like) noexcept;
 
-/// "256f:c635 SpaceMouse Compact (/dev/hidraw3)", as much as is known; "any" if nothing is.
+/// Text of the known fields, "256f:c635 SpaceMouse Compact (/dev/hidraw3)"; "any" if none is known.
 [[nodiscard]] std::string toText(const HidAddress& address);
 
-/// Opens a device anew, at the start and after it was unplugged; throws tandem::Error if it cannot.
+/// Opens a device at the start and again after it was unplugged. Throws tandem::Error on failure.
 using HidOpener = std::function<std::unique_ptr<HidPort>()>;
 
-/// The HID interfaces that are plugged in now and are like that. Needs tandem_devices, as does
-/// openHid(). Thread safe.
+/// Lists the HID interfaces plugged in now that match `like`. Thread safe. Needs tandem_devices, as
+/// does openHid().
 [[nodiscard]] std::vector<HidAddress> findHid(const HidAddress& like = {});
 
-/// Opens the one at `address.path`, or else the first like it, through hidapi: no kernel driver,
-/// but the right to read and write its hidraw node. Throws tandem::Error with the remedy if it is
-/// not there or may not be opened. Thread safe.
+/// Opens `address.path`, or else the first interface that matches, through hidapi. Needs the right
+/// to read and write its hidraw node, but no kernel driver. Throws tandem::Error with the remedy on
+/// failure. Thread safe.
 [[nodiscard]] std::unique_ptr<HidPort> openHid(const HidAddress& address);
 
 /// The serial one of an FT260's two interfaces.
 inline const HidAddress kFt260{0x0403, 0x6030, 0, 0, 1, "", ""};
 
-/// Opens it. Throws tandem::Error with the remedy. Needs tandem_devices.
+/// Opens the bridge as a serial line. Throws tandem::Error with the remedy. Needs tandem_devices.
 [[nodiscard]] std::unique_ptr<ByteTransport> openHidUart(const HidAddress& address = kFt260);
 
-/// How a HID device is written to, and looked for again after it was unplugged.
+/// Write period of a HID device, and pauses before it is reopened after unplugging.
 struct HidStreamSettings {
-  double write_period = 0.0;   ///< [s], > 0; 0: nothing is ever sent
-  double first_retry = 0.1;    ///< until an unplugged device is looked for again [s], > 0
-  double longest_retry = 2.0;  ///< each try waits twice as long as the last, up to this [s]
+  double write_period = 0.0;   ///< time between reports to the device [s], > 0; 0: never writes
+  double first_retry = 0.1;    ///< pause before the first attempt to reopen [s], > 0
+  double longest_retry = 2.0;  ///< longest pause [s]; the pause doubles after each attempt
 };
 
-/// What a HID device and its line have done.
+/// Counters of a HID device and its line.
 struct HidStreamCounters {
-  std::uint64_t reports = 0;       ///< that came
-  std::uint64_t refused = 0;       ///< of them, that the client could make nothing of
-  std::uint64_t written = 0;       ///< that went out
-  std::uint64_t write_misses = 0;  ///< periods without a report, because the last one took longer
-  std::uint64_t losses = 0;        ///< times that the device was unplugged
+  std::uint64_t reports = 0;  ///< input reports received
+  std::uint64_t refused = 0;  ///< received reports that the client could not use
+  std::uint64_t written = 0;  ///< output reports sent
+  std::uint64_t write_misses =
+      0;  ///< periods without an output report, because the last write took longer
+  std::uint64_t losses = 0;  ///< times that the device was unplugged
 };
 
 }  // namespace tandem

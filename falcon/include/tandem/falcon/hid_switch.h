@@ -13,32 +13,32 @@ namespace tandem {
 
 class HidStream;
 
-/// How a pedal or button shows in a report.
+/// Encoding of a pedal or button in a report.
 enum class HidSwitchKind {
-  kBits,  ///< any bit of the mask `value` in one byte
-  kKey,   ///< the key `value` (usage page 7) among the bytes from there on: most pedals are
-          ///< keyboards
-  kUsage  ///< the 16-bit usage `value` there, lower byte first: consumer controls
+  kBits,  ///< on if any bit of the mask `value` is set in one byte
+  kKey,   ///< on if key `value` (usage page 7) is among the bytes from `byte` on; most pedals
+  kUsage  ///< on if the 16-bit usage at `byte` is `value`, lower byte first: consumer controls
 };
 
-/// Where it shows. The default is the first button of a device without identifiers.
+/// Place of the switch in a report. The default is the first button of a device without
+/// identifiers.
 struct HidSwitchMap {
   HidSwitchKind kind = HidSwitchKind::kBits;
-  int report = 0;        ///< identifier, 0: the device has none
-  std::size_t byte = 0;  ///< counted as in the report, its identifier included
+  int report = 0;        ///< identifier of the report; 0: the device has none
+  std::size_t byte = 0;  ///< index in the report, counted with the identifier
   std::uint16_t value = 1;
 };
 
-/// The switch in one report; nothing if the report is about something else.
+/// State of the switch in one report; empty if the report does not carry the switch.
 [[nodiscard]] std::optional<bool> readSwitch(const HidSwitchMap& map, const std::uint8_t* report,
                                              std::size_t size) noexcept;
 
-/// A pedal or button on HID, as a clutch or a dead man's switch. What is not known to be pressed is
-/// not pressed: unplugged, before its first report, after a report that is too short.
+/// A pedal or button on HID, used as a clutch or a dead-man switch. It counts as not pressed in
+/// doubt: when unplugged, before the first report and after a report that is too short.
 class HidSwitch {
  public:
-  /// Throws what `open` throws; std::invalid_argument, naming the value, for a map that no report
-  /// can fulfil.
+  /// Throws what `open` throws. Throws std::invalid_argument with the value's name for a map that
+  /// no report can match.
   HidSwitch(HidOpener open, const HidSwitchMap& map, const HidStreamSettings& settings = {});
   ~HidSwitch();
 

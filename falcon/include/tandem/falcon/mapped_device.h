@@ -8,39 +8,39 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Where a device's small workspace lies in the world.
+/// Placement of a device's small workspace in the world.
 struct WorkspaceSettings {
-  Quat q_WD = Quat::Identity();  ///< turns the device's axes into the world's; unit
-  Vec3 centre_D = Vec3::Zero();  ///< point of the device ... [m]
-  Vec3 centre_W = Vec3::Zero();  ///< ... that is here in the world [m]
-  double scale = 1.0;            ///< s: way in the world by way of the hand, > 0
-  /// g: force on the hand by force in the world, > 0. 1: as many newtons as the world has, and the
-  /// hand feels g s K of a spring K; 1 / s: the spring itself; s: no work is lost or won.
+  Quat q_WD = Quat::Identity();  ///< rotation from the device's frame to the world's; unit
+  Vec3 centre_D = Vec3::Zero();  ///< point of the device [m] that maps to centre_W
+  Vec3 centre_W = Vec3::Zero();  ///< image of centre_D in the world [m]
+  double scale = 1.0;            ///< s: world displacement per hand displacement, > 0
+  /// g: force on the hand per force in the world, > 0. A world spring K feels like g s K. With g =
+  /// 1 the hand feels the world's newtons, with 1 / s its stiffness, with s equal work.
   double force_scale = 1.0;
 };
 
-/// Motions of a device D to the world W, forces back:
+/// Maps motions of a device D to the world W, and forces back:
 ///
 ///   p_W = c_W + s R (p_D - c_D)      v_W = s R v_D      f_D = g R^T f_W
 ///
-/// The hand's work is that of the world times g / s: f_D . v_D = g / s f_W . v_W. The factor is
-/// constant and above zero, so what is passive in the world is passive at the hand, whatever s.
+/// The hand's work is the world's times g / s: f_D . v_D = g / s f_W . v_W. The factor is constant
+/// and positive, so a passive world stays passive at the hand for any s.
 ///
-/// A value; pure and real-time safe but for its making.
+/// A value. Pure and real-time safe except for construction.
 class WorkspaceMap {
  public:
-  /// Throws std::invalid_argument, naming the value, for settings out of range.
+  /// Throws std::invalid_argument with the value's name for settings out of range.
   explicit WorkspaceMap(const WorkspaceSettings& settings = {});
 
   [[nodiscard]] PointState toWorld(const PointState& hip_D) const noexcept;
-  /// Force on the hand by the force in the world [N].
+  /// Force on the hand for a force in the world [N].
   [[nodiscard]] Vec3 toDevice(const Vec3& f_W) const noexcept;
 
-  /// What the device can do, as seen from the world. The workspace is the half extents of the box
-  /// along the world's axes that holds the turned one.
+  /// Capabilities of the device seen from the world. The workspace becomes the half extents of the
+  /// world-aligned box around the rotated one.
   [[nodiscard]] DeviceCapabilities toWorld(DeviceCapabilities capabilities) const;
 
-  /// From now on `p_D` is at `p_W`; axes and scales stay.
+  /// Makes `p_D` map to `p_W` from now on. Axes and scales stay.
   void place(const Vec3& p_D, const Vec3& p_W) noexcept;
 
   [[nodiscard]] const WorkspaceSettings& settings() const noexcept { return settings_; }
@@ -50,17 +50,18 @@ class WorkspaceMap {
   Eigen::Matrix3d r_WD_;
 };
 
-/// A device seen through a WorkspaceMap, with a clutch. Of the device beneath, what is called W in
-/// the interface is its own frame D.
+/// A device seen through a WorkspaceMap, with a clutch. The inner device's W is its own frame D.
 ///
-/// While the clutch is out the world's point stands still and the hand feels nothing, so that it
-/// can go back to the middle of its workspace; when it takes again the map is placed anew, so that
-/// the point goes on from where it stands. A reading that is not valid moves nothing and places
-/// nothing. A device that comes back with other positions (homed again) is mapped as before: the
-/// point is then where the hand is; let the clutch out and in to place it anew.
+/// While the clutch is out the world point stands still and the hand feels no force. The hand can
+/// then return to the middle of its workspace. When the clutch engages, the map is placed anew and
+/// the point continues from where it stands. An invalid reading neither moves the point nor places
+/// the map.
+///
+/// A device that returns with other positions (homed again) keeps its old map, so the point jumps
+/// to the hand. Open and close the clutch to place it anew.
 class MappedDevice final : public HapticDevice {
  public:
-  /// Throws std::invalid_argument for no device or settings out of range.
+  /// Throws std::invalid_argument if there is no device or a setting is out of range.
   MappedDevice(std::unique_ptr<HapticDevice> device, const WorkspaceSettings& settings);
 
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
@@ -69,19 +70,20 @@ class MappedDevice final : public HapticDevice {
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3& f_W) noexcept override;
 
-  /// Lets the clutch in (true, as at first) or out; from the next read on. From any thread.
+  /// Engages the clutch (true, the initial state) or opens it, from the next read on. For any
+  /// thread.
   void setEngaged(bool is_engaged) noexcept {
     is_wanted_.store(is_engaged, std::memory_order_relaxed);
   }
-  /// As of the last read. For the thread that reads.
+  /// State of the clutch at the last read. For the thread that reads.
   [[nodiscard]] bool isEngaged() const noexcept { return is_engaged_; }
 
-  /// Puts the world's point at `p_W`, from where it goes on when the clutch takes: a scene can say
-  /// where it starts, wherever the hand is. False, and nothing, unless the clutch is out as of the
-  /// last read. For the thread that reads.
+  /// Puts the world point at `p_W`; it moves on from there when the clutch engages. A scene uses it
+  /// to choose the start, wherever the hand is. Returns false and does nothing unless the clutch
+  /// was out at the last read. For the thread that reads.
   bool putPoint(const Vec3& p_W) noexcept;
 
-  /// As it is now: the clutch has moved its centres. For the thread that reads.
+  /// The current map; the clutch moves its centres. For the thread that reads.
   [[nodiscard]] const WorkspaceMap& map() const noexcept { return map_; }
 
  private:
@@ -90,7 +92,7 @@ class MappedDevice final : public HapticDevice {
   DeviceCapabilities capabilities_;
   std::atomic<bool> is_wanted_{true};
   bool is_engaged_ = true, was_read_ = false;
-  Vec3 p_W_;  ///< of the last valid reading; where the point stands
+  Vec3 p_W_;  ///< world point of the last valid reading
 };
 
 }  // namespace tandem
