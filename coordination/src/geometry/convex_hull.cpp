@@ -7,13 +7,13 @@
 
 #include "geometry/convex_polyhedron.h"
 
-// The hull grows from a tetrahedron: the point that is farthest out of a face becomes a corner, and
-// what is seen from it is replaced by triangles to it.
+// The hull grows from a tetrahedron. The point farthest outside a face becomes a corner; new
+// triangles to it replace the faces that it sees.
 
 namespace tandem {
 namespace {
 
-/// Points that are less than this part of the size out of a face are on it.
+/// Points within this share of the size from a face are on it.
 constexpr double kOnFace = 1e-7;
 
 class Hull {
@@ -56,7 +56,7 @@ class Hull {
     std::array<int, 3> corners;
     Vec3 normal;
     double offset;
-    bool is_done = false;  ///< no point is out of it
+    bool is_done = false;  ///< no point is outside
   };
 
   [[nodiscard]] const Vec3& at(int point) const { return points_[static_cast<std::size_t>(point)]; }
@@ -64,8 +64,8 @@ class Hull {
     return face.normal.dot(p) - face.offset;
   }
 
-  /// Of points that are as far, the one farthest from the middle: a corner of the hull, not a point
-  /// on its edge.
+  /// The farthest point by `measure`. Of equally far points, the one farthest from the middle: a
+  /// corner of the hull, not on its edge.
   template <typename Measure>
   [[nodiscard]] int findFarthest(Measure measure) const {
     int best = 0;

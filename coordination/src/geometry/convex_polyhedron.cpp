@@ -8,8 +8,7 @@
 namespace tandem {
 namespace {
 
-/// Corners in front of a face by less than this part of the size are rounding of a hull that was
-/// found in single precision.
+/// Share of the size that a corner may be in front of a face: rounding of single-precision hulls.
 constexpr double kTolerance = 1e-6;
 constexpr double kShortest = 1e-12;
 
@@ -35,7 +34,7 @@ ConvexPolyhedron::ConvexPolyhedron(std::vector<Vec3> vertices,
   for (const std::vector<int>& corners : faces) addFace(corners, size);
 }
 
-/// Each side of a face is that of another face, the other way round.
+/// Requires that each side of a face is also a side of another face, in opposite direction.
 void ConvexPolyhedron::checkClosed(const std::vector<std::vector<int>>& faces) const {
   std::set<std::pair<int, int>> sides;
   for (const std::vector<int>& corners : faces) {
@@ -53,7 +52,7 @@ void ConvexPolyhedron::checkClosed(const std::vector<std::vector<int>>& faces) c
 
 void ConvexPolyhedron::addFace(const std::vector<int>& corners, double size) {
   const auto corner = [&](std::size_t i) { return vertices_[corners[i % corners.size()]]; };
-  // Newell's normal: of the plane that fits all corners.
+  // Newell's method: the normal of the plane that fits all corners.
   Vec3 area = Vec3::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i)
     area += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));

@@ -7,7 +7,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A convex solid with flat faces, in its body's frame. Made once; a ConvexHull refers to it.
+/// A convex solid with flat faces, in its body's frame. Immutable; a ConvexHull refers to it.
 class ConvexPolyhedron {
  public:
   /// One side of a face. Seen from outside, a face's sides run counter-clockwise.
@@ -17,22 +17,23 @@ class ConvexPolyhedron {
     Vec3 outward = Vec3::Zero();  ///< unit vector in the face's plane, out of the face
     double length = 0.0;          ///< [m]
   };
-  /// Solid below `normal . p <= offset`; sides [first, first + count).
+  /// A face with its outward normal: `normal . p <= offset` holds in the solid. Its sides are
+  /// [first, first + count).
   struct Face {
     Vec3 normal = Vec3::UnitX();
     double offset = 0.0;
     int first = 0, count = 0;
   };
 
-  /// `faces` has the corners of each face as places in `vertices`, counter-clockwise seen from
-  /// outside. Sides shorter than a 1e-12th of the size are left out. Throws std::invalid_argument
-  /// for values that are not finite, fewer than four faces, a face of fewer than three corners or
-  /// without area, or what is no closed convex solid within 1e-6 of its size.
+  /// `faces` lists the corners of each face as indices into `vertices`, counter-clockwise seen from
+  /// outside. Sides shorter than 1e-12 of the size are dropped. Throws std::invalid_argument for
+  /// non-finite values, fewer than four faces, or a face without area or with fewer than three
+  /// corners. Also throws unless the solid is closed and convex within 1e-6 of its size.
   ConvexPolyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces);
 
-  /// The smallest convex solid that holds all points, its faces cut into triangles. Points within a
-  /// 1e-7th of the size of its surface make no corner. Throws std::invalid_argument if the points
-  /// are not finite or lie in one plane.
+  /// Convex hull of the points, with triangular faces. Points within 1e-7 of the size from its
+  /// surface become no corners. Throws std::invalid_argument if the points are not finite or lie in
+  /// one plane.
   [[nodiscard]] static ConvexPolyhedron makeHull(const std::vector<Vec3>& points);
 
   [[nodiscard]] const std::vector<Vec3>& vertices() const noexcept { return vertices_; }
@@ -40,7 +41,7 @@ class ConvexPolyhedron {
   [[nodiscard]] const Side* sides(const Face& face) const noexcept {
     return sides_.data() + face.first;
   }
-  /// Of a ball around the body's origin that holds it [m].
+  /// Radius of the sphere around the body's origin that holds the solid [m].
   [[nodiscard]] double boundingRadius() const noexcept { return bounding_radius_; }
 
  private:

@@ -4,28 +4,30 @@
 #include "geometry/mesh_pieces.h"
 #include "geometry/triangle_mesh.h"
 
-// A feature of a triangle (its face, an edge or a corner that it owns) pushes a centre that is in
-// the feature's region: where all of some margins are positive.
+// clang-format off
+// Each feature of a triangle (its face, or an edge or corner that it owns) has a region. It pushes
+// a centre inside its region, where all margins of the region are positive.
 //
 //                |  face of A  |  edge  /
 //                |    region   |  of A / face of B
 //         -------+-------------+      /
 //                      A        \    /
 //                              B \  /
+// clang-format on
 
 namespace tandem {
 namespace {
 
 using Meeting = TriangleMesh::Meeting;
 
-/// Nearer than this to the plane between two regions, a centre is in the one that a fixed tiny move
-/// would take it to [m]: exactly one, however many planes meet there.
+/// Within this distance of the plane between two regions, a fixed tiny shift decides the region
+/// [m]. The centre is then in exactly one, however many planes meet there.
 constexpr double kOnPlane = 1e-12;
 
-/// What rounding may do to a depth [m].
+/// Rounding error of a depth [m].
 constexpr double kSameDepth = 1e-12;
 
-/// Height of c over the plane through p, never 0; `normal` and its opposite give opposite heights.
+/// Height of c over the plane through p, never 0. `normal` and its opposite give opposite heights.
 double computeMargin(const PlainVec& c, const Vec3& p, const Vec3& normal) noexcept {
   const double height = dot(PlainVec(normal), c - PlainVec(p));
   if (std::abs(height) > kOnPlane) return height;
@@ -46,12 +48,12 @@ const TriangleMesh::Edge& edgeAt(const TriangleMesh& mesh, int place) noexcept {
   return triangleAt(mesh, place / 3).edges[static_cast<std::size_t>(place % 3)];
 }
 
-/// True for a concave edge that the centre is beyond: the face goes on there, behind the wall.
+/// True if the centre is beyond a concave edge: the face's region continues behind the other wall.
 bool goesOnBehind(const TriangleMesh::Edge& edge, const PlainVec& c) noexcept {
   return edge.meeting == Meeting::kConcave && computeMargin(c, edge.start, edge.inward) < 0.0;
 }
 
-/// How far the centre is in the region of the face, were there no other triangles but neighbours.
+/// Margin of the face's region, counting only the triangle and its neighbours [m].
 double computeOwnMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
                         const PlainVec& c) noexcept {
   std::array<bool, 3> behind;
@@ -62,7 +64,7 @@ double computeOwnMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& 
     const TriangleMesh::Edge& edge = triangle.edges[k];
     if (behind[k]) {
       margin = std::min(margin, -heightOver(triangleAt(mesh, edge.mate / 3), c));
-      // From one end of the edge to the other, unless it goes on behind the next wall there, too.
+      // Limited by the ends of the edge, unless the face also continues behind the next wall there.
       const bool is_turned = edge.start != triangle.corners[k].p;
       if (!behind[(k + (is_turned ? 1 : 2)) % 3])
         margin = std::min(margin, computeMargin(c, edge.start, edge.along));
@@ -98,7 +100,7 @@ double computeCornerMargin(const TriangleMesh& mesh, const TriangleMesh::Corner&
   return margin;
 }
 
-/// Margin of a feature of a triangle; no feature of its own has none.
+/// Margin of a triangle's feature [m]; -infinity if the triangle does not own it.
 double computeFeatureMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
                             int feature, const PlainVec& c) noexcept {
   if (feature == kMeshFace) return computeOwnMargin(mesh, triangle, c);
@@ -110,7 +112,7 @@ double computeFeatureMargin(const TriangleMesh& mesh, const TriangleMesh::Triang
   return corner.is_owner ? computeCornerMargin(mesh, corner, c) : -HUGE_VAL;
 }
 
-/// Distance by a feature's own law, wherever the centre is.
+/// Separation by one feature, valid wherever the centre is.
 Separation leaveByFeature(const TriangleMesh::Triangle& triangle, int feature,
                           const PlainVec& c) noexcept {
   const PlainVec normal(triangle.normal);
@@ -130,10 +132,10 @@ Separation leaveByFeature(const TriangleMesh::Triangle& triangle, int feature,
 
 struct Claim {
   int feature = -1;
-  double margin = -HUGE_VAL;  ///< of the feature, or of the one it is nearest to
+  double margin = -HUGE_VAL;  ///< of `feature`, or the largest if there is none [m]
 };
 
-/// Which of its features has the centre, were there no other triangles but neighbours.
+/// The feature whose region holds the centre, counting only the triangle and its neighbours.
 Claim findClaim(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
                 const PlainVec& c) noexcept {
   Claim claim;
@@ -145,21 +147,21 @@ Claim findClaim(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle
   return claim;
 }
 
-/// How much nearer the plane of `behind`, which the centre is `depth` behind, is than other
-/// triangles there that have the centre. Negative: it leaves by another.
+/// How much nearer the plane of `behind` is than any other triangle that claims the centre [m]. The
+/// centre is `depth` behind that plane. Negative: the centre leaves through another triangle.
 double computeLeadOverOthers(const TriangleMesh& mesh, int piece,
                              const TriangleMesh::Triangle& behind, double depth,
                              const PlainVec& c) noexcept {
   double lead = std::numeric_limits<double>::infinity();
-  // Somewhat farther, so that one that comes nearer is seen before it is the nearest.
+  // The search reaches farther, so that an approaching triangle shows up before it is the nearest.
   mesh.forEachNear(c.toVec3(), 1.1 * depth + kSameDepth, [&](int place, double) {
     const TriangleMesh::Triangle& other = triangleAt(mesh, place);
-    // What stands before that plane is the other side of a groove: both push.
+    // A triangle in front of that plane is the other side of a groove: both push.
     if (place == piece || !(heightOver(behind, PlainVec(other.middle)) < -kSameDepth)) return;
     const Claim claim = findClaim(mesh, other, c);
     if (claim.feature < 0) return;
     const double theirs = std::abs(leaveByFeature(other, claim.feature, c).distance);
-    // By the last bit, so that of any number of faces that are about equally near one is first.
+    // Ties go to the lower index, so that exactly one of several equally near faces wins.
     double ahead = theirs - depth;
     if (ahead == 0.0) ahead = piece < place ? kSameDepth : -kSameDepth;
     lead = std::min(lead, ahead);
@@ -167,7 +169,7 @@ double computeLeadOverOthers(const TriangleMesh& mesh, int piece,
   return lead;
 }
 
-/// Margin of the face's region among all triangles: a centre inside leaves by the nearest.
+/// Margin of the face's region among all triangles [m]; a centre inside leaves through the nearest.
 double computeFaceMargin(const TriangleMesh& mesh, int piece, const PlainVec& c) noexcept {
   const TriangleMesh::Triangle& triangle = triangleAt(mesh, piece);
   double margin = computeOwnMargin(mesh, triangle, c);

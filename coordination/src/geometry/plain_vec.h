@@ -4,8 +4,8 @@
 
 namespace tandem {
 
-/// Vector of three plain doubles for the inner loops. They stay in registers, where Eigen's vectors
-/// go through memory and come back in pairs, which stalls: GCC's code is twice as fast this way.
+/// Vector of three plain doubles for the inner loops. It stays in registers. Eigen's vectors go
+/// through memory and return in pairs, which stalls: GCC's code is twice as fast this way.
 struct PlainVec {
   double x = 0.0, y = 0.0, z = 0.0;
 
@@ -41,8 +41,8 @@ inline PlainVec multiplyEach(const PlainVec& a, const PlainVec& b) noexcept {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-/// Matrix R_WB of any quaternion but zero: dividing by its square keeps a unit vector one for a
-/// quaternion that is unit only in single precision, or drifts inside an integration step.
+/// Rotation matrix R_WB of a nonzero quaternion. Dividing by the squared norm keeps it orthogonal
+/// for single-precision quaternions and for drift inside an integration step.
 class PlainRotation {
  public:
   PlainRotation() = default;

@@ -4,13 +4,13 @@
 
 #include "geometry/convex_polyhedron.h"
 
-// Cylinders and hulls: where a centre is outside, the nearest point of the surface; where it is
-// inside, the nearest face.
+// Cylinders and hulls: a centre outside goes to the nearest point of the surface, a centre inside
+// to the nearest face.
 
 namespace tandem {
 namespace {
 
-/// A centre as seen along a cylinder's axis, and the way out of its side.
+/// A centre in a cylinder's coordinates, and the direction out of its side.
 struct Round {
   double along, across;
   PlainVec outwards;
@@ -31,7 +31,7 @@ double heightOver(const ConvexPolyhedron::Face& face, const PlainVec& c) noexcep
   return dot(PlainVec(face.normal), c) - face.offset;
 }
 
-/// How far the centre is out of the prism over a face; negative: it is over it.
+/// Distance of the centre from the prism over a face [m]; negative inside the prism.
 double computeWayBeside(const ConvexPolyhedron& solid, const ConvexPolyhedron::Face& face,
                         const PlainVec& c) noexcept {
   double farthest = -std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ double computeWayBeside(const ConvexPolyhedron& solid, const ConvexPolyhedron::F
   return farthest;
 }
 
-/// Way to a centre outside from the nearest point of the faces that it is in front of.
+/// Vector to an outside centre from the nearest point of the faces that it is in front of.
 PlainVec comeFromFaces(const ConvexPolyhedron& solid, const PlainVec& c) noexcept {
   double least = std::numeric_limits<double>::infinity();
   PlainVec shortest;
@@ -97,7 +97,7 @@ double computeFaceLead(const PlainVec& c, const Cylinder& cylinder, int face) no
   const double over_side = at.across - cylinder.radius;
   const double over_end = std::abs(at.along) - cylinder.half_length;
   if (face == kSide) return over_side < 0.0 ? over_side - over_end : -over_end;
-  // Out through this end: it stays the nearest as long as the centre is over it.
+  // The centre left through this end, which stays nearest while the centre is over it.
   const double own = (face == kUpperEnd ? at.along : -at.along) - cylinder.half_length;
   if (own >= 0.0) return -over_side;
   return own - std::max(over_side, -own - 2.0 * cylinder.half_length);
@@ -117,11 +117,11 @@ Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept {
     found.face = static_cast<int>(nearest);
     return found;
   }
-  // No other face is nearer than the one it is highest over, if it is right over that.
+  // The highest face is the nearest one if the centre is right over it.
   if (computeWayBeside(solid, face, c) <= 0.0) return found;
   const PlainVec way = comeFromFaces(solid, c);
   const double distance = std::sqrt(dot(way, way));
-  // Nearer than that, rounding gives no direction.
+  // At a smaller distance rounding hides the direction.
   if (distance < detail::kOnCore) return found;
   return {distance - hull.rounding, way / distance};
 }
@@ -129,7 +129,7 @@ Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept {
 Separation leaveByFace(const PlainVec& c, const ConvexHull& hull, int face) noexcept {
   const ConvexPolyhedron::Face& own = hull.solid->faces()[static_cast<std::size_t>(face)];
   const double height = heightOver(own, c);
-  // Once out of the solid, though not of its rounding, it has no face to leave by.
+  // Outside the solid but inside its rounding, the centre has no face to leave through.
   return {height - hull.rounding, PlainVec(own.normal), height < 0.0 ? face : -1};
 }
 
@@ -141,7 +141,7 @@ double computeFaceLead(const PlainVec& c, const ConvexHull& hull, int face) noex
   double others = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < solid.faces().size(); ++i)
     if (i != own) others = std::max(others, heightOver(solid.faces()[i], c));
-  // Faces in one plane are one.
+  // Faces in one plane count as one face.
   return height - others + detail::kOnCore;
 }
 

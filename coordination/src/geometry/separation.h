@@ -8,9 +8,10 @@
 #include "geometry/plain_vec.h"
 #include "geometry/triangle_mesh.h"
 
+// clang-format off
 /// \file
-/// Signed distance and way out of a shape, worked out in the body's frame, where a centre c has a
-/// signed distance to the surface and a direction out of the shape:
+/// Signed distance from a centre c to a shape's surface, and the direction out of the shape. Both
+/// are in the body's frame:
 ///
 ///         shape          sphere
 ///      +---------+
@@ -18,38 +19,38 @@
 ///      |         p---------+-----c          p = c - distance n
 ///      |         |   gap     radius
 ///      +---------+   n ->
+// clang-format on
 namespace tandem {
 
-/// A centre's signed distance to a surface [m], below 0 inside, and the direction out (unit
-/// length).
+/// Signed distance of a centre to a surface [m], negative inside, and the unit direction out.
 struct Separation {
   double distance = 0.0;
   PlainVec n;
-  /// By which a centre inside leaves, where there are several: of a box 2 axis + (side < 0), of a
-  /// cylinder a LeaveCylinder, of a hull its place in faces(). Of a piece of a mesh its
-  /// MeshFeature, inside or not.
+  /// The face through which an inside centre leaves: of a box 2 axis + (side < 0), of a cylinder a
+  /// LeaveCylinder, of a hull an index into faces(). For a piece of a mesh: its MeshFeature, inside
+  /// or outside.
   int face = -1;
-  /// Of a piece of a mesh: at least so far is it to where it pushes [m]; not above 0 where it does.
+  /// For a piece of a mesh: lower bound of the distance to where it pushes [m]; <= 0 if it pushes.
   double aside = 0.0;
 };
 
 namespace detail {
 
-/// A centre this near to a core [m] stands on it: below rounding there is no direction to leave by.
+/// A centre nearer to a core than this is on it [m]; rounding then hides the direction.
 inline constexpr double kOnCore = 1e-12;
 
-/// Squares below this have lost digits to underflow, and no direction can be had from them.
+/// Squares below this lost digits to underflow and give no direction.
 inline constexpr double kSmallestSquare = 1e-290;
 
-/// A core point, `offset` away from the centre, fattened by `radius`.
+/// Separation from a core point with a thickness of `radius`; `offset` leads from it to the centre.
 inline Separation separateFromCore(const PlainVec& offset, double radius) noexcept {
   const double length = std::sqrt(dot(offset, offset));
-  // x is also across a capsule's core, so the way out is as short as it looks.
+  // x is perpendicular to a capsule's core, so this is a shortest way out.
   if (length < kOnCore) return {length - radius, {1.0, 0.0, 0.0}};
   return {length - radius, offset / length};
 }
 
-/// A vector with the components of this axis as y, and back.
+/// Permutes the components so that `axis` becomes y; layBack() reverses it.
 inline PlainVec layAlongY(const PlainVec& v, Axis axis) noexcept {
   if (axis == Axis::kX) return {v.z, v.x, v.y};
   return axis == Axis::kZ ? PlainVec{v.y, v.z, v.x} : v;
@@ -59,7 +60,7 @@ inline PlainVec layBack(const PlainVec& v, Axis axis) noexcept {
   return axis == Axis::kZ ? PlainVec{v.z, v.x, v.y} : v;
 }
 
-/// Way out of a box through one of its faces, wherever the centre is.
+/// Separation of a centre from one face of a box, wherever the centre is.
 inline Separation leaveByFace(const PlainVec& c, const Vec3& half_extents, int face) noexcept {
   const double side = (face & 1) != 0 ? -1.0 : 1.0;
   switch (face >> 1) {
@@ -72,7 +73,7 @@ inline Separation leaveByFace(const PlainVec& c, const Vec3& half_extents, int f
   }
 }
 
-/// Way out of a box, for a centre inside or on the surface, by the nearest face.
+/// Separation through the nearest face, for a centre inside a box or on its surface.
 inline Separation leaveBox(const PlainVec& c, const Vec3& half_extents) noexcept {
   const double depth_x = half_extents.x() - std::abs(c.x);
   const double depth_y = half_extents.y() - std::abs(c.y);
@@ -101,7 +102,7 @@ inline Separation separate(const PlainVec& c, const Capsule& capsule) noexcept {
 
 [[nodiscard]] Separation separate(const PlainVec& c, const Cylinder& cylinder) noexcept;
 [[nodiscard]] Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept;
-/// To a mesh as a whole: its nearest point, inside or outside as its piece there is turned.
+/// Separation from the nearest point of a whole mesh; its piece there decides the sign.
 [[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh) noexcept;
 
 inline Separation separate(const PlainVec& c, const Box& box) noexcept {
@@ -109,7 +110,7 @@ inline Separation separate(const PlainVec& c, const Box& box) noexcept {
   const PlainVec outwards{c.x - std::clamp(c.x, -h.x(), h.x()),  //
                           c.y - std::clamp(c.y, -h.y(), h.y()),
                           c.z - std::clamp(c.z, -h.z(), h.z())};
-  // Over a face, the usual place: no root, no division, the normal to the last bit.
+  // Over a face, the usual case: no square root, no division, an exact normal.
   const auto over_face = [](double way, const PlainVec& n) noexcept {
     return way < 0.0 ? Separation{-way, {-n.x, -n.y, -n.z}} : Separation{way, n};
   };
@@ -123,21 +124,20 @@ inline Separation separate(const PlainVec& c, const Box& box) noexcept {
   return {distance, outwards / distance};
 }
 
-/// How much nearer this face is than any other to a centre inside the box [m]; negative: the centre
-/// leaves by another.
+/// How much nearer this face is than any other to a centre inside the box [m]. Negative: the centre
+/// leaves through another face.
 inline double computeFaceLead(const PlainVec& c, const Box& box, int face) noexcept {
   const Vec3& h = box.half_extents;
   const double depth[] = {h.x() - std::abs(c.x), h.y() - std::abs(c.y), h.z() - std::abs(c.z)};
   const int axis = face >> 1;
   const double others = std::min(depth[(axis + 1) % 3], depth[(axis + 2) % 3]);
   const double own = -detail::leaveByFace(c, h, face).distance;
-  // Out of the box through this face: it stays the nearest as long as the centre is over it.
+  // The centre left through this face, which stays nearest while the centre is over it.
   return own > 0.0 ? std::min(others, 2.0 * h[axis] - own) - own : others;
 }
 
 inline Separation separate(const PlainVec& c, const Plane& plane) noexcept {
-  // The normal is unit only within checkShape's tolerance; the half-space is the same at any
-  // length.
+  // The normal is unit only within checkShape's tolerance; dividing keeps the half-space the same.
   const PlainVec n(plane.normal_B);
   const double length = std::sqrt(dot(n, n));
   return {(dot(n, c) - plane.offset) / length, n / length};
@@ -147,10 +147,10 @@ inline Separation separate(const PlainVec& c, const Shape& shape) noexcept {
   return std::visit([&c](const auto& s) noexcept { return separate(c, s); }, shape);
 }
 
-/// Faces of a cylinder by which a centre inside leaves.
+/// Faces through which a centre inside a cylinder leaves.
 enum LeaveCylinder { kSide, kUpperEnd, kLowerEnd };
 
-/// Way out through one face, wherever the centre is; see computeFaceLead().
+/// Separation from one face, wherever the centre is; see computeFaceLead().
 [[nodiscard]] Separation leaveByFace(const PlainVec& c, const Cylinder& cylinder,
                                      int face) noexcept;
 [[nodiscard]] Separation leaveByFace(const PlainVec& c, const ConvexHull& hull, int face) noexcept;
@@ -158,15 +158,15 @@ enum LeaveCylinder { kSide, kUpperEnd, kLowerEnd };
                                      int face) noexcept;
 [[nodiscard]] double computeFaceLead(const PlainVec& c, const ConvexHull& hull, int face) noexcept;
 
-/// One piece of a mesh, by its place in TriangleMesh: face, edge or corner that pushes a centre at
-/// c. Where none of them does, as far as the face, with `aside` above 0.
+/// Separation from the feature of one mesh triangle (by its index) that pushes a centre at c. If
+/// none pushes, the separation from its face, with `aside` above 0.
 [[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh, int piece) noexcept;
 [[nodiscard]] Separation leaveByFace(const PlainVec& c, const Mesh& mesh, int piece,
                                      int feature) noexcept;
 [[nodiscard]] double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece,
                                      int feature) noexcept;
 
-/// The same for any shape that has faces; `piece` counts for a mesh only.
+/// Generic forms for any shape with faces; `piece` matters for a mesh only.
 [[nodiscard]] Separation leaveAnyByFace(const PlainVec& c, const Shape& shape, int piece,
                                         int face) noexcept;
 [[nodiscard]] double computeAnyFaceLead(const PlainVec& c, const Shape& shape, int piece,

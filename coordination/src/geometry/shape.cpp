@@ -11,7 +11,7 @@
 namespace tandem {
 namespace {
 
-// Wide enough for a normal that was made unit in single precision.
+// Large enough for a normal that was normalised in single precision.
 constexpr double kUnitTolerance = 1e-6;
 
 double boundingRadius(const Sphere& sphere) noexcept { return sphere.radius; }

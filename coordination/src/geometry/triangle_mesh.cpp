@@ -11,16 +11,15 @@
 namespace tandem {
 namespace {
 
-/// Corners that are nearer than this part of the size are one.
+/// Corners nearer to each other than this share of the size are merged.
 constexpr double kWeld = 1e-6;
-/// Faces whose normals differ by less are in one plane [rad].
+/// Faces whose normals differ by less are coplanar [rad].
 constexpr double kFlat = 1e-5;
-/// Cosine of the angle between normals, 60 degrees, from which a concave edge is a corner to press
-/// into: both faces push there.
+/// Cosine of the angle between normals, 60 degrees. At a sharper concave edge both faces push.
 constexpr double kSharpCosine = 0.5;
 constexpr int kTrianglesPerLeaf = 4;
 
-/// Gives corners that are one the same number.
+/// Gives coincident corners the same number.
 class Welder {
  public:
   Welder(const Vec3& low, double reach) : low_(low), reach_(reach) {}
@@ -30,7 +29,7 @@ class Welder {
     const std::int64_t x = static_cast<std::int64_t>(cell.x()),
                        y = static_cast<std::int64_t>(cell.y()),
                        z = static_cast<std::int64_t>(cell.z());
-    // Its own cell first: most corners are the same to the last bit.
+    // The point's own cell comes first: most coincident corners are equal to the last bit.
     if (const int known = findIn(x, y, z, p); known >= 0) return known;
     for (std::int64_t dx = -1; dx <= 1; ++dx)
       for (std::int64_t dy = -1; dy <= 1; ++dy)
@@ -76,7 +75,7 @@ TriangleMesh::TriangleMesh(const std::vector<Vec3>& corners) {
   const double size = (high - low).norm();
   if (!(size > 0.0)) throw std::invalid_argument("a triangle mesh has no triangle with an area");
   Welder welder(low, kWeld * size);
-  std::vector<int> vertices;  // three for each triangle that is kept
+  std::vector<int> vertices;  // three per triangle kept
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     const int v[3] = {welder.find(corners[i]), welder.find(corners[i + 1]),
                       welder.find(corners[i + 2])};
@@ -85,7 +84,7 @@ TriangleMesh::TriangleMesh(const std::vector<Vec3>& corners) {
     const Vec3 area = (p(1) - p(0)).cross(p(2) - p(0));
     const double longest = std::max({(p(1) - p(0)).norm(), (p(2) - p(1)).norm(),  //
                                      (p(0) - p(2)).norm()});
-    // Lower than the weld: a line.
+    // A triangle lower than the weld distance is a line.
     if (!(area.norm() > kWeld * size * longest)) continue;
     vertices.insert(vertices.end(), v, v + 3);
     Triangle triangle;
@@ -106,10 +105,10 @@ TriangleMesh::TriangleMesh(const std::vector<Vec3>& corners) {
   makeNode(0, static_cast<int>(triangles_.size()));
 }
 
-/// Finds the two triangles of each edge. Where more than two meet, or two run along it alike, the
-/// edge is open for those that come late.
+/// Finds the two triangles of each edge. If more than two meet, or two run along it in the same
+/// direction, the edge stays open for the later ones.
 void TriangleMesh::join(const std::vector<int>& vertices, double size) {
-  std::map<std::pair<int, int>, int> open;  // edges from, to -> 3 triangle + k
+  std::map<std::pair<int, int>, int> open;  // edge (from, to) -> 3 triangle + k
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       Triangle& triangle = triangles_[t];
@@ -131,7 +130,7 @@ void TriangleMesh::join(const std::vector<int>& vertices, double size) {
       Edge& theirs = other.edges[static_cast<std::size_t>(edge.mate % 3)];
       theirs.mate = static_cast<int>(3 * t + k);
       open.erase(mate);
-      // The same numbers on both sides, so that each place is on one of them.
+      // Both triangles use the same numbers, so that each place is on exactly one side.
       edge.start = theirs.start;
       edge.end = theirs.end;
       edge.along = theirs.along;
@@ -147,7 +146,7 @@ void TriangleMesh::join(const std::vector<int>& vertices, double size) {
       edge.is_owner = false;
       theirs.is_owner = meeting == Meeting::kConvex;
       if (meeting == Meeting::kFlat) {
-        // Through the edge, halfway between the normals.
+        // The plane through the edge, halfway between the normals.
         const Vec3 inward = (theirs.inward - edge.inward).normalized();
         theirs.inward = inward;
         edge.inward = -inward;
@@ -157,7 +156,7 @@ void TriangleMesh::join(const std::vector<int>& vertices, double size) {
   is_closed_ = open.empty();
 }
 
-/// What leaves each corner, and which of its triangles it pushes for.
+/// Collects the edge directions of each corner and decides which triangle owns it.
 void TriangleMesh::makeDirections(const std::vector<int>& vertices, int vertex_count) {
   std::vector<std::vector<Vec3>> leaving(static_cast<std::size_t>(vertex_count));
   std::vector<char> may_push(leaving.size(), 0);
@@ -169,7 +168,7 @@ void TriangleMesh::makeDirections(const std::vector<int>& vertices, int vertex_c
                b = static_cast<std::size_t>(vertices[to]);
     may_push[a] |= pushes;
     may_push[b] |= pushes;
-    // Each edge once.
+    // Each edge counts once.
     if (edge.mate >= 0 && edge.mate < static_cast<int>(i)) continue;
     leaving[a].push_back(edge.along);
     leaving[b].push_back(-edge.along);

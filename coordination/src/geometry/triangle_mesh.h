@@ -8,45 +8,43 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A surface of triangles in its body's frame, for spheres to touch. Made once, outside the tick; a
+/// A surface of triangles in its body's frame, touched by spheres. Immutable; built at set-up. A
 /// Mesh refers to it.
 ///
-/// Triangles are one-sided: the corners run counter-clockwise seen from the free side, and what is
-/// behind is solid. A centre outside is pushed by each part of the surface that it is right over:
+/// Triangles are one-sided. Corners run counter-clockwise seen from the free side; behind is solid.
+/// An outside centre is pushed by each feature in whose region it is:
 ///
-///   face           over it, as far as its edges
-///   convex edge    beyond both its faces, between its ends; so do open edges
+///   face           over the face, up to its edges
+///   convex edge    beyond both faces, between the edge's ends; the same for open edges
 ///   convex corner  beyond the ends of all its edges
 ///
-/// so that faces in one plane push once, and the two sides of a groove both. Where two faces meet
-/// at a blunt concave edge (less than 60 degrees off flat), each pushes on its side of the plane
-/// between them, so that a bowl pushes once. A centre inside leaves by the nearest face, and by all
-/// walls of a sharp concave edge. Behind a surface with open edges there is nothing any more at
-/// kDeepest.
+/// Coplanar faces thus push once, and both sides of a groove push. At a blunt concave edge (less
+/// than 60 degrees off flat) each face pushes on its side of the plane between them. A bowl thus
+/// pushes once. An inside centre leaves through the nearest face, and through all walls of a sharp
+/// concave edge. A surface with open edges pushes only down to kDeepest behind it.
 class TriangleMesh {
  public:
   /// How faces meet at an edge of a triangle.
   enum class Meeting : char {
-    kFlat,     ///< in one plane, or blunt concave: parted by the plane between them
+    kFlat,     ///< coplanar or blunt concave: the plane between the faces parts them
     kConvex,   ///< the edge pushes
-    kConcave,  ///< each pushes as a plane beyond the edge, while the centre is behind the other
-    kOpen,     ///< no other face
+    kConcave,  ///< each pushes as a plane beyond the edge while the centre is behind the other
+    kOpen,     ///< there is no other face
   };
 
   /// Edge k of a triangle, from corner k to the next.
   struct Edge {
-    Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< the same for both triangles, as `along`
+    Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< equal for both triangles, as is `along`
     Vec3 along = Vec3::Zero();                      ///< unit vector
-    Vec3 inward =
-        Vec3::Zero();  ///< unit normal of the plane that parts: positive over the triangle
+    Vec3 inward = Vec3::Zero();  ///< unit normal of the parting plane, towards the triangle
     Meeting meeting = Meeting::kOpen;
-    bool is_owner = false;  ///< the edge pushes as a part of this triangle
-    int mate = -1;          ///< the same edge of the other triangle, 3 triangle + k
+    bool is_owner = false;  ///< the edge pushes as a feature of this triangle
+    int mate = -1;          ///< the same edge in the other triangle, 3 triangle + k; -1: none
   };
   struct Corner {
     Vec3 p = Vec3::Zero();
-    bool is_owner = false;     ///< the corner pushes as a part of this triangle
-    int first = 0, count = 0;  ///< of its directions
+    bool is_owner = false;     ///< the corner pushes as a feature of this triangle
+    int first = 0, count = 0;  ///< range of its directions
   };
   struct Triangle {
     Vec3 normal = Vec3::UnitX();
@@ -56,27 +54,27 @@ class TriangleMesh {
     Vec3 middle = Vec3::Zero();
   };
 
-  static constexpr double kDeepest = 0.1;  ///< behind an open surface a centre is pushed back [m]
+  static constexpr double kDeepest = 0.1;  ///< an open surface pushes down to this depth [m]
 
-  /// `corners`: three for each triangle. Corners nearer to each other than a millionth of the size
-  /// are one; triangles without area are left out. Throws std::invalid_argument for values that are
-  /// not finite or if none is left.
+  /// `corners`: three per triangle. Corners nearer to each other than 1e-6 of the size are merged.
+  /// Triangles without area are dropped. Throws std::invalid_argument for non-finite values or if
+  /// no triangle remains.
   explicit TriangleMesh(const std::vector<Vec3>& corners);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
-  /// Unit vectors along all edges that end in a corner, away from it.
+  /// Unit vectors along all edges of a corner, away from it.
   [[nodiscard]] const Vec3* directions(const Corner& corner) const noexcept {
     return directions_.data() + corner.first;
   }
   [[nodiscard]] bool isClosed() const noexcept { return is_closed_; }
-  /// Of a ball around the body's origin that holds it [m].
+  /// Radius of the sphere around the body's origin that holds the mesh [m].
   [[nodiscard]] double boundingRadius() const noexcept { return bounding_radius_; }
 
   /// Distance to the nearest triangle [m], or `most` if that is less. Real-time safe.
   [[nodiscard]] double findNearest(const Vec3& c, double most) const noexcept;
 
-  /// Calls `visit` with the place of each triangle nearer than `reach` [m], and of some others near
-  /// those. Real-time safe, if `visit` is.
+  /// Calls `visit` with the index of each triangle nearer than `reach` [m], and of some others
+  /// nearby. Real-time safe, if `visit` is.
   template <typename Visit>
   void forEachAround(const Vec3& c, double reach, Visit visit) const noexcept {
     const double square = reach * reach;
@@ -84,8 +82,8 @@ class TriangleMesh {
         c, [square](double away) { return away <= square; }, visit);
   }
 
-  /// Calls `visit` with the place of each triangle nearer than `reach` [m], and its distance.
-  /// Real-time safe, if `visit` is.
+  /// Calls `visit` with the index and distance of each triangle nearer than `reach` [m]. Real-time
+  /// safe, if `visit` is.
   template <typename Visit>
   void forEachNear(const Vec3& c, double reach, Visit visit) const noexcept {
     forEachLeaf(
@@ -97,12 +95,12 @@ class TriangleMesh {
   }
 
  private:
-  /// Of a binary tree of boxes; children of i are i + 1 and `second`.
+  /// Node of a binary tree of boxes; the children of node i are i + 1 and `second`.
   struct Node {
     Vec3 low, high;
     int second = -1;   ///< -1: a leaf
-    int triangle = 0;  ///< first of a leaf, in order_
-    int count = 0;     ///< of a leaf
+    int triangle = 0;  ///< first triangle of a leaf, in order_
+    int count = 0;     ///< number of triangles of a leaf
   };
 
   void join(const std::vector<int>& vertices, double size);
@@ -112,7 +110,7 @@ class TriangleMesh {
 
   template <typename IsNear, typename Visit>
   void forEachLeaf(const Vec3& c, IsNear is_near, Visit visit) const noexcept {
-    // Halves of halves: never deeper than this.
+    // The tree halves the triangles, so it is never deeper than this.
     int stack[64] = {0};
     int waiting = 1;
     while (waiting > 0) {

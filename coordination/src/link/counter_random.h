@@ -4,19 +4,18 @@
 
 namespace tandem {
 
-/// Bijective scrambling of 64 bits, in which each input bit flips each output bit with probability
-/// of about one half. Source: the finaliser of splitmix64 (Steele, Lea & Flood 2014; Stafford's mix
-/// 13).
+/// Bijective mix of 64 bits: each input bit flips each output bit with a probability of about one
+/// half. Source: the finaliser of splitmix64 (Steele, Lea & Flood 2014; Stafford's mix 13).
 [[nodiscard]] constexpr std::uint64_t scrambleBits(std::uint64_t bits) noexcept {
   bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9U;
   bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBU;
   return bits ^ (bits >> 31U);
 }
 
-/// Number `counter` of the random stream (`seed`, `direction`, `stream`), even in [0, 1).
+/// Number `counter` of the random stream (`seed`, `direction`, `stream`), uniform in [0, 1).
 ///
-/// A counter instead of a generator's state: a draw depends on nothing but its arguments, so that a
-/// stream never shifts because another one was, or was not, drawn from. Pure; real-time safe.
+/// A counter replaces a generator's state: a draw depends on its arguments alone. Draws from one
+/// stream never shift another. Pure; real-time safe.
 [[nodiscard]] constexpr double drawUniform(std::uint64_t seed, std::uint64_t direction,
                                            std::uint64_t stream, std::uint64_t counter) noexcept {
   constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // keeps small inputs away from 0
@@ -24,7 +23,7 @@ namespace tandem {
   bits = scrambleBits((bits ^ direction) + kGoldenRatio);
   bits = scrambleBits((bits ^ stream) + kGoldenRatio);
   bits = scrambleBits((bits ^ counter) + kGoldenRatio);
-  return static_cast<double>(bits >> 11U) * 0x1p-53;  // the 53 bits that a double holds
+  return static_cast<double>(bits >> 11U) * 0x1p-53;  // the 53 bits of a double's mantissa
 }
 
 }  // namespace tandem

@@ -7,16 +7,18 @@
 #include "bad_value.h"
 #include "link/flight_queue.h"
 
+// clang-format off
 //   send(datagram, conditions, now)                                    takeDue(now)
 //        |                                                                  ^
-//   cut? too long? lost? ----> launch: first copy, a bit turned? ----+      | due <= now
-//        until                                                       v      |
-//        +-------------------> launch: duplicate, a bit turned? --> heap of what is under way
+//   cut? too long? lost? ----> launch: first copy, maybe corrupted --+      | due <= now
+//        |                                                           v      |
+//        +-------------------> launch: duplicate, maybe corrupted --> heap of copies under way
+// clang-format on
 
 namespace tandem {
 
 struct DatagramChannel::Impl {
-  /// What a flight carries.
+  /// Record of one copy under way.
   struct Cargo {
     std::size_t size = 0;
     std::uint64_t number = 0;
@@ -60,8 +62,8 @@ struct DatagramChannel::Impl {
   std::vector<Cargo> cargo;         // by slot
   std::vector<std::uint8_t> bytes;  // by slot, `longest` for each
   std::optional<std::size_t> lent;  // slot of the last delivery
-  double latest_due = 0.0;          // of what went the ordinary way [s]
-  std::uint64_t highest = 0;        // number after the highest delivered
+  double latest_due = 0.0;          // of copies that were not reordered [s]
+  std::uint64_t highest = 0;        // highest delivered number + 1
   DatagramChannelCounts counts;
 };
 

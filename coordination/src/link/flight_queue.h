@@ -8,15 +8,14 @@
 
 namespace tandem {
 
-/// What is under way, ordered by arrival. It orders small entries; what they stand for stays in the
-/// caller's slots from launch() to release(). All room is made by the constructor: nothing else
-/// allocates.
+/// Copies under way, ordered by arrival. The heap holds small entries; the contents stay in the
+/// caller's slots from launch() to release(). Only the constructor allocates.
 class FlightQueue {
  public:
   struct Flight {
     double arrival = 0.0;     ///< [s]
     double sent = 0.0;        ///< [s]
-    std::uint64_t order = 0;  ///< of launching; decides between equal arrivals
+    std::uint64_t order = 0;  ///< number of the launch; decides between equal arrivals
     std::size_t slot = 0;     ///< 0 to capacity - 1
   };
 
@@ -25,7 +24,7 @@ class FlightQueue {
     for (std::size_t slot = 0; slot < capacity; ++slot) free_slots_[slot] = slot;
   }
 
-  /// The slot of the new flight; nothing if all are taken.
+  /// The slot of the new flight; nothing if all slots are taken.
   [[nodiscard]] std::optional<std::size_t> launch(double sent, double arrival) noexcept {
     if (free_slots_.empty()) return std::nullopt;
     const std::size_t slot = free_slots_.back();
@@ -45,7 +44,7 @@ class FlightQueue {
     return earliest;
   }
 
-  /// A flight that was taken goes on.
+  /// Puts a taken flight back into the queue.
   void putBack(const Flight& flight) noexcept {
     flights_.push_back(flight);
     std::push_heap(flights_.begin(), flights_.end(), isLater);
@@ -54,7 +53,7 @@ class FlightQueue {
   void release(std::size_t slot) noexcept { free_slots_.push_back(slot); }
 
  private:
-  // Standard heaps keep the greatest in front, and the earliest is wanted there.
+  // Standard heaps keep the greatest element in front; this puts the earliest there.
   static bool isLater(const Flight& a, const Flight& b) noexcept {
     return a.arrival != b.arrival ? a.arrival > b.arrival : a.order > b.order;
   }

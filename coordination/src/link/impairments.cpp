@@ -9,8 +9,8 @@
 namespace tandem {
 namespace {
 
-/// One random stream for each decision, so that no impairment shifts another's draws. The values
-/// are part of what a seed means: a new decision goes to the end.
+/// Each decision has its own random stream, so that no impairment shifts another's draws. The
+/// values define the meaning of a seed: add new decisions at the end.
 enum class Stream : std::uint64_t {
   kLoss,
   kDuplicate,
@@ -23,7 +23,7 @@ enum class Stream : std::uint64_t {
   kDuplicateCorruptBit,
 };
 
-/// The draws of one packet.
+/// The random draws of one packet.
 struct Draws {
   std::uint64_t seed;
   Direction direction;

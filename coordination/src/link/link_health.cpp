@@ -10,7 +10,7 @@
 namespace tandem {
 namespace {
 
-/// So many packets in a row may be missing before a peer is stale.
+/// Number of missing packets in a row that makes a peer stale.
 constexpr double kPacketsToBeStale = 3.0;
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 constexpr double kUnitTolerance = 1e-6;
 
 bool isSane(const ObjectState& object) noexcept {
-  // Written so that the norm of huge but finite coefficients, infinite, is refused as well.
+  // This form also refuses huge finite coefficients, whose norm is infinite.
   return isFinite(object.state) && std::abs(object.state.q_WB.norm() - 1.0) <= kUnitTolerance;
 }
 

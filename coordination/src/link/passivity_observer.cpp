@@ -7,7 +7,7 @@
 namespace tandem {
 namespace {
 
-/// A hand that puts energy in feels at least this share, or an empty tank would stay empty.
+/// Least share for a hand that puts energy in; with none an empty tank would stay empty.
 constexpr double kLeastShare = 0.02;
 
 }  // namespace

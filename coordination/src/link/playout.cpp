@@ -30,7 +30,7 @@ Playout::Playout(const PlayoutSettings& settings) : settings_(settings) {
 }
 
 Playout::Verdict Playout::push(const StatePacket& packet, double sent, double now) noexcept {
-  const double transit = now - sent;  // up to the offset of the clocks
+  const double transit = now - sent;  // includes the offset of the clocks
   if (transit - fastest_.value() > settings_.max_late && !isNewRoute(transit, now)) {
     ++counts_.too_late;
     return Verdict::kTooLate;
@@ -45,7 +45,7 @@ Playout::Verdict Playout::push(const StatePacket& packet, double sent, double no
   }
   const double due = settings_.is_on ? now + std::max(wait_ - lateness, 0.0) : now;
   if (waiting_.size() == settings_.room) {
-    // Latest wins: the oldest goes.
+    // Latest wins: the oldest packet is replaced.
     ++counts_.full;
     const auto oldest = std::min_element(
         waiting_.begin(), waiting_.end(),
@@ -90,7 +90,8 @@ void Playout::clear() noexcept {
   waiting_.clear();
 }
 
-/// All has been late for a while, and equally: no queue that runs empty, but a longer way.
+/// True if all packets have been late for a while, and equally so. An emptying queue would make
+/// them ever less late; this is a longer route.
 bool Playout::isNewRoute(double transit, double now) noexcept {
   if (!late_run_) late_run_ = LateRun{now, transit, transit};
   late_run_->least = std::min(late_run_->least, transit);
@@ -107,7 +108,8 @@ bool Playout::isNewRoute(double transit, double now) noexcept {
   return true;
 }
 
-/// Single packets that jump the queue do not tell that the others are a burst.
+/// Ends the late run once over a quarter of the packets come in time. Single packets that overtake
+/// the queue do not end it.
 void Playout::noteInTime() noexcept {
   if (!late_run_) return;
   ++late_run_->in_time;
@@ -128,10 +130,10 @@ void Playout::learn(double transit, double lateness, double now) noexcept {
   transits_[place] = transit;
   latenesses_[place] = lateness;
   remembered_ = std::min(remembered_ + 1, transits_.size());
-  // Sorting costs more than opening the datagram: now and then is enough, once there are some.
+  // Sorting costs more than opening a datagram, so it runs rarely once there are enough packets.
   if (remembered_ < kRarely || learnt_ % kRarely == 0) lookAtRemembered();
   const double wanted = std::min(jitter_, settings_.most);
-  // At first nothing is known, and nothing is felt yet that a change could disturb.
+  // The wait may jump at first, when nothing is known and a change disturbs nobody.
   const bool is_new = now - start_ < kSettling;
   const double step = is_new ? settings_.most : settings_.slew * (now - last_);
   wait_ = std::clamp(wanted, wait_ - step, wait_ + step);
@@ -143,7 +145,7 @@ void Playout::lookAtRemembered() noexcept {
   jitter_ = std::max(findQuantile(latenesses_, settings_.quantile), 0.0);
 }
 
-/// The least value that so large a share of the remembered keep.
+/// The least value that covers this share of the remembered values.
 double Playout::findQuantile(const Remembered& values, double share) noexcept {
   const auto end = std::copy_n(values.begin(), remembered_, sorted_.begin());
   const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(remembered_)));

@@ -5,11 +5,11 @@
 namespace tandem {
 namespace {
 
-/// Share of a new trip in the smoothed one: RFC 6298's.
+/// Weight of a new trip in the smoothed one, as in RFC 6298.
 constexpr double kNews = 0.125;
-/// A trip this much slower than the fastest says little of the clocks [s].
+/// A trip slower than the fastest by more than this says little about the clocks [s].
 constexpr double kNearFastest = 2e-4;
-/// Share by which the offset follows a trip that is fast: noise of the fast ones averages out.
+/// Weight of a fast trip in the offset; their noise averages out.
 constexpr double kOffsetNews = 0.1;
 
 }  // namespace

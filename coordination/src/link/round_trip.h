@@ -5,26 +5,27 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Round trip and clock offset to a peer, from stamps that go there and come back:
+// clang-format off
+/// Round trip and clock offset to a peer, from time stamps that travel there and back:
 ///
 ///   own clock      t0 ------------------------ t3         round trip  (t3 - t0) - (t2 - t1)
 ///                    \                        /           offset      ((t1 - t0) + (t2 - t3)) / 2
 ///   peer's clock      t1 ------ held ------ t2
 ///
-/// The offset is taken from the fastest trips of the last 10 s. It is right if both ways take
-/// equally long; without another clock that both sides know nobody can tell more, and the error is
-/// half the difference of the two ways. Pure; real-time safe.
+/// The offset comes from the fastest trips of the last 10 s. It is exact if both ways take equally
+/// long. The error is half the difference of the two ways; without a third clock it is unknown.
+/// Pure; real-time safe.
+// clang-format on
 class RoundTrip {
  public:
-  /// A datagram sent at `t0` came back at `t3` (own clock), after the peer had received it and sent
-  /// its answer at `t2` (its clock), holding it for `hold` [s]. Nonsense (a negative trip, numbers
-  /// that are not finite) is left out.
+  /// Adds a datagram sent at `t0` that came back at `t3` (own clock). The peer held it for `hold`
+  /// [s] and answered at `t2` (its clock). Negative trips and non-finite numbers are ignored.
   void add(double t0, double t2, double hold, double t3) noexcept;
 
   [[nodiscard]] bool isKnown() const noexcept { return is_known_; }
-  /// Smoothed [s]; 0 before the first.
+  /// Smoothed round trip [s]; 0 before the first.
   [[nodiscard]] double trip() const noexcept { return trip_; }
-  /// The fastest of the last 10 s [s].
+  /// The fastest round trip of the last 10 s [s].
   [[nodiscard]] double fastest() const noexcept { return is_known_ ? fastest_.value() : 0.0; }
   /// Peer's clock - own clock [s].
   [[nodiscard]] double offset() const noexcept { return offset_; }

@@ -6,20 +6,21 @@
 #include "bad_value.h"
 #include "link/flight_queue.h"
 
-//   send(packet, now)                                             receive(from, until)
-//        |                                                                ^
-//      lost? ----> launch: now + delay +- jitter, or now if reordered     | earliest arrival <
-//      until
-//        |                                    \                           | that was sent < from
-//        +-------> launch: the duplicate ------> heap of what is in flight
+// clang-format off
+//   send(packet, now)                                            receive(from, until)
+//        |                                                               ^
+//      lost? ----> launch: now + delay +- jitter, or now if reordered    | earliest arrival < until
+//        |                                    \                          | that was sent < from
+//        +-------> launch: the duplicate ------> heap of packets in flight
 //
 // The heap orders small entries; the packets stay in their slots from send() to receive(). Fates
-// are those of computeFate().
+// come from computeFate().
+// clang-format on
 
 namespace tandem {
 namespace {
 
-/// One direction of the way.
+/// One direction of the link.
 class Channel {
  public:
   Channel(const Impairments& impairments, Direction direction, std::size_t capacity)
@@ -50,7 +51,7 @@ class Channel {
         queue_.release(flight.slot);
         ++counts_.delivered;
       } else {
-        held_back_.push_back(flight);  // sent in this very tick: a later one takes it in
+        held_back_.push_back(flight);  // sent in this very tick: a later tick receives it
       }
     }
     for (const FlightQueue::Flight& flight : held_back_) queue_.putBack(flight);
@@ -95,7 +96,7 @@ class SimulatedEnd final : public SimulatedLink {
   }
 
  private:
-  // Shared by both ends, so that either may go first.
+  // Shared by both ends, so that either may be destroyed first.
   std::shared_ptr<Channel> outgoing_;
   std::shared_ptr<Channel> incoming_;
 };

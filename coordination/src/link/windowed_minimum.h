@@ -6,8 +6,8 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// The least of the values of the last while: of at least half the window, at most the whole.
-/// Values make time pass, silence does not: what was least before an outage is remembered after it.
+/// Minimum of the latest values, over at least half the window and at most all of it. Only values
+/// advance the time: the minimum before an outage is still known after it.
 class WindowedMinimum {
  public:
   /// `window` [s].

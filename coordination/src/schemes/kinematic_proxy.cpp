@@ -3,7 +3,7 @@
 namespace tandem {
 namespace {
 
-/// The remote user is a body that *is* the delayed position and velocity, held between packets.
+/// The remote user is a kinematic body at the delayed position and velocity, held between packets.
 /// Source: Fotoohi, Sirouspour & Capson 2007; "Scheme 2" of Li & Constantinescu 2009.
 class KinematicProxy final : public Scheme {
  public:

@@ -3,8 +3,8 @@
 namespace tandem {
 namespace {
 
-/// The remote user is a body of its own, with the mass of the user's device, driven by K_t, B_t
-/// towards the user's delayed state: eqs (3), (4), (13), (14) of Li & Constantinescu 2009.
+/// The remote user is a dynamic body with the mass of the user's device. K_t, B_t drive it towards
+/// the user's delayed state: eqs (3), (4), (13), (14) of Li & Constantinescu 2009.
 class RemoteDynamicProxy final : public Scheme {
  public:
   std::string_view name() const noexcept override { return "remote_dynamic_proxy"; }

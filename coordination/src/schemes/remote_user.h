@@ -9,10 +9,10 @@
 
 namespace tandem {
 
-/// A remote user at this site: what a scheme made of it in the island.
+/// Representation of a remote user in the local island, made by a scheme.
 struct RemoteUser {
-  std::optional<BodyIndex> body;        ///< nothing: the user is felt through shared objects only
-  std::optional<CouplerIndex> coupler;  ///< ties a dynamic body to the user's delayed state
+  std::optional<BodyIndex> body;        ///< empty: the user is felt only through shared objects
+  std::optional<CouplerIndex> coupler;  ///< couples a dynamic body to the user's delayed state
 };
 
 }  // namespace tandem

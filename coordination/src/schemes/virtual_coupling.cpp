@@ -3,8 +3,8 @@
 namespace tandem {
 namespace {
 
-/// Users meet only through the shared object, whose copies are tied by K_t, B_t.
-/// Source: Sankaranarayanan & Hannaford 2008; "Scheme 1" of Li & Constantinescu 2009.
+/// Users meet only through the shared object; K_t, B_t couple its copies. Source: Sankaranarayanan
+/// & Hannaford 2008; "Scheme 1" of Li & Constantinescu 2009.
 class VirtualCoupling final : public Scheme {
  public:
   std::string_view name() const noexcept override { return "virtual_coupling"; }

@@ -2,7 +2,7 @@
 
 #include "wire/wire_agree.h"
 
-// A configuration is cut into parts that fit a datagram each, and put together again.
+// Splits a configuration into parts that fit one datagram each, and joins them again.
 namespace tandem {
 namespace {
 

@@ -12,8 +12,8 @@
 
 namespace tandem::wire {
 
-/// Little-endian numbers, one after the other. Behind the end everything reads as zero; readers
-/// look at the size first, this only makes sure that a slip cannot read other memory.
+/// Reads little-endian numbers in sequence. Behind the end every read gives zero. Callers check the
+/// size first; this only keeps a bug from reading other memory.
 class ByteReader {
  public:
   explicit ByteReader(ByteView bytes) noexcept : at_(bytes.data), left_(bytes.size) {}
@@ -46,10 +46,10 @@ class ByteReader {
     return std::all_of(at_, at_ + left_, [](std::uint8_t byte) { return byte == 0; });
   }
 
-  /// True if `count` more bytes are there.
+  /// True if at least `count` bytes are left.
   [[nodiscard]] bool has(std::size_t count) const noexcept { return left_ >= count; }
 
-  /// The next `count` bytes, which are there, as text.
+  /// The next `count` bytes as text; empty if fewer are left.
   [[nodiscard]] std::string_view readText(std::size_t count) noexcept {
     if (!has(count)) return {};
     const std::string_view text(reinterpret_cast<const char*>(at_), count);

@@ -12,7 +12,7 @@
 
 namespace tandem::wire {
 
-/// Little-endian numbers, one after the other, into room that the caller has seen to be enough.
+/// Writes little-endian numbers in sequence; the caller has checked that the room suffices.
 class ByteWriter {
  public:
   explicit ByteWriter(ByteSpan out) noexcept : begin_(out.data), at_(out.data), room_(out.size) {}
@@ -33,7 +33,7 @@ class ByteWriter {
     if (bytes.size() > 0) std::memcpy(advance(bytes.size()), bytes.data(), bytes.size());
   }
 
-  /// Length in one byte, then the text.
+  /// Writes the length in one byte, then the text.
   void writeText(std::string_view text) noexcept {
     write(static_cast<std::uint8_t>(text.size()));
     writeBytes(text);

@@ -28,7 +28,7 @@ void requireItem(const ConfigurationItem& item) {
   }
 }
 
-/// FNV-1a, 64 bits.
+/// FNV-1a hash, 64 bits.
 class Fnv {
  public:
   void add(std::string_view text) noexcept {

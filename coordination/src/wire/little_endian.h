@@ -8,7 +8,7 @@
 
 namespace tandem::wire {
 
-/// `value` with its bytes in the order in which a little-endian machine keeps it, and back.
+/// Converts between native and little-endian byte order.
 template <class Unsigned>
 [[nodiscard]] constexpr Unsigned swapToLittleEndian(Unsigned value) noexcept {
   static_assert(std::is_unsigned_v<Unsigned>);

@@ -26,7 +26,7 @@ void ReplayWindow::moveTo(std::uint64_t newest) noexcept {
   if (empty_ || newest - newest_ >= kSize) {
     taken_.fill(0);
   } else {
-    // The numbers in between take over the bits of those that fall out behind.
+    // The numbers in between reuse the bits of those that leave the window.
     for (std::uint64_t n = newest_ + 1; n != newest + 1; ++n) taken_[n / 64 % kWords] &= ~bitOf(n);
   }
   newest_ = newest;

@@ -6,11 +6,11 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Which sequence numbers under one key were taken (section 5 of coordination/STANDARD.md): each is
-/// taken once, and none that is 1024 or more behind the newest.
+/// Sequence numbers received under one key (section 5 of coordination/STANDARD.md). Each number is
+/// accepted once, and none that is 1024 or more behind the newest.
 ///
-/// check() before a datagram is opened, commit() after it was: a forged number, however far ahead,
-/// never opens and so never moves the window. Real-time safe; not thread safe.
+/// Call check() before opening a datagram and commit() after. A forged datagram never opens, so its
+/// number never moves the window. Real-time safe; not thread safe.
 class ReplayWindow {
  public:
   static constexpr std::uint64_t kSize = 1024;
@@ -18,7 +18,7 @@ class ReplayWindow {
   /// True if a datagram with this number may be opened.
   [[nodiscard]] bool check(std::uint64_t sequence) const noexcept;
 
-  /// Takes the number; false, and nothing changes, if check() says no.
+  /// Accepts the number. False, without a change, if check() refuses it.
   [[nodiscard]] bool commit(std::uint64_t sequence) noexcept;
 
  private:

@@ -8,11 +8,11 @@
 #include "wire/wire_state.h"
 
 /// \file
-/// The gate of STATE, the same for what is sent and what is taken. Bounds are asked so that a NaN
+/// Range checks of STATE, for both sending and receiving. The comparisons are written so that a NaN
 /// never passes.
 namespace tandem::wire {
 
-/// Ids of the objects in one datagram: each known and there once.
+/// Object ids of one datagram: each must be known and occur once.
 class ObjectIds {
  public:
   [[nodiscard]] WireRefusal add(ObjectId id) noexcept {
@@ -32,8 +32,8 @@ inline double computeSquaredLength(const Quat& q) noexcept {
   return q.w() * q.w() + q.x() * q.x() + q.y() * q.y() + q.z() * q.z();
 }
 
-/// A quaternion that is of unit length to rounding stays as it is, so that float64 comes out as it
-/// went in.
+/// Normalises a quaternion. One of unit length to rounding stays unchanged, so that float64 values
+/// survive the wire exactly.
 inline void makeUnit(Quat& q) noexcept {
   constexpr double kRounding = 1e-14;
   const double squared_length = computeSquaredLength(q);
@@ -69,7 +69,7 @@ class StateGate {
     return WireRefusal::kNone;
   }
 
-  /// All that a receiver would look at.
+  /// Checks everything that a receiver checks.
   [[nodiscard]] WireRefusal check(const StateMessage& message) const noexcept {
     const StatePacket& packet = message.packet;
     if (message.profile > WireProfile::kFloat64) return WireRefusal::kProfile;

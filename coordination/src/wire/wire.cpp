@@ -32,7 +32,7 @@ bool isType(std::uint8_t type) noexcept {
          within(MessageType::kState, MessageType::kBye);
 }
 
-/// What section 3 says of the fields behind the type.
+/// Checks the fields behind the type (section 3).
 WireRefusal findFault(const ClearHeader& header) noexcept {
   const bool sealed = isSealed(header.type);
   const bool addressed = sealed || header.type == MessageType::kAccept;

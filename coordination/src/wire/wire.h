@@ -7,22 +7,23 @@
 #include "tandem/coordination/types.h"
 
 /// \file
-/// What every datagram has: bytes, header, named refusals. The format is coordination/STANDARD.md;
-/// section numbers refer to it. All functions of the wire are pure, check every byte, never throw
-/// and, unless they say so, never allocate: they may be called from any thread and in the tick.
+/// Parts common to all datagrams: bytes, header, named refusals. Sections refer to
+/// coordination/STANDARD.md, which defines the format. All functions of the wire are pure, check
+/// every byte and never throw. They never allocate unless they say so. They may be called from any
+/// thread and in the tick.
 #pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::uint8_t kWireVersion = 1;
 inline constexpr std::size_t kHeaderSize = 20;  ///< [bytes]
-inline constexpr std::size_t kTagSize = 16;     ///< [bytes] behind a sealed payload
+inline constexpr std::size_t kTagSize = 16;     ///< tag behind a sealed payload [bytes]
 inline constexpr std::size_t kMaxPayloadSize = kMaxDatagramSize - kHeaderSize - kTagSize;
-inline constexpr std::uint32_t kMaxWirePeer = 8;  ///< ids on the wire are 1 to this
+inline constexpr std::uint32_t kMaxWirePeer = 8;  ///< ids on the wire are 1 to 8
 
-/// Latest time on the wire [us], 35 years: seconds in a double still name each microsecond.
+/// Latest time on the wire [us], 35 years; a double in seconds still resolves each microsecond.
 inline constexpr std::int64_t kMaxWireTimeUs = std::int64_t{1} << 50;
 
-/// Why bytes are not taken (section 10). A receiver drops them and counts by this.
+/// Reason why bytes are refused (section 10). A receiver drops them and counts each reason.
 enum class WireRefusal : std::uint8_t {
   kNone,
   kTooShort,
@@ -66,7 +67,7 @@ inline constexpr std::size_t kWireRefusals = static_cast<std::size_t>(WireRefusa
 /// The refusal's name in the standard, such as "too_short"; "none" for kNone.
 [[nodiscard]] const char* name(WireRefusal refusal) noexcept;
 
-/// A value that was read, or why there is none. `*decoded` means something only if `decoded`.
+/// A decoded value, or the reason why there is none. `*decoded` is valid only if `decoded`.
 template <class T>
 class Decoded {
  public:
@@ -79,7 +80,7 @@ class Decoded {
   [[nodiscard]] T& operator*() noexcept { return value_; }
   [[nodiscard]] T* operator->() noexcept { return &value_; }
 
-  /// For decoders, which fill in the value first; kNone lets it pass.
+  /// For decoders, which fill in the value first; kNone accepts it.
   void refuse(WireRefusal refusal) noexcept { refusal_ = refusal; }
 
  private:
@@ -99,37 +100,37 @@ enum class MessageType : std::uint8_t {
   kBye = 19,
 };
 
-/// True for the types whose payload is sealed, false for those of the handshake.
+/// True for types with a sealed payload, false for those of the handshake.
 [[nodiscard]] constexpr bool isSealed(MessageType type) noexcept {
   return static_cast<std::uint8_t>(type) >= static_cast<std::uint8_t>(MessageType::kState);
 }
 
-/// The clear beginning of every datagram (section 3).
+/// The unencrypted header of every datagram (section 3).
 struct ClearHeader {
   MessageType type = MessageType::kState;
-  std::uint8_t version = kWireVersion;  ///< another one only in REFUSE
+  std::uint8_t version = kWireVersion;  ///< differs only in REFUSE
   std::uint32_t session = 0;            ///< chosen by the datagram's receiver; 0: none yet
   PeerId sender{};
   std::uint16_t key_epoch = 0;
   std::uint64_t sequence = 0;
 };
 
-/// Writes the header's kHeaderSize bytes and gives their number; 0, and nothing written, if there
-/// is no room or the header is outside the standard.
+/// Writes the header's kHeaderSize bytes and returns their number. Returns 0, with nothing written,
+/// if there is no room or the header is outside the standard.
 [[nodiscard]] std::size_t encodeHeader(const ClearHeader& header, ByteSpan out) noexcept;
 
-/// The header of a datagram as it came in, or opened. Checks steps 1 to 3 of section 5: the length
+/// Reads the header of a sealed or opened datagram. Checks steps 1 to 3 of section 5: the length
 /// against 20 and 1200, magic, version, type, and the ranges of the other fields.
 [[nodiscard]] Decoded<ClearHeader> decodeHeader(ByteView datagram) noexcept;
 
-/// What follows the header; the datagram has one.
+/// The bytes after the header, which the datagram must have.
 [[nodiscard]] inline ByteView payloadOf(ByteView datagram) noexcept {
   return {datagram.data + kHeaderSize, datagram.size - kHeaderSize};
 }
 
-inline constexpr std::size_t kByeSize = 1;  ///< [bytes], payload
+inline constexpr std::size_t kByeSize = 1;  ///< payload [bytes]
 
-/// Payload of BYE; 0 if there is no room.
+/// Writes the payload of BYE and returns its size; 0 if there is no room.
 [[nodiscard]] std::size_t encodeBye(ByeReason reason, ByteSpan out) noexcept;
 [[nodiscard]] Decoded<ByeReason> decodeBye(ByteView payload) noexcept;
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kAgreeHead = 7;
 constexpr std::size_t kAckHead = 9;
-constexpr std::size_t kMinAckSize = kAckHead + 2;  // the lengths of key and value
+constexpr std::size_t kMinAckSize = kAckHead + 2;  // plus the lengths of key and value
 
 constexpr std::size_t sizeOf(const ConfigurationItem& item) noexcept {
   return 2 + item.key.size() + item.value.size();
@@ -20,7 +20,7 @@ std::size_t sizeOf(const Configuration& items) noexcept {
   return size;
 }
 
-/// Length and text; kWrongSize if the bytes end before.
+/// Reads a length and a text; kWrongSize if the bytes end too early.
 Decoded<std::string_view> readText(wire::ByteReader& reader) noexcept {
   if (!reader.has(1)) return WireRefusal::kWrongSize;
   const std::size_t length = reader.read<std::uint8_t>();
@@ -36,7 +36,7 @@ WireRefusal findFault(const ConfigurationItem& item) noexcept {
   return WireRefusal::kNone;
 }
 
-/// The next item, to stand behind those that are there.
+/// Reads the next item and appends it.
 WireRefusal readItem(wire::ByteReader& reader, Configuration& items) {
   const auto key = readText(reader);
   if (!key) return key.refusal();
@@ -59,7 +59,7 @@ bool isAllowed(const AgreePart& part) noexcept {
   return true;
 }
 
-/// Only an answer that finds a difference names one.
+/// Only the verdict kDifferent names a key.
 bool mayBeKey(std::string_view key, AgreeVerdict verdict) noexcept {
   return verdict == AgreeVerdict::kDifferent ? isConfigurationKey(key) : key.empty();
 }

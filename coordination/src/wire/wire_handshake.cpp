@@ -5,13 +5,13 @@
 #include "wire/byte_reader.h"
 #include "wire/byte_writer.h"
 
-//  20 receiver u16 | code u8 | zero u8 | nonce u64 | what the type adds
+// Layout: 20 receiver u16 | code u8 | zero u8 | nonce u64 | fields of the type
 namespace tandem {
 namespace {
 
 constexpr std::size_t kRouteEnd = 32;
 
-/// What all five have in common.
+/// Fields common to all five types.
 struct Envelope {
   ClearHeader header;
   PeerId receiver{};
@@ -40,7 +40,7 @@ bool isInitiators(MessageType type) noexcept {
   return type == MessageType::kHello || type == MessageType::kOpen;
 }
 
-/// What section 4 says of the route and the code, in its order.
+/// Checks the route and the code, in the order of section 4.
 WireRefusal findFault(const Envelope& envelope) noexcept {
   const MessageType type = envelope.header.type;
   const auto sender = static_cast<std::uint32_t>(envelope.header.sender);
@@ -62,7 +62,8 @@ ClearHeader makeHeader(MessageType type, const HandshakeRoute& route) noexcept {
   return header;
 }
 
-/// Writes header and route of a message that has room; nothing if it is outside the standard.
+/// Writes header and route. False, with nothing written, if there is no room or the message is
+/// outside the standard.
 bool writeEnvelope(const ClearHeader& header, const HandshakeRoute& route, std::uint8_t code,
                    ByteSpan out) noexcept {
   const Envelope envelope{header, route.receiver, code, route.nonce};

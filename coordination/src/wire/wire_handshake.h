@@ -7,12 +7,12 @@
 #include "wire/wire.h"
 
 /// \file
-/// The clear datagrams of the handshake (section 4), whole, with their header. What Noise puts into
-/// its messages and the cookie's making are the caller's.
+/// The unencrypted datagrams of the handshake (section 4), with their headers. The caller makes the
+/// contents of the Noise messages and the cookie.
 #pragma GCC visibility push(default)
 namespace tandem {
 
-inline constexpr std::size_t kHelloSize = 256;  ///< [bytes], as all of these with header
+inline constexpr std::size_t kHelloSize = 256;  ///< [bytes]; these sizes include the header
 inline constexpr std::size_t kCookieSize = 48;
 inline constexpr std::size_t kOpenSize = 104;
 inline constexpr std::size_t kAcceptSize = 88;
@@ -21,25 +21,25 @@ inline constexpr std::size_t kRefuseSize = 32;
 using CookieBytes = std::array<std::uint8_t, 16>;
 using NoiseMessage = std::array<std::uint8_t, 56>;  ///< key 32, sealed terms 8, tag 16
 
-/// From whom to whom, in which try.
+/// Sender, receiver and attempt of a handshake.
 struct HandshakeRoute {
   PeerId sender{};
   PeerId receiver{};
-  std::uint64_t nonce = 0;  ///< the initiator's random number, repeated by every answer
+  std::uint64_t nonce = 0;  ///< the initiator's random number, repeated in every answer
 };
 
-/// Initiator: "let us begin". The longest of all, so that no answer is longer.
+/// Initiator: asks to begin. The longest of all, so that no answer amplifies it.
 struct HelloMessage {
   HandshakeRoute route;
 };
 
-/// Responder: "show that you get what is sent to your address". It has kept nothing.
+/// Responder: asks for proof that the initiator receives at its address. It has stored nothing.
 struct CookieMessage {
   HandshakeRoute route;
   CookieBytes cookie{};
 };
 
-/// Initiator: cookie as it came, and Noise message 1.
+/// Initiator: returns the cookie, with Noise message 1.
 struct OpenMessage {
   HandshakeRoute route;
   std::uint16_t key_epoch = 0;
@@ -55,30 +55,31 @@ struct AcceptMessage {
   NoiseMessage noise{};
 };
 
-/// Either: why not. Not authentic, so for the user's eyes only; never ends a live session.
+/// Either side: the reason of a refusal. It is not authentic: show it to the user only; it never
+/// ends a live session.
 struct RefuseMessage {
   HandshakeRoute route;
   RefuseCode code = RefuseCode::kVersion;
-  std::uint8_t version = kWireVersion;  ///< that the sender speaks
+  std::uint8_t version = kWireVersion;  ///< version that the sender speaks
 };
 
-/// Each writes one whole datagram and gives its size; 0, and nothing written, if there is no room
-/// or the message is outside the standard.
+/// Each encoder writes one whole datagram and returns its size. It returns 0, with nothing written,
+/// if there is no room or the message is outside the standard.
 [[nodiscard]] std::size_t encodeHello(const HelloMessage& message, ByteSpan out) noexcept;
 [[nodiscard]] std::size_t encodeCookie(const CookieMessage& message, ByteSpan out) noexcept;
 [[nodiscard]] std::size_t encodeOpen(const OpenMessage& message, ByteSpan out) noexcept;
 [[nodiscard]] std::size_t encodeAccept(const AcceptMessage& message, ByteSpan out) noexcept;
 [[nodiscard]] std::size_t encodeRefuse(const RefuseMessage& message, ByteSpan out) noexcept;
 
-/// Each reads one whole datagram of its type.
+/// Each decoder reads one whole datagram of its type.
 [[nodiscard]] Decoded<HelloMessage> decodeHello(ByteView datagram) noexcept;
 [[nodiscard]] Decoded<CookieMessage> decodeCookie(ByteView datagram) noexcept;
 [[nodiscard]] Decoded<OpenMessage> decodeOpen(ByteView datagram) noexcept;
 [[nodiscard]] Decoded<AcceptMessage> decodeAccept(ByteView datagram) noexcept;
 [[nodiscard]] Decoded<RefuseMessage> decodeRefuse(ByteView datagram) noexcept;
 
-/// Writes the REFUSE that answers a HELLO of another version, and gives its size; 0 if the datagram
-/// is not one: HELLO and REFUSE are laid out alike in all versions.
+/// Writes the REFUSE that answers a HELLO of another version, and returns its size. 0 if the
+/// datagram is not such a HELLO. HELLO and REFUSE have the same layout in all versions.
 [[nodiscard]] std::size_t encodeVersionRefusal(ByteView hello, ByteSpan out) noexcept;
 
 }  // namespace tandem

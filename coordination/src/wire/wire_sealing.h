@@ -7,7 +7,7 @@
 #include "wire/wire.h"
 
 /// \file
-/// The bytes that go into Noise and into sealing besides keys and payload (sections 4 and 5).
+/// Bytes that enter Noise and sealing besides keys and payload (sections 4 and 5).
 #pragma GCC visibility push(default)
 namespace tandem {
 
@@ -16,11 +16,11 @@ using SessionTermsBytes = std::array<std::uint8_t, 8>;
 using AssociatedData = std::array<std::uint8_t, 32>;
 using SealNonce = std::array<std::uint8_t, 12>;
 
-/// What each side says inside its Noise message.
+/// Terms that each side sends inside its Noise message.
 struct SessionTerms {
-  std::uint32_t session = 0;    ///< by which the terms' sender wants to be addressed; not 0
-  std::uint16_t key_epoch = 0;  ///< the initiator's wish, repeated by the responder; not 0
-  std::uint8_t minor = 0;       ///< the highest that is spoken; the answer has the lower of both
+  std::uint32_t session = 0;    ///< session id under which the sender wants to be addressed; not 0
+  std::uint16_t key_epoch = 0;  ///< chosen by the initiator, repeated by the responder; not 0
+  std::uint8_t minor = 0;       ///< highest minor version spoken; the answer has the lower of both
 };
 
 /// Prologue of the pair's handshake; the initiator has the lower id.
@@ -29,19 +29,19 @@ struct SessionTerms {
 [[nodiscard]] SessionTermsBytes writeSessionTerms(const SessionTerms& terms) noexcept;
 [[nodiscard]] Decoded<SessionTerms> readSessionTerms(const SessionTermsBytes& bytes) noexcept;
 
-/// Associated data of a sealed datagram: its first kHeaderSize bytes, as they are on the wire, and
-/// the pair in the datagram's direction.
+/// Associated data of a sealed datagram: its first kHeaderSize bytes on the wire, then the peers'
+/// ids in the datagram's direction.
 [[nodiscard]] AssociatedData writeAssociatedData(const std::uint8_t* header, PeerId from,
                                                  PeerId to) noexcept;
 
-/// The part of the nonce that is the same for all datagrams of one direction and key epoch.
+/// The part of the nonce that is constant for one direction and key epoch.
 [[nodiscard]] constexpr std::uint32_t computeNonceSalt(PeerId sender,
                                                        std::uint16_t key_epoch) noexcept {
   return (static_cast<std::uint32_t>(sender) & 0xffffU) | std::uint32_t{key_epoch} << 16;
 }
 
-/// Salt, then sequence. With salt 0 it is the nonce of Noise's ChaChaPoly (revision 34,
-/// section 12.3).
+/// Salt, then sequence. With salt 0 this is the nonce of Noise's ChaChaPoly (revision 34, section
+/// 12.3).
 [[nodiscard]] SealNonce writeNonce(std::uint32_t salt, std::uint64_t sequence) noexcept;
 
 }  // namespace tandem

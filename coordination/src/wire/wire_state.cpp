@@ -12,7 +12,7 @@
 namespace tandem {
 namespace {
 
-/// Writes vectors in a profile's width; what passed the gate rounds to a finite float.
+/// Writes numbers in a profile's width. Values that passed the gate round to finite floats.
 template <class Real>
 class RecordWriter {
  public:
@@ -91,7 +91,7 @@ void writeRecords(const StatePacket& packet, wire::ByteWriter& writer) noexcept 
   for (std::size_t i = 0; i < packet.object_count; ++i) records.write(packet.objects[i]);
 }
 
-/// Reads and checks the records one by one; the packet knows how many there are.
+/// Reads and checks the records one by one; `packet.object_count` is set.
 template <class Real>
 WireRefusal readRecords(wire::ByteReader& reader, const wire::StateGate& gate,
                         StatePacket& packet) noexcept {
