@@ -1,6 +1,8 @@
 # How every target of the project is compiled: warnings are errors on our own code only, floating
 # point is strict so that equal inputs give equal bits in Debug and Release, symbols are hidden.
 
+include(TandemUnity)
+
 add_library(tandem_compile_options INTERFACE)
 target_compile_features(tandem_compile_options INTERFACE cxx_std_20)
 # Private headers of another folder are included by their path from the checkout; they name their neighbours
@@ -16,6 +18,12 @@ target_compile_options(tandem_compile_options INTERFACE
 # 105562); Clang, which CI builds with, too, has no such warnings. They stay visible but do not stop a build.
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:
   -Wno-restrict -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow>)
+# In a batch of sources a name of one source is no shadow on a name of another, and GCC takes each source for a header
+# when it warns of types that are one source's own. The preset clang has no batches and all warnings.
+if(TANDEM_UNITY)
+  target_compile_options(tandem_compile_options INTERFACE
+    -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 # Clang's -Wconversion includes the sign of indices, GCC's does not.
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 if(TANDEM_SANITIZE)
@@ -26,9 +34,15 @@ endif()
 
 # tandem_precompile(TARGET headers...): headers that nearly every source of a target reads, compiled once. What a
 # header of ours needs it must still include itself: tests/house compiles each alone.
+# tandem_precompile(TARGET LIKE other): those of another target with the same options, without compiling them again.
 option(TANDEM_PRECOMPILE "Precompile common headers: halves the time of a full build" ON)
 function(tandem_precompile target)
-  if(TANDEM_PRECOMPILE)
+  if(NOT TANDEM_PRECOMPILE)
+    return()
+  endif()
+  if(ARGV1 STREQUAL "LIKE")
+    target_precompile_headers(${target} REUSE_FROM ${ARGV2})
+  else()
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
@@ -50,14 +64,19 @@ function(tandem_add_library name)
     PRIVATE $<BUILD_INTERFACE:tandem_compile_options> ${arg_PRIVATE})
   set_target_properties(tandem_${name} PROPERTIES
     CXX_STANDARD 20 CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-    POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+    POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name} DEFINE_SYMBOL "")
   if(arg_WIDTH)
     tandem_mark_width(tandem_${name} ${arg_WIDTH})
   endif()
   if(BUILD_SHARED_LIBS)
     tandem_set_abi(tandem_${name} "${arg_WIDTH}")
   endif()
-  tandem_precompile(tandem_${name} <Eigen/Core> <Eigen/Geometry>)
+  if(name STREQUAL "coordination")
+    tandem_precompile(tandem_${name} <Eigen/Core> <Eigen/Geometry>)
+  else()
+    tandem_precompile(tandem_${name} LIKE tandem_coordination)
+  endif()
+  tandem_unity(tandem_${name})
   if(TANDEM_INSTALL)
     tandem_install_library(${name})
   endif()
