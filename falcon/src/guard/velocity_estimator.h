@@ -70,8 +70,7 @@ struct AdaptiveWindowSettings {
   /// Largest error between two readings' times [s]; 0: times are exact. It widens the tolerance by
   /// the distance moved in that time.
   double stamp_error = 0.4e-3;
-  double longest =
-      8e-3;  ///< longest window [s]; higher is calmer in slow motion and later by half of it
+  double longest = 8e-3;  ///< longest window [s]; higher is calmer when slow, and later
   WindowFit fit = WindowFit::kBest;
 };
 

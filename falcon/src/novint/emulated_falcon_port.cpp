@@ -19,11 +19,12 @@
 namespace tandem {
 namespace {
 
-constexpr double kLook = 0.0002;    // how often what is to be sent is looked for [s]
-constexpr double kVisit = 0.00002;  // [s]
-constexpr double kNap = 0.002;      // while it is unplugged [s]
+constexpr double kLook = 0.0002;    // interval between checks for bytes to send [s]
+constexpr double kVisit = 0.00002;  // pause while a visitor waits for the lock [s]
+constexpr double kNap = 0.002;      // pause while the port is unplugged [s]
 
-/// A link in a folder of its own, where nobody else can put another; both go with this.
+/// A symbolic link in a private folder, so that no other program can replace it. The destructor
+/// removes both.
 class Link {
  public:
   Link() {
@@ -120,17 +121,17 @@ class EmulatedFalconPort::Server {
     rights.take(priority_, false);
     while (!stops_.load(std::memory_order_relaxed)) {
       if (!serve()) sleepFor(kNap);
-      while (visitors_.load() > 0) sleepFor(kVisit);  // who waits gets the lock
+      while (visitors_.load() > 0) sleepFor(kVisit);  // visitors get the lock first
     }
   }
 
-  /// False while there is no line.
+  /// Exchanges bytes once. Returns false while there is no line.
   bool serve() {
     const std::lock_guard lock(mutex_);
     if (!terminal_) return false;
     std::array<std::uint8_t, 256> bytes;
     const std::size_t come = terminal_->read(bytes.data(), bytes.size(), kLook);
-    // The speed is looked at after the bytes: a host sets it before it sends.
+    // Read the speed after the bytes: a host sets it before it sends.
     if (const int baud = terminal_->readSpeed(); baud != line_.baud && baud > 0) {
       line_.baud = baud;
       emulator_.setLine(line_);

@@ -6,7 +6,7 @@
 namespace tandem {
 namespace {
 
-// 142857 Bd is 3 MHz / 21: chips that divide by eighths would make other speeds of 140000.
+// 3 MHz / 21 is exact. For 140000 Bd, chips that divide by eighths would choose another speed.
 constexpr SerialLine kReset{9600, 16, false, false};
 constexpr SerialLine kCall{9600, 16, true, false};
 constexpr SerialLine kLoad{142857, 16, false, false};
@@ -16,11 +16,11 @@ constexpr std::array<std::uint8_t, 3> kCallBytes = {0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 4> kAnswer = {0x0A, 0x44, 0x2C, 0x0D};
 constexpr std::uint8_t kTiming = 'A';
 
-constexpr double kResetTime = 0.01;    // DTR is low for so long [s]
-constexpr double kFramePeriod = 0.01;  // between frames that look for running firmware [s]
-constexpr std::size_t kPiece = 62;     // what fits into one packet of an FTDI chip [bytes]
+constexpr double kResetTime = 0.01;    // DTR is low for this long [s]
+constexpr double kFramePeriod = 0.01;  // time between frames that probe for running firmware [s]
+constexpr std::size_t kPiece = 62;     // payload of one FTDI packet [bytes]
 
-/// Homing mode stays on: firmware that runs already keeps what it has found.
+/// A command in homing mode, so that running firmware keeps its homing.
 const FalconFrame& probeFrame() noexcept {
   static const FalconFrame frame = encodeCommand({{}, true, kRedLight});
   return frame;
@@ -87,7 +87,7 @@ void FalconBoot::take(const std::uint8_t* bytes, std::size_t count, double now) 
 }
 
 void FalconBoot::takeByte(std::uint8_t byte, double now) noexcept {
-  if (!has_entered_) return;  // it came before the line was set for this phase
+  if (!has_entered_) return;  // the byte came before the line was set for this phase
   std::copy(last_.begin() + 1, last_.end(), last_.begin());
   last_.back() = byte;
   switch (phase_) {
@@ -154,7 +154,7 @@ void FalconBoot::onTimeUp(double now) noexcept {
 }
 
 LineStep FalconBoot::advance(double now) noexcept {
-  // A phase is entered before its time can be up, however late the caller comes.
+  // However late the caller is, a phase is entered before its time can be up.
   if (has_entered_ && now >= until_) onTimeUp(now);
   return makeStep(now);
 }

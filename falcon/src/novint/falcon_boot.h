@@ -13,19 +13,19 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Why a Falcon did not boot.
+/// Reason why a Falcon did not boot.
 enum class BootFault : std::uint8_t {
   kNone,
-  kNoImage,    ///< it has no firmware, and none was given
+  kNoImage,    ///< the device has no firmware, and no image was given
   kNoAnswer,   ///< the boot loader does not answer its call
-  kNoEcho,     ///< it does not echo, or stops to
-  kWrongEcho,  ///< it echoes something else than was sent
-  kNotRunning  ///< all was loaded, yet the firmware gives no reply
+  kNoEcho,     ///< the boot loader does not echo, or stops echoing
+  kWrongEcho,  ///< the boot loader echoes other bytes
+  kNotRunning  ///< the image was loaded, but the firmware gives no reply
 };
 
 [[nodiscard]] FalconFault faultOf(BootFault fault) noexcept;
 
-/// How a Falcon boots, as a machine without I/O and clock:
+/// Boot sequence of a Falcon, as a state machine without I/O and clock:
 ///
 ///     probe at 1.5 MBd ----> a reply: running
 ///       | none
@@ -35,7 +35,8 @@ enum class BootFault : std::uint8_t {
 ///     image, piece by piece; each byte comes back and is compared
 ///     1.5 MBd -------------> a command frame <- a reply: running
 ///
-/// Answers are searched for in the stream. Any failure ends the try; after a pause comes the next.
+/// The machine searches the stream for the answers. Any failure ends the try; the next one follows
+/// after a pause.
 class FalconBoot {
  public:
   enum class Phase : std::uint8_t {
@@ -51,21 +52,21 @@ class FalconBoot {
     kFailed
   };
 
-  /// An empty image: it can only find that the firmware runs.
+  /// With an empty image it can only detect firmware that runs already.
   explicit FalconBoot(FirmwareImage image, const BootSettings& settings = {});
 
-  /// Begins anew, with the probe.
+  /// Restarts with the probe.
   void start(double now) noexcept;
-  /// Bytes that have come.
+  /// Processes received bytes.
   void take(const std::uint8_t* bytes, std::size_t count, double now) noexcept;
-  /// What to do now; nothing once it is running or failed.
+  /// Returns the action for the line now; no action when running or failed.
   [[nodiscard]] LineStep advance(double now) noexcept;
 
   [[nodiscard]] Phase phase() const noexcept { return phase_; }
-  /// Of the newest try that failed; of the whole if the phase is kFailed.
+  /// Fault of the last failed try; final if the phase is kFailed.
   [[nodiscard]] BootFault fault() const noexcept { return fault_; }
-  [[nodiscard]] int tries() const noexcept { return tries_; }  ///< begun
-  /// Of the image, echoed right in this try [bytes].
+  [[nodiscard]] int tries() const noexcept { return tries_; }  ///< tries begun
+  /// Bytes of the image echoed correctly in this try.
   [[nodiscard]] std::size_t loaded() const noexcept { return loaded_; }
   [[nodiscard]] std::size_t size() const noexcept { return image_.bytes.size(); }
 
@@ -84,11 +85,11 @@ class FalconBoot {
   Phase phase_ = Phase::kIdle;
   BootFault fault_ = BootFault::kNone;
   int tries_ = 0, calls_ = 0;
-  bool has_entered_ = false;  ///< the line is set for the phase
-  double until_ = 0.0;        ///< the phase's, or the piece's, time is up [s]
-  double send_at_ = 0.0;      ///< the next call or frame [s]
+  bool has_entered_ = false;  ///< the line is set for this phase
+  double until_ = 0.0;        ///< deadline of the phase or of the piece [s]
+  double send_at_ = 0.0;      ///< time of the next call or frame [s]
   std::size_t loaded_ = 0, sent_ = 0;
-  std::array<std::uint8_t, 4> last_{};  ///< bytes, the newest last
+  std::array<std::uint8_t, 4> last_{};  ///< last received bytes, the newest last
   FalconFrameReader frames_;
 };
 

@@ -16,16 +16,16 @@
 namespace tandem {
 namespace {
 
-constexpr double kMostAge = 0.02;      // of a reading that is still used [s]
-constexpr double kOpenPeriod = 0.25;   // from one try to open the line to the next [s]
-constexpr double kNap = 0.02;          // so long a stop may have to wait for the thread [s]
-constexpr double kStopTime = 0.2;      // for the last frames [s]
+constexpr double kMostAge = 0.02;      // oldest usable reading [s]
+constexpr double kOpenPeriod = 0.25;   // time between attempts to open the line [s]
+constexpr double kNap = 0.02;          // longest wait of a stop for the thread [s]
+constexpr double kStopTime = 0.2;      // time limit for the last frames [s]
 constexpr double kWorkspace = 0.05;    // half extents [m]
-constexpr double kStiffness = 3000.0;  // that still feels calm [N/m]
+constexpr double kStiffness = 3000.0;  // stiffest spring that feels stable [N/m]
 
 }  // namespace
 
-/// The thread that owns the line, and what it shares with the side that ticks.
+/// The thread that owns the line, and the values it shares with the ticking thread.
 class FalconDevice::Impl {
  public:
   Impl(const FalconSettings& settings, FirmwareImage image, OpenTransport open);
@@ -58,19 +58,19 @@ class FalconDevice::Impl {
   OpenTransport open_;
   int priority_;
 
-  // The thread's.
+  // Used by the device's thread only.
   FalconDriver driver_;
   std::array<char, 160> open_error_{};
   std::uint64_t seen_wish_ = 0;
 
-  // Between the threads.
+  // Shared between the threads.
   LatestValue<FalconReading> reading_;
   LatestValue<Wish> wish_;
   LatestValue<FalconStatus> status_;
   std::atomic<std::uint8_t> buttons_{0};
   std::atomic<bool> stops_{false};
 
-  // The ticking side's.
+  // Used by the ticking thread only.
   std::uint64_t newest_ = 0, wishes_ = 0;
   double newest_since_ = 0.0;
 
@@ -100,7 +100,7 @@ DeviceSample FalconDevice::Impl::read(double now) noexcept {
     newest_ = reading.number;
     newest_since_ = now;
   }
-  // Also false for a time that is no number, or runs back.
+  // Also false if `now` is NaN or runs back.
   const bool is_fresh = now >= newest_since_ && now - newest_since_ <= kMostAge;
   DeviceSample sample;
   sample.valid = reading.is_valid && is_fresh;
@@ -130,7 +130,7 @@ std::unique_ptr<ByteTransport> FalconDevice::Impl::tryOpen() noexcept {
     std::unique_ptr<ByteTransport> line = open_();
     if (line) {
       open_error_ = {};
-      seen_wish_ = wish_.read().number;  // who asked for it may be gone by now
+      seen_wish_ = wish_.read().number;  // the caller of an old command may be gone
       driver_.connect(now);
       passOn();
       return line;
@@ -139,14 +139,14 @@ std::unique_ptr<ByteTransport> FalconDevice::Impl::tryOpen() noexcept {
     const std::string_view text = error.what();
     open_error_ = {};
     std::copy_n(text.begin(), std::min(text.size(), open_error_.size() - 1), open_error_.begin());
-  } catch (...) {  // whatever the caller's function threw, this thread goes on
+  } catch (...) {  // this thread survives whatever the caller's function throws
   }
   driver_.disconnect(FalconFault::kCannotOpen, now);
   passOn();
   return nullptr;
 }
 
-/// Until the line is gone, or the device is stopped.
+/// Serves the line until it is gone or the device is stopped.
 void FalconDevice::Impl::serve(ByteTransport& line) noexcept {
   while (!stops_.load(std::memory_order_relaxed) && exchange(line)) passOn();
   giveLastFrames(line);
@@ -155,8 +155,8 @@ void FalconDevice::Impl::serve(ByteTransport& line) noexcept {
   passOn();
 }
 
-/// The device keeps the last force it was told, and a line that failed may yet take something:
-/// the force goes frame by frame, or at once if only one frame more can be sent.
+/// Ramps the force to zero by frames. The device keeps the last force it received, and a failed
+/// line may still accept bytes. If the ramp does not finish, one last frame sets zero at once.
 void FalconDevice::Impl::giveLastFrames(ByteTransport& line) noexcept {
   driver_.beginStop();
   const double until = readMonotonicClock() + kStopTime;

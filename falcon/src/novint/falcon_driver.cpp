@@ -7,9 +7,9 @@
 namespace tandem {
 namespace {
 
-constexpr int kRestFrames = 5;        // without force before the line is left, or quiet
-constexpr double kHeldUp = 0.005;     // so late the host has not been listening [s]
-constexpr double kForceShown = 0.05;  // from which the light shows it [N]
+constexpr int kRestFrames = 5;     // frames without force before the line is closed or kept quiet
+constexpr double kHeldUp = 0.005;  // a host this late has not been listening [s]
+constexpr double kForceShown = 0.05;  // smallest force that the light indicates [N]
 
 std::array<double, 3> toArray(const Vec3& a) noexcept { return {a.x(), a.y(), a.z()}; }
 
@@ -32,7 +32,7 @@ bool FalconDriver::hasStopped() const noexcept { return !isConversing() || (stop
 
 bool FalconDriver::isAtRest() const noexcept { return rest_frames_ >= kRestFrames; }
 
-/// Then frames follow each other whether they are answered or not.
+/// True while the force is taken away. Frames then follow each other, answered or not.
 bool FalconDriver::isTakingForceAway() const noexcept {
   return stops_ || (status_.state == FalconState::kFault && !isAtRest());
 }
@@ -40,7 +40,7 @@ bool FalconDriver::isTakingForceAway() const noexcept {
 void FalconDriver::beginStop() noexcept {
   if (stops_) return;
   stops_ = true;
-  rest_frames_ = 0;  // the lights are yet to go out
+  rest_frames_ = 0;  // the lights must still go out
   listens_until_.reset();
   asked_at_.reset();
 }
@@ -52,7 +52,7 @@ void FalconDriver::connect(double now) noexcept {
 }
 
 void FalconDriver::disconnect(FalconFault why, double now) noexcept {
-  // A device that was unplugged is that still while it cannot be opened again.
+  // Keep the fault "unplugged" while reopening fails.
   const bool was_gone = status_.state == FalconState::kClosed;
   if (!was_gone)
     enterFault(why, now);
@@ -182,8 +182,8 @@ LineStep FalconDriver::converse(double now) noexcept {
   return step;
 }
 
-/// Replies to frames that were given up may yet come, and must not pass for new ones: nothing is
-/// said for a while, and then one frame whose reply has to come in time.
+/// Waits for late replies to frames that were given up, so that they are not taken for new ones.
+/// Sends nothing for `quiet_time`, then one frame whose reply must come in time.
 LineStep FalconDriver::listen(double now) noexcept {
   LineStep step;
   if (now >= *listens_until_) {
@@ -197,20 +197,20 @@ LineStep FalconDriver::listen(double now) noexcept {
   return step;
 }
 
-/// A host that was held up has sent late and not listened: the device gets its time once more, yet
-/// only once without a reply.
+/// Restarts the reply timeout if the host was late: it sent late and did not listen. Excuses the
+/// host only once until the next reply.
 void FalconDriver::excuseHost(double now) noexcept {
   if (!silent_since_ || is_excused_ || now - expected_at_ <= kHeldUp) return;
   silent_since_ = sent_at_ = now;
   is_excused_ = true;
 }
 
-/// What is not said tells, too.
+/// Silence is a fault: no usable reply within `reply_time`.
 void FalconDriver::checkReplies(double now) noexcept {
   if (!silent_since_ || stops_ || now - *silent_since_ <= settings_.reply_time) return;
   const bool has_bytes = frames_.dropped() != dropped_;
   enterFault(has_bytes ? FalconFault::kDamagedReplies : FalconFault::kNoReply, now);
-  // First the force is taken away, frame by frame; then it is quiet for a while.
+  // The force is taken away by frames first; then the line stays quiet for a while.
   if (!listens_until_ || !isAtRest()) listens_until_ = now + settings_.quiet_time;
   const double unheard = now - std::max(heard_at_, *silent_since_);
   if (!isAtRest() || unheard <= settings_.firmware_time) return;
@@ -263,7 +263,7 @@ void FalconDriver::noteDropped(std::uint64_t dropped) noexcept {
   if (dropped < kFalconFrameSize) ++status_.short_replies;
 }
 
-/// False for a position that is not believed.
+/// Returns false if the position is not accepted.
 bool FalconDriver::takePosition(const FalconReply& reply, double now) noexcept {
   const FalconTracker::Outcome outcome = tracker_.take(reply.counts, now);
   if (outcome == FalconTracker::Outcome::kPlaced) gate_.restart(now);
@@ -295,7 +295,7 @@ void FalconDriver::publish(bool is_valid) noexcept {
 void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
   const bool may_push = status_.state == FalconState::kReady && !stops_;
   Vec3 f_D = gate_.advance(wanted_D_, now - wanted_at_, may_push, now);
-  // Force that is on its way out goes by the last position that was known.
+  // A fading force uses the last known position.
   FalconCommand command;
   command.homes = true;
   const auto& pose = tracker_.pose();

@@ -13,39 +13,39 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A position with its number; plain values, to be copied between threads.
+/// A position with its number. Plain values that threads can copy.
 struct FalconReading {
-  std::array<double, 3> p{}, v{};  ///< from the centre [m], [m/s], along the axes of D
-  bool is_valid = false;           ///< ready, and of the newest reply
+  std::array<double, 3> p{}, v{};  ///< relative to the centre [m], [m/s], along the axes of D
+  bool is_valid = false;           ///< the device is ready and the newest reply has a position
   std::uint64_t number = 0;        ///< grows with every reply
 };
 
-/// The Novint Falcon from bytes to newtons, without I/O, clock or thread: bytes and time come in,
-/// what to do with the line goes out. Same calls, same bits.
+/// The protocol of the Novint Falcon from bytes to newtons, without I/O, clock or thread. Bytes and
+/// time go in, actions for the line come out. The same calls give the same bits.
 ///
-/// Every frame's force has passed the gate, whatever was asked for: no force unless the device is
-/// homed and its replies are fresh.
+/// The force of every frame has passed the gate. There is no force unless the device is homed and
+/// its replies are fresh.
 class FalconDriver {
  public:
-  /// Throws std::invalid_argument, naming the value, for settings out of range. `image` may be
-  /// empty: then it can use only a device whose firmware runs.
+  /// Throws std::invalid_argument with the value's name for settings out of range. With an empty
+  /// `image` only a device with running firmware is usable.
   explicit FalconDriver(const FalconSettings& settings, FirmwareImage image = {});
 
-  /// The line has been opened, or is gone for a reason.
+  /// The line has been opened, or was lost because of `why`.
   void connect(double now) noexcept;
   void disconnect(FalconFault why, double now) noexcept;
 
-  /// Bytes that have come.
+  /// Processes received bytes.
   void take(const std::uint8_t* bytes, std::size_t count, double now) noexcept;
-  /// Force on the hand, asked for now [N].
+  /// Sets the wanted force on the hand [N], at time `now`.
   void command(const Vec3& f_D, double now) noexcept;
-  /// What to do with the line now.
+  /// Returns the action for the line now.
   [[nodiscard]] LineStep advance(double now) noexcept;
 
-  /// From now on, until connect(), there is no force: it goes frame by frame, whether they are
-  /// answered or not, and the lights go out.
+  /// Ramps the force to zero and turns the lights off, whether frames are answered or not. There is
+  /// no force until connect().
   void beginStop() noexcept;
-  /// Enough frames without force have been sent, or none can be.
+  /// True if enough frames without force were sent, or if none can be sent.
   [[nodiscard]] bool hasStopped() const noexcept;
 
   [[nodiscard]] const FalconReading& reading() const noexcept { return reading_; }
@@ -82,16 +82,16 @@ class FalconDriver {
   FalconReading reading_;
 
   bool boots_ = false, stops_ = false, awaits_reply_ = false, is_excused_ = false;
-  int rest_frames_ = 0;                 ///< the newest ones, without force; enough is enough
-  std::optional<double> boot_at_;       ///< again, after a boot that failed [s]
-  double due_ = 0.0, sent_at_ = 0.0;    ///< the next frame; the last one [s]
-  double expected_at_ = 0.0;            ///< the next look of the host, at the latest [s]
-  std::optional<double> silent_since_;  ///< the first frame without a reply of use, since one [s]
-  std::optional<double> astray_since_;  ///< replies of homed legs that are no position [s]
-  double heard_at_ = 0.0;               ///< the last whole reply, of use or not [s]
-  std::optional<double> listens_until_, asked_at_;  ///< after replies went missing [s]
-  double trouble_at_ = 0.0;                         ///< the last of a fault [s]
-  std::uint64_t dropped_ = 0;                       ///< of the reader, at the last reply
+  int rest_frames_ = 0;                             ///< newest frames without force, saturates at 5
+  std::optional<double> boot_at_;                   ///< time to boot again after a failed boot [s]
+  double due_ = 0.0, sent_at_ = 0.0;                ///< times of the next and of the last frame [s]
+  double expected_at_ = 0.0;                        ///< latest time of the host's next call [s]
+  std::optional<double> silent_since_;              ///< first frame since the last usable reply [s]
+  std::optional<double> astray_since_;              ///< first homed reply without a position [s]
+  double heard_at_ = 0.0;                           ///< last complete reply, usable or not [s]
+  std::optional<double> listens_until_, asked_at_;  ///< quiet phase: end, last frame [s]
+  double trouble_at_ = 0.0;                         ///< last trouble of the current fault [s]
+  std::uint64_t dropped_ = 0;  ///< bytes dropped by the reader up to the last reply
 
   Vec3 wanted_D_ = Vec3::Zero();
   double wanted_at_ = -1e9;

@@ -11,17 +11,17 @@ constexpr std::array<std::uint8_t, 3> kCall = {0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 5> kAnswer = {0x00, 0x0A, 0x44, 0x2C, 0x0D};
 constexpr std::array<std::uint8_t, 2> kTimed = {0x13, 'A'};
 
-constexpr double kIndexCounts = 400.0;  // a little outside of the middle
-constexpr int kMostOffset = 1500;       // [counts]
-constexpr double kFelt = 0.01;          // [N]
+constexpr double kIndexCounts = 400.0;  // count of the index mark, near the middle
+constexpr int kMostOffset = 1500;       // largest offset before homing [counts]
+constexpr double kFelt = 0.01;          // smallest force that counts as felt [N]
 constexpr double kUsbFrame = 0.001;     // [s]
-constexpr double kBaudSlack = 0.025;    // of what the other side understands
+constexpr double kBaudSlack = 0.025;    // largest relative error of a usable speed
 
 bool isNear(int baud, int wanted) noexcept {
   return std::abs(baud - wanted) <= kBaudSlack * wanted;
 }
 
-/// One of the next ones that go wrong.
+/// Uses up one of `count` pending mishaps. Returns false if none is pending.
 bool use(int& count) noexcept {
   if (count <= 0) return false;
   if (count != FalconMishaps::kAlways) --count;
@@ -147,7 +147,7 @@ void FalconEmulator::advance(double now) noexcept {
   if (settings_.watchdog > 0.0 && now - commanded_at_ > settings_.watchdog) plant_.setMotors({});
 }
 
-/// A leg knows its angle once it passes its index, while the host asks for homing.
+/// A leg is homed when it passes its index mark while the host asks for homing.
 void FalconEmulator::findIndices() noexcept {
   const double index = angleOfCounts(kIndexCounts);
   const Vec3 before = std::exchange(angles_, plant_.angles());
@@ -201,7 +201,8 @@ void FalconEmulator::sendReply(double now) {
   if (is_split) send(bytes.data() + first, count - first, at + mishaps.split_time);
 }
 
-/// The FTDI chip sends what it has when its latency timer ticks, or a packet is full.
+/// Arrival time of bytes sent at `at` [s]: the FTDI chip sends at the next tick of its latency
+/// timer.
 double FalconEmulator::arrivalOf(double at) const noexcept {
   if (!settings_.has_usb_times) return at;
   const double on_line = at + 2.0 * 10.0 * kFalconFrameSize / std::max(line_.baud, 1);

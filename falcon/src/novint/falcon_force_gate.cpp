@@ -7,7 +7,7 @@
 namespace tandem {
 namespace {
 
-/// Force does not catch up on time in which nothing was sent [s].
+/// Longest step of the slew limit [s]: pauses do not allow a larger jump afterwards.
 constexpr double kLongestStep = 0.001;
 
 using falcon_detail::shorten;

@@ -6,24 +6,24 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Force that must go is gone after so much time of frames, however slowly else it may change [s].
+/// Longest time from max_force to zero when the force must end, even for a lower slew limit [s].
 constexpr double kLongestForceFade = 0.03;
 
-/// Makes of the force that is asked for the one that is sent. Pure; real-time safe.
+/// Turns the requested force into the force that is sent. Pure; real-time safe.
 class FalconForceGate {
  public:
   explicit FalconForceGate(const FalconForceLimits& limits) noexcept : limits_(limits) {}
 
-  /// `age`: since it was asked for [s]; `is_open`: whether there may be force at all. Anything not
-  /// finite asks for none. Never changes by more than the slew limit, on the way to zero neither:
-  /// that takes 4 ms from 8 N. Force that is not renewed, not finite or not allowed any more goes
-  /// within 30 ms even if the slew limit is lower. A call counts for 1 ms at most.
+  /// `age` is the time since the request [s]; `is_open` tells whether force is allowed at all. A
+  /// non-finite request counts as zero. The change never exceeds the slew limit, also on the way to
+  /// zero: that takes 4 ms from 8 N. A force that is not renewed, not finite or no longer allowed
+  /// ends within 30 ms, even if the slew limit is lower. A call counts for at most 1 ms.
   Vec3 advance(const Vec3& wanted, double age, bool is_open, double now) noexcept;
 
-  /// The ramp begins anew, after a position that jumped.
+  /// Restarts the ramp after a position that jumped.
   void restart(double now) noexcept { opened_at_ = now; }
   [[nodiscard]] const Vec3& force() const noexcept { return force_; }
-  /// For a line that is gone: nothing is sent.
+  /// Forgets the force, because the line is gone.
   void clear() noexcept;
 
  private:

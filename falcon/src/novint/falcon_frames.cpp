@@ -43,7 +43,7 @@ bool isNibble(std::uint8_t byte) noexcept { return byte >= kZero && byte < kZero
 }  // namespace
 
 bool isFrame(const FalconFrame& frame) noexcept {
-  // Nobody knows what byte 14 is for.
+  // The meaning of byte 14 is unknown.
   return frame[0] == kStart && frame[kLast] == kEnd &&
          std::all_of(frame.begin() + 1, frame.begin() + kInfo, &isNibble) &&
          frame[kInfo] >= kZero && infoOf(frame) <= kMostInfo;
@@ -98,7 +98,7 @@ std::optional<FalconFrame> FalconFrameReader::take(std::uint8_t byte) noexcept {
   return std::nullopt;
 }
 
-/// A frame may have begun inside what looked like one.
+/// Continues at the next start marker: a frame may have begun inside a false one.
 void FalconFrameReader::dropToNextStart() noexcept {
   const auto next = std::find(bytes_.begin() + 1, bytes_.end(), kStart);
   dropped_ += static_cast<std::uint64_t>(next - bytes_.begin());

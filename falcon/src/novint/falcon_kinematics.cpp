@@ -7,10 +7,10 @@
 namespace tandem {
 namespace {
 
-constexpr int kMostSteps = 20;          // of Newton's method; 8 are enough in the whole workspace
-constexpr double kSolved = 1e-13;       // of F [m^2], a root: 1e-12 m of the rod
-constexpr double kConverged = 1e-15;    // of F [m^2]: 1e-14 m of the rod
-constexpr double kLeastTurning = 1e-9;  // dF/dtheta of a leg that is stretched [m^2/rad]
+constexpr int kMostSteps = 20;          // Newton's method needs at most 8 in the whole workspace
+constexpr double kSolved = 1e-13;       // largest |F| of a root [m^2]: 1e-12 m of the rod
+constexpr double kConverged = 1e-15;    // |F| that ends the iteration [m^2]: 1e-14 m of the rod
+constexpr double kLeastTurning = 1e-9;  // dF/dtheta of a stretched leg [m^2/rad]
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadiansPerCount = 2.0 * kPi / 1280.0 * (14.25 / 110.0);
@@ -102,8 +102,8 @@ FalconKinematics::Elbows FalconKinematics::findElbows(const FalconAngles& angles
   return elbows;
 }
 
-/// dtheta/dp = -(dF/dp) / (dF/dtheta), leg by leg. False for what is no pose of the device: the
-/// equation has other roots, with a rod folded back or an elbow on the wrong side.
+/// Computes dtheta/dp = -(dF/dp) / (dF/dtheta), leg by leg. Returns false if this is no pose of the
+/// device: the equation has other roots, with a rod folded back or an elbow on the wrong side.
 bool FalconKinematics::finish(FalconPose& pose, const Elbows& elbows) const noexcept {
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -133,7 +133,7 @@ double countsOfAngle(double angle) noexcept { return (angle - kAngleOfZero) / kR
 
 FalconMotors makeMotorCommands(const Vec3& torques, double motors_per_torque) noexcept {
   if (!torques.allFinite() || !std::isfinite(motors_per_torque)) return {};
-  // Scaled to what fits before it is multiplied, as huge torques would overflow.
+  // Scale before multiplying: huge torques would overflow.
   const double largest = torques.cwiseAbs().maxCoeff();
   const double most = static_cast<double>(kMostMotor) / std::abs(motors_per_torque);
   const double factor = largest > most ? motors_per_torque * (most / largest) : motors_per_torque;

@@ -10,7 +10,7 @@ namespace tandem {
 namespace {
 
 constexpr double kStep = 0.00025;    // [s]
-constexpr double kLongestGap = 1.0;  // nobody looked for longer: the rest is skipped [s]
+constexpr double kLongestGap = 1.0;  // longest simulated gap between calls; the rest is skipped [s]
 
 const FalconPlantSettings& check(const FalconPlantSettings& s) {
   using falcon_detail::require;
@@ -40,7 +40,7 @@ Vec3 FalconPlant::force() const noexcept {
   return pose_.dangles_dp.transpose() * torques;
 }
 
-/// All forces but Coulomb's [N].
+/// Sum of all forces except Coulomb friction [N].
 Vec3 FalconPlant::computePush(double t) const noexcept {
   const Vec3 from_centre = pose_.p_D - settings_.centre_D;
   Vec3 push = force() + settings_.mass * settings_.gravity_D - settings_.viscous * v_D_;
@@ -56,14 +56,14 @@ Vec3 FalconPlant::computePush(double t) const noexcept {
 void FalconPlant::step(double h) noexcept {
   if (held_D_) return;
   Vec3 v_D = v_D_ + h / settings_.mass * computePush(time_);
-  // Coulomb's friction slows the grip, down to rest at most.
+  // Coulomb friction slows the grip, at most to rest.
   const double speed = v_D.norm(), loss = h / settings_.mass * settings_.coulomb;
   v_D = speed > loss ? Vec3(v_D * (1.0 - loss / speed)) : Vec3(Vec3::Zero());
   v_D_ = v_D;
   moveTo(pose_.p_D + h * v_D);
 }
 
-/// Where the legs do not reach, they stop it.
+/// Moves the grip; it stops where the legs do not reach.
 void FalconPlant::moveTo(const Vec3& p_D) noexcept {
   if (const auto pose = kinematics_.computePose(p_D))
     pose_ = *pose;

@@ -12,39 +12,39 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// The mechanism of an emulated Falcon.
+/// Parameters of an emulated Falcon's mechanism.
 struct FalconPlantSettings {
-  double mass = 0.15;                     ///< of all that moves, at the grip [kg]; inferred
-  double viscous = 0.5;                   ///< friction [N s/m]
-  double coulomb = 0.1;                   ///< friction that does not grow with speed [N]
-  Vec3 gravity_D = Vec3::Zero();          ///< what the grip's weight pulls by [m/s^2]
-  Vec3 start_D = Vec3(0.0, 0.0, 0.125);   ///< where the grip is at first, in reach [m]
-  Vec3 centre_D = Vec3(0.0, 0.0, 0.125);  ///< the origin of the hand's coordinates [m]
-  /// The device's own, which a driver does not know for sure [1/(N m)].
+  double mass = 0.15;                     ///< moving mass seen at the grip [kg]; inferred
+  double viscous = 0.5;                   ///< viscous friction [N s/m]
+  double coulomb = 0.1;                   ///< Coulomb friction [N]
+  Vec3 gravity_D = Vec3::Zero();          ///< gravity on the moving mass [m/s^2]
+  Vec3 start_D = Vec3(0.0, 0.0, 0.125);   ///< initial position of the grip, within reach [m]
+  Vec3 centre_D = Vec3(0.0, 0.0, 0.125);  ///< origin of the hand's coordinates [m]
+  /// True value of this device [1/(N m)]; a driver knows it only roughly.
   double motors_per_torque = kUsualMotorsPerTorque;
-  double stop_stiffness = 5000.0;                 ///< of the ends of the workspace [N/m]
-  double stop_damping = 20.0;                     ///< [N s/m]
-  Vec3 half_extents = Vec3(0.055, 0.055, 0.055);  ///< between the stops, around the centre [m]
+  double stop_stiffness = 5000.0;                 ///< of the workspace's stops [N/m]
+  double stop_damping = 20.0;                     ///< of the workspace's stops [N s/m]
+  Vec3 half_extents = Vec3(0.055, 0.055, 0.055);  ///< from the centre to the stops [m]
 };
 
-/// A point mass that three motors, friction, stops and a simulated hand move, with the exact
-/// geometry of the legs. Pure: time is told.
+/// A point mass moved by three motors, friction, stops and a simulated hand, with the exact
+/// geometry of the legs. Pure: the caller passes the time.
 class FalconPlant {
  public:
-  /// Throws std::invalid_argument for a start out of reach or values out of range. `hand` may be
-  /// null; it sees the grip's position from the centre, along D's axes.
+  /// Throws std::invalid_argument if the start is out of reach or a value out of range. `hand` may
+  /// be null. It gets the grip's position relative to the centre, along D's axes.
   FalconPlant(const FalconPlantSettings& settings, std::unique_ptr<Hand> hand);
 
-  /// Moves on to `now`, with the motors as they are.
+  /// Simulates until `now` with the current motor commands.
   void advance(double now) noexcept;
   void setMotors(const FalconMotors& motors) noexcept { motors_ = motors; }
-  /// Held there from now on as by a vice; nothing: let go. False out of reach.
+  /// Clamps the grip at `p_D` until it is called with nothing. Returns false out of reach.
   bool hold(const std::optional<Vec3>& p_D) noexcept;
 
   [[nodiscard]] const Vec3& position() const noexcept { return pose_.p_D; }  ///< [m], in D
   [[nodiscard]] const Vec3& velocity() const noexcept { return v_D_; }
   [[nodiscard]] const FalconAngles& angles() const noexcept { return pose_.angles; }
-  /// What the motors push the grip with [N].
+  /// Force of the motors on the grip [N].
   [[nodiscard]] Vec3 force() const noexcept;
 
  private:

@@ -7,9 +7,9 @@
 namespace tandem {
 namespace {
 
-constexpr double kSlack = 0.0005;         // steps of the encoders, replies that come bunched [m]
-constexpr double kLongestReach = 0.005;   // after a longer gap a far position has jumped, too [s]
-constexpr double kShortestStep = 0.0005;  // velocity is not taken over less [s]
+constexpr double kSlack = 0.0005;         // allowance for encoder steps and bunched replies [m]
+constexpr double kLongestReach = 0.005;   // longest gap that enlarges the accepted distance [s]
+constexpr double kShortestStep = 0.0005;  // shortest step for a velocity [s]
 
 Vec3 anglesOf(const std::array<std::int16_t, 3>& counts) noexcept {
   return {angleOfCounts(counts[0]), angleOfCounts(counts[1]), angleOfCounts(counts[2])};
@@ -42,7 +42,7 @@ FalconTracker::Outcome FalconTracker::take(const std::array<std::int16_t, 3>& co
 
   Outcome outcome = Outcome::kMoved;
   if (pose_ && isNear(pose_->p_D)) {
-    if (elapsed < kShortestStep) return outcome;  // bunched replies: the older one stays
+    if (elapsed < kShortestStep) return outcome;  // of bunched replies the first one counts
   } else if (pose_ && !(doubted_D_ && isNear(*doubted_D_))) {
     if (!doubted_D_) ++jumps_;
     doubted_D_ = pose->p_D;

@@ -10,27 +10,27 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Positions and velocities of the grip from the counts of its encoders, the velocities by the
-/// usual estimator, leg by leg (docs/devices.md). A position that is too far from the last one is
-/// believed only if the next one is there, too, and is no velocity. Pure; real-time safe.
+/// Positions and velocities of the grip from its encoder counts. The velocities come from the
+/// default estimator, leg by leg (docs/devices.md). A position too far from the last one is
+/// accepted only if the next one confirms it, and gives no velocity. Pure; real-time safe.
 class FalconTracker {
  public:
-  /// A hand moves by `fastest_hand` [m/s] at most.
+  /// `fastest_hand` is the largest speed of a hand [m/s].
   explicit FalconTracker(double fastest_hand) noexcept : fastest_hand_(fastest_hand) {}
 
   enum class Outcome : std::uint8_t {
-    kNone,    ///< no position, or none to be believed: the last one stays
-    kMoved,   ///< from the last one
-    kPlaced,  ///< for the first time, or after a jump
+    kNone,    ///< no acceptable position; the last one stays
+    kMoved,   ///< moved from the last position
+    kPlaced,  ///< first position, or first one after a jump
   };
   Outcome take(const std::array<std::int16_t, 3>& counts, double now) noexcept;
 
-  /// There are no positions now: the next one is the first.
+  /// Forgets the position: the next one is the first.
   void forget(double now) noexcept;
-  /// The grip counts as standing until it is seen moving.
+  /// Sets the velocity to zero until the grip is seen to move.
   void stop() noexcept;
 
-  /// The last one believed.
+  /// Last accepted pose.
   [[nodiscard]] const std::optional<FalconPose>& pose() const noexcept { return pose_; }
   [[nodiscard]] const Vec3& velocity() const noexcept { return v_D_; }  ///< [m/s]
   [[nodiscard]] std::uint64_t jumps() const noexcept { return jumps_; }
@@ -40,7 +40,7 @@ class FalconTracker {
   FalconKinematics kinematics_;
   AdaptiveWindow count_rates_ = makeUsualVelocityEstimator();
   std::optional<FalconPose> pose_;
-  std::optional<Vec3> doubted_D_;  ///< where it jumped to
+  std::optional<Vec3> doubted_D_;  ///< unconfirmed position after a jump
   Vec3 v_D_ = Vec3::Zero();
   double at_ = 0.0;
   std::uint64_t jumps_ = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t kKey = 0x08AA;
 constexpr std::size_t kHighOfEntry = 9, kLowOfEntry = 10;  // words of the head
-constexpr std::uint32_t kEndOfMemory = 0x400000;           // words: addresses have 22 bits
+constexpr std::uint32_t kEndOfMemory = 0x400000;           // in words: addresses have 22 bits
 constexpr std::uint32_t kUsualEntry = 0x3F8002;
 
 }  // namespace

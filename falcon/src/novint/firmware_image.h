@@ -8,25 +8,25 @@
 #include "tandem/falcon/falcon_settings.h"
 
 /// \file
-/// The program that a Falcon is given at every power-up. It belongs to Novint; none comes with
-/// Tandem. It is a boot table of the C28x processor inside, in 16-bit words, low byte first:
+/// The program that a Falcon needs at every power-up. It belongs to Novint; Tandem contains none.
+/// It is a boot table of the C28x processor, in 16-bit words, low byte first:
 ///
 ///     0x08AA | 8 reserved | entry, high and low | size, high, low, data... | ... | size 0
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Follows a boot table byte by byte: host and emulator share it.
+/// Parses a boot table byte by byte. The host and the emulator share it.
 class BootTableReader {
  public:
   enum class State : std::uint8_t {
     kReading,
-    kDone,          ///< the last word was the end of the table
+    kDone,          ///< the table is complete
     kWrongKey,      ///< the first word is not 0x08AA
     kWrongAddress,  ///< a block or the entry lies outside of 22-bit memory
-    kOverrun        ///< bytes after the end
+    kOverrun        ///< bytes follow the end
   };
 
-  /// Once wrong, it stays wrong.
+  /// Takes the next byte. An error state is final.
   State take(std::uint8_t byte) noexcept;
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] bool isWrong() const noexcept {
@@ -36,7 +36,7 @@ class BootTableReader {
   [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }  ///< taken so far
   [[nodiscard]] std::uint32_t entry() const noexcept { return entry_; }
   [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
-  [[nodiscard]] std::size_t words() const noexcept { return words_; }  ///< of data
+  [[nodiscard]] std::size_t words() const noexcept { return words_; }  ///< words of data
 
  private:
   State takeWord(std::uint16_t word) noexcept;
@@ -51,7 +51,7 @@ class BootTableReader {
 
 inline constexpr std::size_t kMostFirmware = 256 * 1024;  ///< [bytes]; known images have 8 KiB
 
-/// What is wrong with `bytes` as an image, in words; nullptr if nothing is. Pure.
+/// Describes the fault of `bytes` as an image; nullptr if there is none. Pure.
 [[nodiscard]] const char* findFaultOfFirmware(const std::uint8_t* bytes,
                                               std::size_t count) noexcept;
 

@@ -26,7 +26,7 @@ PseudoTerminal::PseudoTerminal() : fd_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONB
     throw Error("no pseudo terminal (" + why + "); is /dev/pts mounted?");
   }
   path_ = name.data();
-  // Raw from the first byte on: a terminal would echo what the device says back to it.
+  // Raw mode from the start: otherwise the terminal echoes the device's bytes back to it.
   settings.c_iflag = settings.c_oflag = settings.c_lflag = 0;
   ::ioctl(fd_, TCSETS2, &settings);
 }
@@ -44,7 +44,7 @@ std::size_t PseudoTerminal::read(std::uint8_t* bytes, std::size_t room, double w
   if (::ppoll(&what, 1, &time, nullptr) <= 0) return 0;
   const ssize_t count = ::read(fd_, bytes, room);
   if (count > 0) return static_cast<std::size_t>(count);
-  // Nobody has it open: that does not wait by itself.
+  // poll() returns at once while no program has the terminal open.
   sleepFor(wait);
   return 0;
 }

@@ -16,9 +16,9 @@
 namespace tandem {
 namespace {
 
-constexpr double kWriteTime = 0.1;  // as ByteTransport promises [s]
+constexpr double kWriteTime = 0.1;  // the limit of ByteTransport::write() [s]
 
-/// True once `events` are there; false when the time is up or the line is gone.
+/// True once one of `events` occurs; false after `wait` [s] or if the line is gone.
 bool waitFor(int fd, short events, double wait) noexcept {
   pollfd what{fd, events, 0};
   const double whole = std::floor(wait);
@@ -26,7 +26,7 @@ bool waitFor(int fd, short events, double wait) noexcept {
   return ::ppoll(&what, 1, &time, nullptr) > 0;
 }
 
-/// Lines without such wires (pseudo terminals) say so in one of these ways.
+/// True for the errors of lines without such wires (pseudo terminals).
 bool isMissing(int error) noexcept {
   return error == ENOTTY || error == EINVAL || error == EOPNOTSUPP;
 }
@@ -73,17 +73,17 @@ class TtyTransport final : public ByteTransport {
   void purge() noexcept override { ::ioctl(fd_, TCFLSH, TCIOFLUSH); }
 
  private:
-  /// As read(), without waiting.
+  /// read() without waiting.
   std::ptrdiff_t readNow(std::uint8_t* bytes, std::size_t room) noexcept {
     const ssize_t count = ::read(fd_, bytes, room);
     if (count > 0) return count;
     if (count < 0) return errno == EAGAIN || errno == EINTR ? 0 : -1;
-    // Nothing read is the end of a line that has hung up, and nothing yet with others.
+    // A read of 0 bytes means a hang-up on some lines and no data on others; poll() tells.
     pollfd what{fd_, 0, 0};
     return ::poll(&what, 1, 0) > 0 && (what.revents & (POLLHUP | POLLERR)) != 0 ? -1 : 0;
   }
 
-  /// Raw bytes, 8N1, no flow control.
+  /// Sets raw bytes, 8N1 and no flow control.
   bool setSpeed(int baud) noexcept {
     termios2 settings{};
     if (::ioctl(fd_, TCGETS2, &settings) != 0) return false;
@@ -98,7 +98,7 @@ class TtyTransport final : public ByteTransport {
     return ::ioctl(fd_, high ? TIOCMBIS : TIOCMBIC, &which) == 0 || isMissing(errno);
   }
 
-  /// The kernel's drivers know short and usual latency, no times.
+  /// The kernel's drivers offer only low or normal latency, no times.
   bool setLatency(int latency_ms) noexcept {
     serial_struct settings{};
     if (::ioctl(fd_, TIOCGSERIAL, &settings) != 0) return isMissing(errno);
@@ -126,7 +126,7 @@ std::unique_ptr<ByteTransport> openTty(const std::string& path) {
            : errno == EBUSY ? "end the other program that uses it"
                             : "is the device plugged in, and ftdi_sio bound to it?");
   if (::isatty(fd) == 0) refuse(fd, path, "is no serial line", "give a tty, such as /dev/ttyUSB0");
-  // TIOCEXCL does not stop root; the lock is for those who ask.
+  // TIOCEXCL does not stop root; flock() stops programs that check for it.
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0 || ::ioctl(fd, TIOCEXCL) != 0)
     refuse(fd, path, "is in use", "end the other program that uses it");
   auto transport = std::make_unique<TtyTransport>(fd, path);

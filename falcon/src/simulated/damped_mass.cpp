@@ -5,11 +5,11 @@
 namespace tandem::falcon_detail {
 namespace {
 
-/// (1 - e^-a) / a. The limit at 0 is needed only at 0: expm1 keeps every smaller a accurate.
+/// (1 - e^-a) / a. Only a = 0 needs the limit: expm1 is accurate for every smaller a.
 double computePhi1(double a) noexcept { return a > 0.0 ? -std::expm1(-a) / a : 1.0; }
 
-/// (1 - phi1) / a. Below 1/2 the difference would cancel, so it is summed as the series
-/// 1/2! - a/3! + a^2/4! - ...; its 14 terms leave a remainder below 1e-17 there.
+/// (1 - phi1) / a. Below 1/2 the difference would cancel, so it sums the series 1/2! - a/3! +
+/// a^2/4! - ... Its 14 terms leave a remainder below 1e-17 there.
 double computePhi2(double a) noexcept {
   if (a >= 0.5) return (1.0 - computePhi1(a)) / a;
   double sum = 1.0;

@@ -4,14 +4,14 @@
 
 namespace tandem::falcon_detail {
 
-/// The exact map of m x'' + b x' = f over a step of length h with constant f:
+/// Exact solution of m x'' + b x' = f over a step of length h with constant f:
 ///
 ///   v(h) = e^-a v + f/m h phi1        a = b h / m
 ///   x(h) = x + h phi1 v + f/m h^2 phi2
 ///   phi1 = (1 - e^-a) / a,  phi2 = (1 - phi1) / a
 ///
-/// As a -> 0 they become 1 and 1/2, the free mass; as a -> infinity phi1 -> 1/a, the mass at its
-/// terminal velocity f/b. Accurate to rounding for every finite a >= 0.
+/// As a -> 0, phi1 -> 1 and phi2 -> 1/2: the free mass. As a -> infinity, phi1 -> 1/a: the mass
+/// moves at its terminal velocity f/b. Accurate to rounding for every finite a >= 0.
 class DampedMassStep {
  public:
   DampedMassStep(double mass, double damping, double h) noexcept;

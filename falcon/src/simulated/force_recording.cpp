@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kHeader = "t,force_x,force_y,force_z";
 constexpr std::array<std::string_view, 4> kColumns = {"t", "force_x", "force_y", "force_z"};
 
-/// Text from the file, made fit for a one-line message: short, and without control characters.
+/// Makes text of the file fit for a one-line message: short, without control characters.
 std::string quote(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string quoted = "'";
@@ -24,18 +24,18 @@ std::string quote(std::string_view text) {
   return quoted + (text.size() > kLongest ? "...'" : "'");
 }
 
-/// The file line by line, knowing where it is for its complaints.
+/// Reads the file line by line, and adds the line number to its errors.
 class LineReader {
  public:
   explicit LineReader(const std::string& path) : path_(path), stream_(path) {
     if (!stream_) refuseFile();
   }
 
-  /// Takes the next line, without its end; false at the end of the file.
+  /// Takes the next line, without its end. Returns false at the end of the file.
   bool next() {
     errno = 0;
     const bool found = static_cast<bool>(std::getline(stream_, line_));
-    if (stream_.bad()) refuseFile();  // such as a folder: it opens, but does not read
+    if (stream_.bad()) refuseFile();  // for example a folder: it opens, but cannot be read
     ++number_;
     if (found && !line_.empty() && line_.back() == '\r') line_.pop_back();
     return found;

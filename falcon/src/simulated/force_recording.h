@@ -13,8 +13,8 @@ struct ForceRow {
   Vec3 f_W = Vec3::Zero();  ///< [N]
 };
 
-/// Reads a recorded force, header `t,force_x,force_y,force_z`: one or more rows, all finite, times
-/// growing. Throws tandem::Error "FILE:LINE: what is wrong; remedy", one line of text.
+/// Reads a recorded force with the header `t,force_x,force_y,force_z`. It needs one or more rows,
+/// finite values and growing times. Throws tandem::Error "FILE:LINE: fault; remedy" in one line.
 [[nodiscard]] std::vector<ForceRow> readForceRecording(const std::string& csv_path);
 
 }  // namespace tandem::falcon_detail

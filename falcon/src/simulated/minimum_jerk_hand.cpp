@@ -12,8 +12,8 @@
 namespace tandem {
 namespace {
 
-/// Where a stroke from rest at `from` to rest at `to` is at time `t`, from.t <= t < to.t.
-/// Source: Flash & Hogan 1985, the path of least integrated squared jerk.
+/// State at time `t` of a stroke from rest at `from` to rest at `to`, from.t <= t < to.t. Source:
+/// Flash & Hogan 1985, the path of least integrated squared jerk.
 PointState computeStroke(const Waypoint& from, const Waypoint& to, double t) noexcept {
   const double duration = to.t - from.t;
   const double u = (t - from.t) / duration;

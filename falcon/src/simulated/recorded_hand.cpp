@@ -27,7 +27,7 @@ class RecordedHand final : public Hand {
   }
 
  private:
-  std::vector<ForceRow> rows_;  ///< never empty, times grow
+  std::vector<ForceRow> rows_;  ///< not empty, times grow
 };
 
 }  // namespace

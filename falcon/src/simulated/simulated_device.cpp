@@ -9,18 +9,18 @@
 #include "guard/force_limit.h"
 #include "guard/settings_check.h"
 
-// One read interval, cut in sub-steps of length h; the rendered force is held over all of it:
+// A read interval is cut into sub-steps of length h; the rendered force stays constant:
 //
 //   last read                                                now
 //      |----------|----------|----------|----------|-- ... ---|
 //           ^          ^          ^          ^
-//           hand's force is taken at each middle and held over its sub-step,
-//           so that every sub-step is a damped mass under constant force: an exact map
+//           hand's force is evaluated at each middle and held over its sub-step, so that
+//           every sub-step is a damped mass under constant force, which has an exact solution
 //
-// What remains is the hand's change within a sub-step, second order in h. For a hand that is a
-// spring K on an undamped mass m the map is symplectic: no energy creeps in, and only the frequency
-// w = sqrt(K/m) comes out too high by the fraction (w h)^2 / 24, which is 2.6e-5 for 1000 N/m and
-// 0.1 kg at 1 kHz.
+// The remaining error is the hand's change within a sub-step, second order in h. For a spring K on
+// an undamped mass m the method is symplectic, so no energy is created. Only the frequency w =
+// sqrt(K/m) is too high, by the fraction (w h)^2 / 24. That is 2.6e-5 for 1000 N/m and 0.1 kg at 1
+// kHz.
 
 namespace tandem {
 namespace {
@@ -29,14 +29,14 @@ using falcon_detail::DampedMassStep;
 using falcon_detail::require;
 using falcon_detail::shorten;
 
-constexpr double kUnitTolerance = 1e-6;  // a guide written with seven digits is a unit vector
+constexpr double kUnitTolerance = 1e-6;  // accepts a guide written with seven digits
 
-/// Four sub-steps per haptic period, and as many more as a longer interval (a late tick) holds
-/// periods, up to a bound that keeps the call short.
+/// Four sub-steps per haptic period of `interval` [s]. A bound keeps the call short after a long
+/// pause.
 int countSubsteps(double interval) noexcept {
   constexpr double kPeriod = 1e-3;  // [s]
-  constexpr double kMost = 1000.0;  // periods
-  constexpr double kSlack = 1e-6;   // k and k+1 periods differ by one period but for rounding
+  constexpr double kMost = 1000.0;  // most periods counted
+  constexpr double kSlack = 1e-6;   // rounding must not add a period
   return 4 * static_cast<int>(std::clamp(std::ceil(interval / kPeriod - kSlack), 1.0, kMost));
 }
 
@@ -97,7 +97,7 @@ void SimulatedDevice::write(const Vec3& f_W) noexcept {
   force_W_ = shorten(f_W, settings_.max_force);
 }
 
-/// The part of a vector that the slot lets through, in the free axes.
+/// Projects a vector on the free axes: the guide, or W's three.
 Vec3 SimulatedDevice::toFree(const Vec3& a_W) const noexcept {
   return settings_.guide ? Vec3(settings_.guide->dot(a_W), 0.0, 0.0) : a_W;
 }
@@ -110,7 +110,7 @@ PointState SimulatedDevice::toWorld(const PointState& motion) const noexcept {
   return {settings_.start_W + toWorld(motion.p_W), toWorld(motion.v_W)};
 }
 
-/// Counted position, and its first difference; the first read has none and gives zero velocity.
+/// Counted position and its first difference. The first read gives zero velocity.
 PointState SimulatedDevice::encode(double interval) const noexcept {
   const double resolution = settings_.encoder_resolution;
   const Vec3 counted =
@@ -132,8 +132,8 @@ void SimulatedDevice::advanceHandle(double interval) noexcept {
 
   for (int i = 0; i < substeps; ++i) {
     const double start = time_ + i * h;
-    // Foresee the middle. The hand at the start is needed for the velocity to make a hand's damper
-    // second order; the position does without it, which is what makes a spring symplectic.
+    // Predict the middle. The velocity uses the hand's force at the start, so that a hand's damper
+    // is second order. The position omits it, so that a spring is symplectic.
     const PointState middle = {
         half.advance(motion_, rendered).p_W,
         half.advance(motion_, rendered + hand(start, motion_)).v_W,

@@ -11,10 +11,10 @@ namespace tandem {
 namespace {
 
 constexpr unsigned kFirst = 0;
-/// USB transfers that last longer have failed [ms]. A chip that lives answers a read within its
-/// latency time, 16 ms at most.
+/// USB transfers that take longer have failed [ms]. A working chip answers a read within its
+/// latency time, at most 16 ms.
 constexpr int kWriteTime_ms = 100, kReadTime_ms = 25;
-constexpr int kTimedOut = -7;  // of libusb, as ftdi_read_data gives it
+constexpr int kTimedOut = -7;  // error of libusb that ftdi_read_data returns
 constexpr int kNotFound = -3, kNotOpened = -4, kNotClaimed = -5;  // of ftdi_usb_open_desc_index
 
 struct ContextDeleter {
@@ -52,7 +52,7 @@ class FtdiTransport final : public ByteTransport {
   [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
                                     double wait) noexcept override {
     const double until = readMonotonicClock() + wait;
-    // The chip answers at the latest after its latency time, with nothing if it has nothing.
+    // The chip answers within its latency time, also if it has no data.
     for (;;) {
       const int count = readOnce(bytes, static_cast<int>(room));
       if (count != 0 || readMonotonicClock() >= until) return count;
@@ -71,8 +71,8 @@ class FtdiTransport final : public ByteTransport {
   void purge() noexcept override { ftdi_tcioflush(context_.get()); }
 
  private:
-  /// What one transfer brings, or is left of it. The library goes on until it has all it is asked
-  /// for: a second transfer would wait for the latency time.
+  /// Reads the rest of the last transfer, or one new transfer. The library would read until all
+  /// requested bytes are there, and a second transfer waits for the latency time.
   int readOnce(std::uint8_t* bytes, int room) noexcept {
     const int first = ftdi_read_data(context_.get(), bytes, std::min(room, 1));
     if (first <= 0) return first == kTimedOut ? 0 : first;

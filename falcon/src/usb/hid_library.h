@@ -8,8 +8,8 @@
 
 namespace tandem::falcon_detail {
 
-/// hidapi for as long as somebody needs it: the first to ask starts it, the last to go ends it.
-/// Throws tandem::Error if it does not start.
+/// Keeps hidapi initialised while at least one object exists. Throws tandem::Error if hidapi does
+/// not start.
 class HidLibrary {
  public:
   HidLibrary();
@@ -17,8 +17,8 @@ class HidLibrary {
   HidLibrary(const HidLibrary&) = delete;
   HidLibrary& operator=(const HidLibrary&) = delete;
 
-  /// To be held while devices are looked for or opened: hidapi keeps the text of the last such
-  /// error in one place for all threads.
+  /// Lock to hold while devices are listed or opened: hidapi keeps the text of the last such error
+  /// in one place for all threads.
   [[nodiscard]] static std::unique_lock<std::mutex> lock();
 };
 
@@ -27,11 +27,11 @@ struct HidCloser {
 };
 using HidHandle = std::unique_ptr<hid_device, HidCloser>;
 
-/// What hidapi says of the last error of a device, or of all that has none; a copy. Only under the
-/// lock, or by the one thread that uses the device.
+/// Copies hidapi's text of the last error of `device`, or of the last call without one (nullptr).
+/// Needs the lock, or the one thread that uses the device.
 [[nodiscard]] std::string textOfError(hid_device* device);
 
-/// hidapi's wide text; what is not printable ASCII becomes '?'.
+/// Converts hidapi's wide text. Anything but printable ASCII becomes '?'.
 [[nodiscard]] std::string toNarrow(const wchar_t* text);
 
 }  // namespace tandem::falcon_detail

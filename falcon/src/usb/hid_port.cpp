@@ -13,10 +13,10 @@
 
 #include "hid_library.h"
 
-// hidapi 0.13 frees and replaces the text of a handle's last error in every call, without a lock:
-// two threads on one handle can free it twice. So a port has one handle to read by and one to write
-// by; every open file of a hidraw node gets all input reports, and the second one's are never
-// fetched.
+// hidapi 0.13 replaces the text of a handle's last error in every call without a lock. Two threads
+// on one handle can then free it twice. A port therefore has one handle for reading and one for
+// writing. Every open hidraw file gets all input reports; those of the second handle are never
+// read.
 
 namespace tandem {
 namespace {
@@ -42,7 +42,7 @@ class HidapiPort final : public HidPort {
     const int wait_ms = static_cast<int>(std::clamp(wait, 0.0, 1e6) * 1e3 + 0.5);
     errno = 0;
     const int size = hid_read_timeout(reader_.get(), report, room, wait_ms);
-    return size < 0 && errno == EINTR ? 0 : size;  // a signal came, the device is still there
+    return size < 0 && errno == EINTR ? 0 : size;  // a signal is no loss of the device
   }
 
   [[nodiscard]] bool write(const std::uint8_t* report, std::size_t size) noexcept override {
@@ -68,7 +68,7 @@ class HidapiPort final : public HidPort {
   std::string name_;
 };
 
-/// A file of the system, for as long as this does.
+/// An open file that closes itself.
 class File {
  public:
   explicit File(const std::string& path) : number_(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {}
@@ -83,8 +83,8 @@ class File {
   int number_;
 };
 
-/// hid_open_path() of hidapi 0.13 uses freed memory for a file that is no hidraw node, so that is
-/// found out before.
+/// Throws unless the path is a hidraw node: hid_open_path() of hidapi 0.13 uses freed memory for
+/// other files.
 void requireHidraw(const HidAddress& address) {
   const File file(address.path);
   const int reason = errno;

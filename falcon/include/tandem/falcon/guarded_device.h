@@ -13,10 +13,9 @@ namespace tandem {
 
 /// Limits of a GuardedDevice. Smaller limits of the device itself take precedence.
 struct GuardSettings {
-  double max_force = 8.0;  ///< [N], norm, > 0; about the force of a Falcon
-  double max_slew =
-      2000.0;  ///< fastest change of the force [N/s], > 0; the default is 2 N per millisecond
-  double ramp = 0.5;  ///< time from zero to full force after a cut [s], >= 0
+  double max_force = 8.0;    ///< [N], norm, > 0; about the force of a Falcon
+  double max_slew = 2000.0;  ///< fastest change of the force [N/s], > 0: 2 N in a millisecond
+  double ramp = 0.5;         ///< time from zero to full force after a cut [s], >= 0
 };
 
 /// Reason why a GuardedDevice takes the force away.
@@ -93,10 +92,9 @@ class GuardedDevice final : public HapticDevice {
   GuardStatus status_;
   GuardCut reason_ = GuardCut::kNotValid;  ///< reason of the current cut
   std::atomic<bool> is_held_{true};
-  double now_ = 0.0,
-         passed_ = 0.0;      ///< time of the last read, and interval since the one before [s]
-  double unused_ = 0.0;      ///< time not yet used for a change of force [s]
-  double last_write_ = 0.0;  ///< time of the last write [s]
+  double now_ = 0.0, passed_ = 0.0;  ///< time of the last read, and since the one before [s]
+  double unused_ = 0.0;              ///< time not yet used for a change of force [s]
+  double last_write_ = 0.0;          ///< time of the last write [s]
   bool was_read_ = false, is_time_wrong_ = false;
   int standing_ = 0;  ///< reads in a row whose time did not advance
 };

@@ -15,8 +15,7 @@ struct DeviceCapabilities {
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], norm
   /// Fastest change of the force that the hand should feel [N/s].
   double max_slew = std::numeric_limits<double>::infinity();
-  double max_stiffness =
-      std::numeric_limits<double>::infinity();  ///< stiffest spring that feels stable [N/m]
+  double max_stiffness = std::numeric_limits<double>::infinity();  ///< stable stiffness [N/m]
   Vec3 workspace = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< half extents [m]
   /// True if read() is exact at any time, also between two ticks. Packets then carry the state of
   /// their own moment, not the extrapolated state of the last tick. No real device is continuous.

@@ -91,12 +91,11 @@ struct HidStreamSettings {
 
 /// Counters of a HID device and its line.
 struct HidStreamCounters {
-  std::uint64_t reports = 0;  ///< input reports received
-  std::uint64_t refused = 0;  ///< received reports that the client could not use
-  std::uint64_t written = 0;  ///< output reports sent
-  std::uint64_t write_misses =
-      0;  ///< periods without an output report, because the last write took longer
-  std::uint64_t losses = 0;  ///< times that the device was unplugged
+  std::uint64_t reports = 0;       ///< input reports received
+  std::uint64_t refused = 0;       ///< received reports that the client could not use
+  std::uint64_t written = 0;       ///< output reports sent
+  std::uint64_t write_misses = 0;  ///< periods without a report, because the last write took longer
+  std::uint64_t losses = 0;        ///< times that the device was unplugged
 };
 
 }  // namespace tandem

@@ -20,10 +20,9 @@ class RawHidClient;
 
 /// State that the device reports (docs/hid.md).
 struct RawHidState {
-  std::uint16_t number = 0;  ///< report number: grows by one per report, wraps
-  std::array<std::int16_t, 3>
-      counts{};            ///< encoder counts of the legs, as angleOfCounts() takes them
-  std::uint8_t homed = 0;  ///< bit i: leg i + 1 has found its index
+  std::uint16_t number = 0;              ///< report number: grows by one per report, wraps
+  std::array<std::int16_t, 3> counts{};  ///< of the legs' encoders, see angleOfCounts()
+  std::uint8_t homed = 0;                ///< bit i: leg i + 1 has found its index
   std::uint8_t buttons = 0;
   std::uint32_t time_us = 0;  ///< the device's clock when the counts were taken, wraps
   [[nodiscard]] bool isHomed() const noexcept { return homed == 7; }
@@ -89,8 +88,7 @@ class RawHidDevice final : public HapticDevice {
 
   std::unique_ptr<Grip> grip_;
   Vec3 v_D_ = Vec3::Zero();
-  double device_time_ =
-      0.0;  ///< device clock at the pose, without wraps, from an arbitrary zero [s]
+  double device_time_ = 0.0;    ///< device clock at the pose, without wraps [s]
   std::uint32_t time_us_ = 0;   ///< device clock at the pose, wraps [us]
   std::uint64_t heard_ = 0;     ///< reports seen
   std::uint64_t closures_ = 0;  ///< the client's count of closures at the last read

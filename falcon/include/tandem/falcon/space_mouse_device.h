@@ -20,11 +20,9 @@ struct RateControlSettings {
   double speed = 0.15;      ///< at full displacement along an axis [m/s], > 0
   double dead_zone = 0.05;  ///< fraction of the full displacement that counts as zero, 0 to below 1
   double smoothing = 0.03;  ///< time constant of the velocity [s], > 0; more is smoother and later
-  Vec3 start_W = Vec3::Zero();  ///< start of the point, the middle of its box [m]
-  Vec3 workspace =
-      Vec3::Constant(0.15);  ///< half extents of the box that bounds the point [m], > 0
-  Quat q_WD =
-      Quat(1.0, 0.0, 0.0, 0.0);  ///< rotation from the user's frame (x right, y up, z back) to W
+  Vec3 start_W = Vec3::Zero();            ///< start of the point, the middle of its box [m]
+  Vec3 workspace = Vec3::Constant(0.15);  ///< half extents of the point's box [m], > 0
+  Quat q_WD = Quat(1.0, 0.0, 0.0, 0.0);   ///< user's frame (x right, y up, z back) to W
 };
 
 /// State accumulated from the reports.
