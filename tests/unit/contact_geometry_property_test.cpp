@@ -14,8 +14,8 @@
 #include "support/random.h"
 #include "support/solids.h"
 
-// What must hold for any shape in any pose. Scenes are about 1 m large, so that rounding is near
-// 1e-15.
+// Properties of contact that hold for any shape in any pose. Scenes are about 1 m large, so
+// rounding is near 1e-15.
 
 namespace tandem {
 namespace {
@@ -63,7 +63,7 @@ struct Scene {
   Vec3 p_WB;
   Quat q_WB;
   double radius;  // of the sphere [m]
-  Vec3 p_W;       // its centre
+  Vec3 p_W;       // centre of the sphere [m]
 
   SphereContact find() const { return findAt(p_W); }
   SphereContact findAt(const Vec3& centre) const {
@@ -98,13 +98,13 @@ TEST_P(ContactProperties, CentreIsReachedFromTheSurfaceAlongTheNormal) {
 TEST_P(ContactProperties, NearestPointLiesOnTheSurface) {
   forEachScene(20000, [](const Scene& scene) {
     const SphereContact contact = scene.find();
-    // Seen from the surface itself, the gap of a point is 0.
+    // A point on the surface has a gap of 0.
     const double gap = findSphereContact(contact.p_W, 0.0, scene.shape, scene.p_WB, scene.q_WB).gap;
     EXPECT_NEAR(gap, 0.0, kRounding);
   });
 }
 
-// No move changes the gap by more than its own length: what event location relies on.
+// A move never changes the gap by more than its own length. Event location relies on this.
 TEST_P(ContactProperties, GapIsOneLipschitz) {
   forEachScene(20000, [this](const Scene& scene) {
     const double reach = std::pow(10.0, random_.uniform(-9.0, 0.0));  // [m]
@@ -133,8 +133,8 @@ TEST_P(ContactProperties, ResultMovesWithTheWholeScene) {
   });
 }
 
-// Where n is continuous it is the gradient of the gap: by the mean value theorem the difference
-// quotient is one of the normals in between, so that it is as near to n as those are.
+// A continuous n is the gradient of the gap. By the mean value theorem the difference
+// quotient is one of the normals between the two ends.
 TEST_P(ContactProperties, NormalIsTheGradientOfTheGap) {
   static constexpr double kStep = 1e-6;           // [m]
   static constexpr double kQuotientError = 1e-9;  // rounding 1e-15 over the step
@@ -150,15 +150,15 @@ TEST_P(ContactProperties, NormalIsTheGradientOfTheGap) {
       gradient[axis] = (ahead.gap - behind.gap) / (2.0 * kStep);
       spread = std::max({spread, (ahead.n_W - n).norm(), (behind.n_W - n).norm()});
     }
-    if (spread > 1e-2) return;  // a step across a ridge
+    if (spread > 1e-2) return;  // the step crosses a ridge
     ++smooth;
     EXPECT_NEAR((gradient - n).norm(), 0.0, 2.0 * spread + kQuotientError);
   });
   EXPECT_GT(smooth, kScenes * 99 / 100);
 }
 
-/// Distance from a point to the nearest of many points that cover a surface, and how far any point
-/// of the surface is from the nearest of those at most.
+/// Distance from a point to the nearest of many sample points that cover a surface. Also bounds how
+/// far any surface point is from its nearest sample.
 class SampledSurface {
  public:
   explicit SampledSurface(const Vec3& from) : from_(from) {}
@@ -166,7 +166,7 @@ class SampledSurface {
   double distance() const { return distance_; }
   double coveringRadius() const { return covering_radius_; }
 
-  /// Parallelogram `origin` + [-1, 1] u + [-1, 1] v with u across v.
+  /// Adds the parallelogram `origin` + [-1, 1] u + [-1, 1] v, with u across v.
   void addRectangle(const Vec3& origin, const Vec3& u, const Vec3& v) {
     for (int i = 0; i < kSteps; ++i)
       for (int j = 0; j < kSteps; ++j) add(origin + middle(i) * u + middle(j) * v);
@@ -200,7 +200,8 @@ class SampledSurface {
     cover(kPi * cylinder.radius, 0.5 * cylinder.radius);
   }
 
-  /// A capsule's surface about y, by angle around the axis and along the side, then up both caps.
+  /// Adds the surface of a capsule along y: by angle around the axis, along the side, then both
+  /// caps.
   void addCapsule(double radius, double half_length, const Quat& turn = Quat::Identity()) {
     const auto add = [&](const Vec3& p) { this->add(turn * p); };
     for (int i = 0; i < kSteps; ++i) {
@@ -274,7 +275,7 @@ void addSurface(SampledSurface& surface, const Box& box) {
 }
 
 void addSurface(SampledSurface& surface, const Plane& plane) {
-  // The centre is within 0.8 sqrt(3) m of the body's origin, and so is its foot of the plane's.
+  // The centre is within 0.8 sqrt(3) m of the body's origin, and so is its foot on the plane.
   const Vec3 u = plane.normal_B.unitOrthogonal();
   surface.addRectangle(plane.offset * plane.normal_B, 1.5 * u, 1.5 * plane.normal_B.cross(u));
 }
@@ -299,7 +300,7 @@ bool isInside(const Vec3& p, const ConvexHull& s) {
   return std::all_of(faces.begin(), faces.end(),
                      [&](const auto& face) { return face.normal.dot(p) < face.offset; });
 }
-bool isInside(const Vec3& p, const Mesh& s) {  // these are convex
+bool isInside(const Vec3& p, const Mesh& s) {  // all shapes here are convex
   const auto& triangles = s.surface->triangles();
   return std::all_of(triangles.begin(), triangles.end(),
                      [&](const auto& one) { return one.normal.dot(p) < one.offset; });
@@ -314,7 +315,7 @@ TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
 
     const double signed_distance = scene.find().gap + scene.radius;
     EXPECT_EQ(signed_distance < 0.0, inside);
-    // No sample is nearer than the surface, and one is nearly as near.
+    // No sample is nearer than the surface, and at least one is nearly as near.
     EXPECT_LE(std::abs(signed_distance), surface.distance() + kRounding);
     EXPECT_GE(std::abs(signed_distance), surface.distance() - surface.coveringRadius());
   });

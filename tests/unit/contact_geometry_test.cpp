@@ -34,7 +34,7 @@ TEST(SphereOnBox, MeetsEachFaceAlongItsNormal) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {1.0, -1.0}) {
       const Vec3 n = side * Vec3::Unit(axis);
-      const Vec3 across = 0.05 * Vec3::Unit((axis + 1) % 3);  // off the middle of the face
+      const Vec3 across = 0.05 * Vec3::Unit((axis + 1) % 3);  // away from the middle of the face
       const Vec3 on_face = kHalfExtents[axis] * n + across;
       expectContact(findAtOrigin(on_face + 0.04 * n, kBox), 0.03, n, on_face);
       expectContact(findAtOrigin(on_face + 0.004 * n, kBox), -0.006, n, on_face);
@@ -64,7 +64,7 @@ TEST(SphereOnBox, LeavesFromInsideByTheNearestFace) {
   expectContact(findAtOrigin({0.01, 0.1, 0.29}, kBox), -0.02, Vec3::UnitZ(), {0.01, 0.1, 0.3});
 }
 
-// Powers of two, so that distances to two faces are equal to the last bit.
+// All lengths are powers of two, so the distances to two faces are exactly equal.
 TEST(SphereOnBox, TiesGoToTheFirstAxisAndThePositiveSide) {
   const Shape cube = Box{Vec3(0.5, 0.5, 0.5)};
   expectContact(findAtOrigin(Vec3::Zero(), cube), -0.51, Vec3::UnitX(), {0.5, 0.0, 0.0});
@@ -74,7 +74,7 @@ TEST(SphereOnBox, TiesGoToTheFirstAxisAndThePositiveSide) {
   expectContact(findAtOrigin({0.5, 0.5, 0.5}, cube), -kRadius, Vec3::UnitX(), {0.5, 0.5, 0.5});
 }
 
-// So near to an edge that the square of the distance loses its digits, or is 0.
+// The point is so near to an edge that the square of its distance underflows.
 TEST(SphereOnBox, NormalSurvivesUnderflow) {
   for (const double tiny : {1e-161, 1e-200}) {
     const Shape needle = Box{Vec3(tiny, tiny, 1.0)};
@@ -118,8 +118,7 @@ TEST(SphereOnCapsule, LeavesFromTheCoreAcrossTheAxis) {
     expectContact(findAtOrigin({0.0, y, 0.0}, kCapsule), -0.11, Vec3::UnitX(), {0.1, y, 0.0});
 }
 
-// Turning the core into the world and back leaves rounding errors; they must not become a
-// direction.
+// Turning the core into the world and back leaves rounding errors. These must not become a normal.
 TEST(SphereOnCapsule, RoundingIsNoDirectionToLeaveBy) {
   const Quat turned(Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, 3.0).normalized()));
   const Vec3 p_WB(0.3, -0.7, 0.9);
@@ -148,16 +147,15 @@ TEST(SphereOnPlane, GapIsHeightAboveIt) {
   expectContact(findAtOrigin(foot - 2.0 * n, plane), -2.01, n, foot);
 }
 
-// checkShape() lets a normal through that is unit in single precision only.
+// checkShape() accepts a normal that is unit only in single precision.
 TEST(SphereOnPlane, NormalIsUnitForOneThatNearlyIs) {
   const Vec3 n(0.0, 0.6, 0.8);
   const Shape plane = Plane{(1.0 + 5e-7) * n, (1.0 + 5e-7) * 0.25};  // the same half-space
   expectContact(findAtOrigin(0.75 * n, plane), 0.49, n, 0.25 * n);
 }
 
-// A quarter turn about z stands the capsule along -x; the box comes to lie on its edge at an
-// eighth.
-// Faces about equally far: by rounding each may find another nearer, and yet one must push.
+// In the middle of a box all faces are about equally far. With rounding each may find another to be
+// nearer; still one must push.
 TEST(SphereOnMesh, MiddleOfABoxIsPushedByAFace) {
   constexpr std::uint64_t kSeed = 20260309;
   SCOPED_TRACE(kSeed);
@@ -173,6 +171,7 @@ TEST(SphereOnMesh, MiddleOfABoxIsPushedByAFace) {
   }
 }
 
+// A quarter turn about z puts the capsule along -x; an eighth puts the box on its edge.
 TEST(SphereContact, FollowsThePoseOfTheBody) {
   const Vec3 p_WB(1.0, -2.0, 0.5);
   const Quat quarter(Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()));

@@ -40,12 +40,12 @@ TEST(ConvexPolyhedron, RefusesWhatIsNoConvexSolid) {
   EXPECT_NE(refusal(corners, cube.faces), "");
   corners[0].x() = std::nan("");
   EXPECT_NE(refusal(corners, cube.faces).find("not finite"), std::string::npos);
-  // Inside out.
+  // The faces are inside out.
   for (auto& face : faces = cube.faces) std::swap(face[1], face[3]);
   EXPECT_NE(refusal(cube.corners, faces), "");
 }
 
-// Points in rows and planes, where a hull that grows point by point meets every tie there is.
+// The points lie in rows and planes, so an incremental hull meets every kind of tie.
 TEST(ConvexPolyhedron, HullOfAGridIsABox) {
   std::vector<Vec3> points;
   for (int x = 0; x <= 4; ++x)
@@ -68,7 +68,7 @@ TEST(ConvexPolyhedron, HullOfAGridIsABox) {
   }
 }
 
-// A hull's faces are planes through its points that have all others behind.
+// Each face of a hull lies in a plane through its points, with all other points behind it.
 TEST(ConvexPolyhedron, HullHoldsAllPoints) {
   test::Random random(20090304);
   const auto uniform = [&] { return random.uniform(-1.0, 1.0); };
@@ -78,7 +78,7 @@ TEST(ConvexPolyhedron, HullHoldsAllPoints) {
     const int count = 4 + scene % 60;
     for (int i = 0; i < count; ++i) {
       Vec3 p(uniform(), uniform(), uniform());
-      if (scene % 3 == 1) p.normalize();                        // on a ball: all are corners
+      if (scene % 3 == 1) p.normalize();                        // on a ball: all points are corners
       if (scene % 3 == 2) p = (4.0 * p).array().round() / 4.0;  // on a lattice
       points.push_back(p);
     }
@@ -89,7 +89,7 @@ TEST(ConvexPolyhedron, HullHoldsAllPoints) {
       if (scene % 3 == 1) {
         EXPECT_EQ(hull.vertices().size(), points.size());
       }
-      // Euler: triangles only.
+      // Euler's formula for a hull of triangles only.
       EXPECT_EQ(hull.faces().size(), 2 * hull.vertices().size() - 4);
     } catch (const std::invalid_argument&) {
       EXPECT_LT(count, 6) << "only few points on a lattice may lie in a plane";

@@ -1,4 +1,4 @@
-// A private header of the plugin: the way back of an object's target.
+// Private header of the plugin: the smooth way of an object's target back to the received state.
 #include "plugin/src/site/detour.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Detour, NoneChangesNothing) {
   EXPECT_EQ(detour.apply(theirs).q_WB.coeffs(), theirs.q_WB.coeffs());
 }
 
-// Begins where ours is, ends where theirs is, in bounded time and at the speed it says.
+// The detour begins at our state and ends at theirs, in bounded time and at the stated speed.
 TEST(Detour, LeadsFromOursToTheirs) {
   constexpr std::uint64_t kSeed = 43;
   SCOPED_TRACE(kSeed);
@@ -49,7 +49,7 @@ TEST(Detour, LeadsFromOursToTheirs) {
       ASSERT_LE((before.w_W - theirs.w_W).norm(), 2.5 + 1e-12);
       detour.advance(kTick);
       at = detour.apply(theirs);
-      // Goes the way that its velocity says.
+      // The motion agrees with the reported velocity.
       ASSERT_LT((at.p_W - before.p_W - kTick * (before.v_W - theirs.v_W)).norm(), 2e-6);
       const Quat turned = before.q_WB * at.q_WB.conjugate();
       const Vec3 turn = -2.0 * (turned.w() < 0.0 ? -1.0 : 1.0) * turned.vec();

@@ -20,7 +20,7 @@ FalconFrame frameOf(const std::string& text) {
 TEST(FalconFrames, KnownCommands) {
   EXPECT_EQ(textOf(encodeCommand({})), "<AAAAAAAAAAAAAA>");
   EXPECT_EQ(textOf(encodeCommand({{}, true, kGreenLight})), "<AAAAAAAAAAAADA>");
-  // As the maker's driver sends it for 10 N to the right.
+  // Bytes that the maker's driver sends for 10 N to the right.
   EXPECT_EQ(textOf(encodeCommand({{-679, 2529, -1862}, false, kBlueLight})), "<JFNPBOJAKLIPEA>");
   EXPECT_EQ(textOf(encodeCommand({{4095, -4095, 1}, true, kBlueLight | kRedLight})),
             "<PPPABAAPBAAANA>");
@@ -87,7 +87,7 @@ TEST(FalconFrames, WhatIsNoFrameIsRefused) {
   EXPECT_FALSE(decodeCommand(frameOf("<AAAAAAAAAAAAQA>")));  // a reply's info
 }
 
-/// What a reader finds in bytes.
+/// Frames that a reader finds in `bytes`.
 std::vector<std::string> read(FalconFrameReader& reader, const std::string& bytes) {
   std::vector<std::string> found;
   for (const char byte : bytes)
@@ -131,7 +131,7 @@ TEST(FalconFrameReader, FindsTheNextWholeFrameAfterAnyDamage) {
       }
     }
     const std::size_t before = read(reader, bytes).size();
-    // What is left of a damaged one may swallow the first: never the second.
+    // The rest of a damaged frame may swallow the first good one, never the second.
     const std::string good = "<AAAAAAAAAAAADA>";
     const auto after = read(reader, good + good);
     ASSERT_FALSE(after.empty());

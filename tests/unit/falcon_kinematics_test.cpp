@@ -23,7 +23,8 @@ Eigen::Matrix3d rows(const Vec3& a, const Vec3& b, const Vec3& c) {
   return m;
 }
 
-// By an independent solution of the same geometry; angles to 1e-6 rad, slopes to 1e-3 rad/m.
+// Known values from an independent solution of the same geometry; angles to 1e-6 rad, slopes to
+// 1e-3 rad/m.
 const std::array<Known, 5> kKnown = {{
     {{0, 0, 0.125},
      Vec3::Constant(0.483618),
@@ -69,7 +70,7 @@ TEST(FalconKinematics, KnownPositions) {
   }
 }
 
-/// A position in reach, in a cube of 10 cm around the middle.
+/// Draws a position in reach, in a cube of 10 cm around the middle.
 FalconPose drawPose(test::Random& random, const FalconKinematics& kinematics, double half = 0.05) {
   for (;;) {
     const auto pose = kinematics.computePose(Vec3(kMiddle + random.inCube(half)));
@@ -124,7 +125,7 @@ TEST(FalconKinematics, MotorsDoTheWorkOfTheForce) {
   }
 }
 
-// What whole commands of the motors make of a force, in a cube of 6 cm.
+// Rounds a force to whole motor commands, at positions in a cube of 6 cm.
 TEST(FalconKinematics, CommandsKeepDirectionAndSize) {
   constexpr std::uint64_t kSeed = 53;
   SCOPED_TRACE(kSeed);
@@ -160,7 +161,7 @@ TEST(FalconKinematics, CommandsNeverWrap) {
         std::min(1.0, 4095.0 / (kUsualMotorsPerTorque * torques.cwiseAbs().maxCoeff()));
     for (std::size_t k = 0; k < 3; ++k) {
       ASSERT_LE(std::abs(motors[k]), kMostMotor);
-      // Half a step of rounding, and the direction is kept: none is cut alone.
+      // The error is half a step of rounding. The direction is kept: no motor is clipped alone.
       ASSERT_NEAR(motors[k], -kUsualMotorsPerTorque * scale * torques[static_cast<Eigen::Index>(k)],
                   0.5 + 1e-9);
     }

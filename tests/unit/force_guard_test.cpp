@@ -1,4 +1,4 @@
-// A private header of the plugin: the last hand on the force.
+// Private header of the plugin: the last limit on the force before the device.
 #include "plugin/src/site/force_guard.h"
 
 #include <cmath>

@@ -41,7 +41,7 @@ TEST(SineHand, StartsAtItsPhaseAndPeaksAQuarterPeriodLater) {
   const Vec3 f(2.0, 0.0, -4.0);
   const double frequency = 2.5;  // [Hz]
   const auto hand = makeSineHand(f, frequency, 0.0);
-  // sin is off by the rounding of its argument, here below 2 pi.
+  // sin is off by the rounding of its argument, which is below 2 pi here.
   const double tolerance = 4.0 * 8.0 * kEps;
   EXPECT_EQ(hand->computeForce(0.0, {}), Vec3::Zero());
   EXPECT_LT((hand->computeForce(0.25 / frequency, {}) - f).norm(), tolerance);
@@ -65,8 +65,8 @@ TEST(SineHand, RefusesBadValuesByName) {
             std::string::npos);
 }
 
-/// One stroke, seen through the hand's force: with gains (1, 0) and the handle at rest in the
-/// origin the force is the reference position, with (0, 1) the reference velocity.
+/// One stroke, read through the hand's force with the handle at rest in the origin. Gains (1, 0)
+/// give the reference position, gains (0, 1) the reference velocity.
 class MinimumJerkHandTest : public ::testing::Test {
  protected:
   Vec3 position(double t) const { return as_position_->computeForce(t, {}); }
@@ -89,8 +89,8 @@ TEST_F(MinimumJerkHandTest, RestsOnTheWaypointsOutsideTheStroke) {
     EXPECT_EQ(position(t), to_.p_W) << t;
     EXPECT_EQ(velocity(t), Vec3::Zero()) << t;
   }
-  // A whisker before its end the stroke is where the rest takes over: what is left is cubic in the
-  // time left, 1e-18, and the rounding of a polynomial whose terms are up to 15 on a way of 1.3 m.
+  // Just before its end the stroke must be where the rest begins. The remainder is cubic in the
+  // time left, 1e-18. Rounding adds that of a polynomial with terms up to 15 over 1.3 m.
   EXPECT_LT((position(2.5 - 1e-6) - to_.p_W).norm(), 15.0 * 1.3 * kEps);
 }
 
@@ -116,8 +116,8 @@ TEST_F(MinimumJerkHandTest, VelocityIsSymmetricAndPositionPointSymmetric) {
 
 TEST_F(MinimumJerkHandTest, VelocityIsTheDerivativeOfThePosition) {
   const double h = 1e-4;  // [s]
-  // The central difference is off by h^2/6 times the third derivative, at most 60 d/T^3 at the
-  // ends, plus rounding eps / h.
+  // The central difference is off by h^2/6 times the third derivative, plus rounding eps / h. The
+  // derivative is at most 60 d/T^3, at the ends.
   const double tolerance =
       h * h / 6.0 * 60.0 * way_.norm() / std::pow(duration_, 3) + 10 * kEps / h;
   for (int i = 1; i < 20; ++i) {

@@ -1,4 +1,5 @@
-// Bodies that come with an older state than the island's are moved on among the others.
+// Bodies that enter with an older state than the island's are moved up to its time among the
+// others.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@ namespace {
 
 const CouplerGains kContact = {2000.0, 3.0};  // [N/m, N s/m]
 
-/// A tool on a spring, and room for two boxes.
+/// An island with a tool on a spring, and room for two boxes.
 struct Late {
   Island island{[] {
     IslandSettings settings;
@@ -66,12 +67,12 @@ TEST(IslandCatchUp, MovesTheSlotAndNothingElse) {
   EXPECT_EQ(late.island.state(late.tool).p_W, states[0].p_W);
   EXPECT_EQ(late.island.state(late.tool).v_W, states[0].v_W);
   EXPECT_LT(asides[0].v_W.norm(), 1e-12);
-  // And the tool goes on as if nothing had been: on its spring.
+  // The tool continues on its spring as if nothing had happened.
   for (Late* l : {&late, &alone}) l->island.advance(1e-3);
   EXPECT_LT((late.island.state(late.tool).p_W - alone.island.state(alone.tool).p_W).norm(), 1e-15);
 }
 
-// In the past the tool went where the box was: the box is pushed, the tool is told.
+// The tool's past path crosses the box: the box is pushed, and the tool gets the reaction.
 TEST(IslandCatchUp, OthersPassThroughAsTheyWent) {
   Late late;
   late.fill(late.first, Vec3(0.0, 0.0, 0.0));
@@ -86,7 +87,7 @@ TEST(IslandCatchUp, OthersPassThroughAsTheyWent) {
   EXPECT_LT(asides[0].offset_W.x(), 0.0);
 }
 
-// One path in two parts is the path.
+// Catching up in two parts gives the same path as in one.
 TEST(IslandCatchUp, GoesOnWhereTheLastPartEnded) {
   const auto run = [](int parts) {
     Late late;
@@ -104,7 +105,7 @@ TEST(IslandCatchUp, GoesOnWhereTheLastPartEnded) {
   EXPECT_LT((run(1).v_W - run(4).v_W).norm(), 1e-6);
 }
 
-// Both are new: they are caught up with each other, whoever is named first.
+// Both bodies are new: each is caught up with the other, in either order.
 TEST(IslandCatchUp, TakesSeveralAtOnce) {
   Late late;
   late.fill(late.first, Vec3(0.5, 0.0, 0.0), Vec3(0.2, 0.0, 0.0));
@@ -116,7 +117,8 @@ TEST(IslandCatchUp, TakesSeveralAtOnce) {
   EXPECT_LT((late.island.state(late.second).p_W - Vec3(0.0, 0.705, 0.0)).norm(), 1e-14);
 }
 
-// A slot that is moved by hand goes on at its velocities, turning too, and pushes what it meets.
+// A slot that is moved by hand continues at its velocities, turning too, and pushes bodies that it
+// meets.
 TEST(IslandSlot, MayBeDriven) {
   Late late;
   IslandBody paddle;

@@ -1,5 +1,5 @@
-// Balls on shapes of all kinds: what is the same surface must give the same motion, and no surface
-// may make energy.
+// Balls on shapes of all kinds. Equal surfaces must give equal motion, and no surface may create
+// energy.
 
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ const CouplerGains kContact{1500.0, 3.0};  // [N/m, N s/m]
 
 std::vector<Obstacle> at(const Shape& shape) { return {{shape, Vec3::Zero(), Quat::Identity()}}; }
 
-/// A ball that a spring pulls after a target.
+/// A ball that a spring pulls towards a moving target.
 struct PulledBall {
   explicit PulledBall(std::vector<Obstacle> around, double tolerance = 2e-10)
       : obstacles(std::move(around)) {
@@ -63,11 +63,12 @@ struct PulledBall {
   bool started = false;
 };
 
-/// Largest difference of two balls' ways that follow the same target over these obstacles [m].
+/// Largest difference between the paths of two balls that follow the same target over these
+/// obstacles [m].
 double compare(const Obstacle& one, const Obstacle& other, double duration,
                const std::function<Vec3(double)>& target) {
-  // A box is integrated across the rounding of its edges, a mesh stops there: as many tiny errors
-  // of a step add up as there are steps.
+  // A step on a box continues across the rounded edges, on a mesh it stops there. The tiny errors
+  // of all steps add up.
   constexpr double kTolerance = 1e-12;
   PulledBall a({one}, kTolerance), b({other}, kTolerance);
   double worst = 0.0;
@@ -94,13 +95,14 @@ TEST(MeshFloor, IsAPlane) {
                                    0.04 * std::sin(7.0 * t));
                     }),
             1e-9);
-  // So hard that the centre goes below; and along a row of corners, exactly.
+  // The ball is pressed until its centre is below the floor, and slides exactly along a row of
+  // corners.
   EXPECT_LT(compare(floor, plane, 1.0,
                     [&](double t) {
                       return press(0.05 * std::sin(8.0 * t), -0.03 * std::sin(4.0 * t), 0.0);
                     }),
             1e-9);
-  // Fast across.
+  // The ball moves fast across the floor.
   EXPECT_LT(compare(floor, plane, 0.6,
                     [&](double t) {
                       return press(0.06 * std::sin(60.0 * t), 0.004, 0.05 * std::cos(43.0 * t));
@@ -121,7 +123,7 @@ TEST(MeshFloor, PushesOnceAtACornerOfItsTriangles) {
 
 class BoxOfAnotherKind : public ::testing::TestWithParam<bool> {
  protected:
-  /// The same box as a mesh or a hull.
+  /// The same box as a mesh or as a hull.
   [[nodiscard]] Shape make(const Vec3& half) const {
     const test::Solid solid = test::makeBoxSolid(half);
     if (GetParam()) return test::makeMesh(test::cutIntoTriangles(solid));
@@ -133,7 +135,7 @@ TEST_P(BoxOfAnotherKind, FeelsAsABox) {
   const Vec3 half(0.03, 0.02, 0.05);
   const Quat turned(Eigen::AngleAxisd(0.4, Vec3(1.0, -1.0, 2.0).normalized()));
   const Obstacle box{Box{half}, Vec3::Zero(), turned}, same{make(half), Vec3::Zero(), turned};
-  // Round its edges and corners.
+  // The ball goes round edges and corners.
   EXPECT_LT(compare(box, same, 2.0,
                     [&](double t) {
                       const Vec3 place(std::cos(5.0 * t), std::sin(5.0 * t),
@@ -141,7 +143,7 @@ TEST_P(BoxOfAnotherKind, FeelsAsABox) {
                       return Vec3(turned * half.cwiseProduct(1.05 * place));
                     }),
             1e-9);
-  // Pressed into a face until the centre is inside.
+  // The ball is pressed into a face until its centre is inside.
   EXPECT_LT(compare(box, same, 1.0,
                     [&](double t) {
                       return Vec3(turned * Vec3(0.035 - 0.04 * std::sin(6.0 * t), 0.004, 0.01 * t));
@@ -151,8 +153,8 @@ TEST_P(BoxOfAnotherKind, FeelsAsABox) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BoxOfAnotherKind, ::testing::Bool(),
                          [](const auto& kind) { return kind.param ? "Mesh" : "Hull"; });
 
-// A prism of 400 sides is within R (1 - cos(pi / 400)) = 1 um of the round bar, its normals within
-// pi / 400: of 5 N that is 0.04 N, which stretches the spring by 50 um.
+// A prism of 400 sides is within R (1 - cos(pi / 400)) = 1 um of the round bar. Its normals are
+// within pi / 400. Of 5 N that is 0.04 N, which stretches the spring by 50 um.
 TEST(CylinderObstacle, IsNearlyAFinePrism) {
   const Obstacle bar{Cylinder{0.03, 0.04}, Vec3::Zero(), Quat::Identity()};
   const Obstacle prism{test::makeHull(test::makePrism(0.03, 0.04, 400)), Vec3::Zero(),
@@ -177,13 +179,13 @@ std::vector<Vec3> makeBracket() {
     const int next = (i + 1) % 6;
     solid.faces.push_back({i, i + 6, next + 6, next});
   }
-  // Both ends, from the inner corner, which sees all others.
+  // Both ends are fans from the inner corner, which sees all other corners.
   solid.faces.push_back({0, 1, 2, 3, 4, 5});
   solid.faces.push_back({6, 11, 10, 9, 8, 7});
   return test::cutIntoTriangles(solid);
 }
 
-// The outline runs clockwise seen from +z.
+// The outline runs clockwise as seen from +z.
 TEST(MeshBracket, PushesWithBothSidesOfItsGroove) {
   PulledBall ball(at(test::makeMesh(makeBracket())));
   const auto force = [&](const Vec3& p) {
@@ -194,16 +196,16 @@ TEST(MeshBracket, PushesWithBothSidesOfItsGroove) {
   };
   EXPECT_LT((force({0.004, 0.007, 0.01}) - Vec3(0.006, 0.003, 0)).norm(), 1e-12);
   EXPECT_LT((force({0.02, 0.007, 0.01}) - Vec3(0, 0.003, 0)).norm(), 1e-12);
-  // The centre below the floor, and behind both.
+  // The centre is below the floor and behind the wall: both push.
   EXPECT_LT((force({0.004, -0.001, 0.01}) - Vec3(0.006, 0.011, 0)).norm(), 1e-12);
   EXPECT_LT((force({-0.001, -0.002, 0.01}) - Vec3(0.011, 0.012, 0)).norm(), 1e-12);
-  // Below the nose of the floor it is outside again, beside the front.
+  // Below the nose of the floor the centre is outside again, in front of the end face.
   EXPECT_LT((force({0.045, -0.01, 0.01}) - Vec3(0.005, 0, 0)).norm(), 1e-12);
-  // Behind the wall.
+  // The centre is behind the wall.
   EXPECT_LT((force({-0.025, 0.01, 0.01}) - Vec3(-0.005, 0, 0)).norm(), 1e-12);
 }
 
-// No force jumps where regions meet, as long as the centre is not deeper than 3 mm.
+// While the centre is at most 3 mm deep, no force jumps where regions meet.
 TEST(MeshBracket, ForceIsContinuous) {
   constexpr std::uint64_t kSeed = 20090301;
   SCOPED_TRACE(kSeed);
@@ -233,7 +235,8 @@ TEST(MeshBracket, ForceIsContinuous) {
     if (depth(p) || depth(p + move)) continue;
     const Vec3 before = force(p), after = force(p + move);
     touching += before != Vec3::Zero();
-    // Two parts of it, each with a push of r - d that turns with the centre round its point.
+    // Two parts push, each with r - d in a direction that turns with the centre about its nearest
+    // point.
     const double nearest = std::max(distance(p) - move.norm(), 1e-9);
     EXPECT_LE((after - before).norm(), 2.0 * move.norm() * (1.0 + kRadius / nearest))
         << p.transpose() << " to " << (p + move).transpose();
@@ -241,8 +244,8 @@ TEST(MeshBracket, ForceIsContinuous) {
   EXPECT_GT(touching, 3000);
 }
 
-// Facets of 5 mm in a bowl of 80 mm meet at some 4 degrees: where their prisms overlap none may
-// push besides another.
+// Facets of 5 mm in a bowl of 80 mm meet at about 4 degrees. Where their prisms overlap, only one
+// may push.
 TEST(MeshBowl, PushesOnce) {
   std::vector<Vec3> corners = test::makeFloor(20, 0.005);
   for (Vec3& p : corners) p.y() = (p.x() * p.x() + p.z() * p.z()) / 0.16;
@@ -261,7 +264,7 @@ TEST(MeshBowl, PushesOnce) {
   }
 }
 
-/// Relative change of a ball's energy after it has flown at an obstacle and away again.
+/// Relative change of a ball's energy after it hits an obstacle and flies away again.
 double bounce(const Shape& shape, const Vec3& from, const Vec3& v) {
   IslandSettings settings;
   settings.haptic_period = kPeriod;
@@ -308,9 +311,9 @@ class Bounce : public ::testing::TestWithParam<int> {
   }
 };
 
-// 2 m/s overlap by 16 mm: the centre goes inside, and on its way out passes other faces. Steps go
-// across where the curvature of a surface jumps, or past a capsule's core, with some 1e-6; those on
-// a mesh end there.
+// At 2 m/s the overlap is 16 mm: the centre goes inside and passes other faces on its way out. A
+// step across a jump of curvature, or past a capsule's core, has an error of about 1e-6. On a mesh,
+// steps end there.
 TEST_P(Bounce, KeepsTheEnergy) {
   constexpr std::uint64_t kSeed = 20090302;
   SCOPED_TRACE(kSeed);
@@ -359,7 +362,7 @@ TEST(IslandShapes, HullAndCylinderTakeThePush) {
     }
     impulse = solid.mass * island.state(object).v_W;
     EXPECT_LT(impulse.y(), -0.005);
-    // Pushed off its middle it turns.
+    // A push beside its middle turns the body.
     EXPECT_GT(island.state(object).w_W.norm(), 0.1);
   }
 }

@@ -1,4 +1,4 @@
-// Shares of gains, ghosts and extra damping: closed forms, guided and free.
+// Shares of gains, ghosts and extra damping: closed forms, with and without the guide.
 
 #include <cmath>
 #include <vector>
@@ -15,8 +15,8 @@ constexpr double kRadius = 0.01, kHalf = 0.02;
 constexpr double kMass = 0.1;
 const CouplerGains kContact{4000.0, 1.0}, kTie{200.0, 30.0};
 
-/// A cube tied to its start, between a hand on the left and a proxy on the right, all just in
-/// touch.
+/// A cube tied to its start, between a hand on the left and a proxy on the right, all just
+/// touching.
 struct Scene {
   explicit Scene(bool is_guided) : island(makeSettings(is_guided)) {
     IslandBody body;
@@ -69,7 +69,7 @@ class IslandShare : public ::testing::TestWithParam<bool> {
 };
 
 TEST_P(IslandShare, StaticPullIsInProportion) {
-  // A force of 1 N against K_t and half of it.
+  // A force of 1 N acts against K_t, then against half of it.
   island.setGhost(scene.proxy, true);
   island.setExternalWrench(scene.cube, Vec3(1, 0, 0), Vec3::Zero());
   for (const double share : {1.0, 0.5, 0.25}) {
@@ -150,7 +150,7 @@ TEST_P(IslandShare, SharesThatComeBackLeaveNoTrace) {
 }
 
 TEST_P(IslandShare, AGainThatFallsTakesEnergyAndMakesNone) {
-  // A hand that pushes the cube against the proxy, while all that holds these fades.
+  // A hand pushes the cube against the proxy while all couplers fade.
   const auto energy = [&] {
     double sum = 0.0;
     for (const BodyIndex b : {scene.cube, scene.proxy})
@@ -190,7 +190,7 @@ TEST(IslandGhost, SleepsWithTheRestAndWakesIt) {
   scene.island.setGhost(scene.proxy, true);
   scene.run(0.1);
   EXPECT_TRUE(scene.island.isAsleep());
-  scene.island.setGhost(scene.proxy, true);  // nothing new
+  scene.island.setGhost(scene.proxy, true);  // the proxy is a ghost already
   EXPECT_TRUE(scene.island.isAsleep());
   scene.island.setGhost(scene.proxy, false);
   EXPECT_FALSE(scene.island.isAsleep());
@@ -208,7 +208,7 @@ TEST(IslandGhost, PassesObstaclesAndSlots) {
   const BodyIndex slot = island.addSlot();
   island.prepare();
   const std::vector<Obstacle> wall = {{Box{Vec3::Constant(0.1)}, Vec3(0.105, 0, 0)}};
-  island.setObstacles(wall);  // 5 mm in
+  island.setObstacles(wall);  // overlaps by 5 mm
   EXPECT_NEAR(island.computeOverlap(proxy), 0.005, 1e-12);
   island.setGhost(proxy, true);
   EXPECT_NEAR(island.computeOverlap(proxy), 0.005, 1e-12);

@@ -1,4 +1,4 @@
-// What a scene does not need is not done: each skip shows in a counter.
+// Work that a scene does not need is skipped; a counter shows each skip.
 
 #include <algorithm>
 
@@ -40,7 +40,7 @@ struct Pair {
   void advance(int ticks) {
     for (int i = 0; i < ticks; ++i) island.advance(kPeriod);
   }
-  /// The target moves: nothing may sleep.
+  /// Moves the target, so that nothing may sleep.
   void pull(const Vec3& p_W) {
     RigidState target;
     target.p_W = p_W;
@@ -60,7 +60,7 @@ TEST(IslandSkip, NoExactGeometryWhileBallsAreApart) {
   EXPECT_EQ(pair.counters().contact_searches, 0u);
   EXPECT_EQ(pair.counters().contact_searches_skipped, 50u);
 
-  Pair near(0.04);  // balls overlap, shapes do not
+  Pair near(0.04);  // the bounding balls overlap, the shapes do not
   near.pull(Vec3(0.001, 0.0, 0.0));
   near.advance(50);
   EXPECT_EQ(near.counters().contact_searches, 50u);
@@ -110,7 +110,7 @@ TEST(IslandSkip, ASpinThatNothingTurnsIsExact) {
   EXPECT_EQ(island.counters().exact_turns, 500u);
   EXPECT_EQ(island.counters().integrated_steps, 0u);
   const Quat expected(Eigen::AngleAxisd(3.0 * 0.5, Vec3(1.0, 2.0, 2.0) / 3.0));
-  // Rounding of 500 products; angularDistance itself is good to 1e-15.
+  // Rounding of 500 products; angularDistance() itself is accurate to 1e-15.
   EXPECT_LT(island.state(0).q_WB.angularDistance(expected), 1e-13);
 }
 
@@ -161,7 +161,7 @@ TEST(IslandSkip, AbsurdGainsTakeABoundedNumberOfSteps) {
       most = std::max(most, steps - before);
       before = steps;
     }
-    // 4096 in a period, some more for tries and for what events cut.
+    // 4096 sub-steps in a period, plus some for retries and for events that cut a step.
     EXPECT_LT(most, 5000u) << "damping " << damping;
     EXPECT_TRUE(isFinite(island.state(index)));
     const double energy =

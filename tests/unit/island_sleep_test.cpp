@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;  // haptic period [s]
 
-/// A device that presses a cube, which its coupler holds; and a ball with an obstacle below. All
-/// come to rest.
+/// A device presses a cube on a coupler, and a ball lies on an obstacle. All come to rest.
 struct Scene {
   Scene() {
     IslandSettings settings;
@@ -82,7 +81,7 @@ TEST(IslandSleep, ChangesNoResult) {
   }
   EXPECT_TRUE(asleep.island->isAsleep());
   EXPECT_EQ(awake.island->counters().asleep, 0u);
-  EXPECT_LT(worst, 2e-12);  // what sleep may leave of the way, 5e-13 for each body in touch
+  EXPECT_LT(worst, 2e-12);  // sleep drops at most 5e-13 m of the way for each body in touch
 }
 
 TEST(IslandSleep, IsNotDisturbedByTheSameValues) {
@@ -101,11 +100,11 @@ TEST(IslandSleep, IsNotDisturbedByTheSameValues) {
   EXPECT_EQ(island.counters().asleep, asleep + 10);
 }
 
-/// Each must wake the island before the next advance.
+/// Each change must wake the island before the next advance.
 TEST(IslandSleep, EndsWithAnyRealChange) {
   struct Change {
     const char* name;
-    bool moves;  ///< cube or ball, at once
+    bool moves;  ///< true if the cube or ball moves at once
     std::function<void(Scene&)> make;
   };
   const Change changes[] = {
@@ -156,13 +155,13 @@ TEST(IslandSleep, EndsWithAnyRealChange) {
     scene.advance(1);
     EXPECT_EQ(scene.island->counters().asleep, asleep) << change.name;
     const Vec3 after[] = {scene.island->state(scene.cube).p_W, scene.island->state(scene.ball).p_W};
-    // Sleep leaves less than 1e-12 m of the way to rest, which does not count.
+    // Sleep drops less than 1e-12 m of the way to rest, which is not counted.
     const double way = (after[0] - before[0]).norm() + (after[1] - before[1]).norm();
     EXPECT_EQ(way > 1e-11, change.moves) << change.name << ": " << way;
   }
 }
 
-// Nothing would stop a body that nothing ties: however slow, it must go on.
+// A body without a coupler has nothing to stop it: however slow, it must go on.
 TEST(IslandSleep, ASlowBodyWithoutCouplerKeepsMoving) {
   Island island({});
   IslandBody ball;

@@ -34,7 +34,7 @@ struct Grid {
     island.prepare();
   }
 
-  /// A tick in which the device moves at `v_W`; `awake` keeps everybody awake.
+  /// Runs a tick in which the device moves at `v_W`; `awake` keeps all bodies awake.
   void tick(const Vec3& v_W, bool awake = false) {
     RigidState state = island.state(hip);
     state.v_W = v_W;
@@ -71,7 +71,7 @@ TEST(Sleepers, CostNothingWhileTheDeviceMovesElsewhere) {
 }
 
 TEST(Sleepers, AreFeltAsIfTheyHadBeenAwake) {
-  // Through the middle of a row, at speeds from a crawl to a throw.
+  // The device passes through the middle of a row, at speeds from a crawl to a throw.
   for (const double speed : {0.02, 0.2, 2.0, 10.0}) {
     Grid sleeping, waking;
     double most_force = 0.0, worst = 0.0;
@@ -124,7 +124,7 @@ TEST(Sleepers, WakeByWhatIsDoneToThem) {
   EXPECT_NEAR(grid.island.state(grid.cubes[30]).p_W.z(), 0.0, 1e-9);
 }
 
-// Drawn ways of a device through the grid: whoever slept must be met as if awake.
+// The device takes random paths through the grid. A sleeping body must be hit as if it were awake.
 TEST(Sleepers, AreMetOnAnyWay) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);

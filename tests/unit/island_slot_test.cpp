@@ -8,8 +8,8 @@ namespace tandem {
 namespace {
 
 constexpr double kPeriod = 1e-3;              // haptic period [s]
-constexpr double kMass = 0.2;                 // of the body in the slot [kg]
-constexpr double kEdge = 0.04;                // its edge [m]
+constexpr double kMass = 0.2;                 // mass of the body in the slot [kg]
+constexpr double kEdge = 0.04;                // edge of that body [m]
 const CouplerGains kContact = {2000.0, 3.0};  // [N/m, N s/m]
 
 IslandBody makeBox(const Vec3& p_W, const Vec3& v_W = Vec3::Zero()) {
@@ -38,7 +38,7 @@ IslandSettings makeSettings() {
   return settings;
 }
 
-/// A tool that hits a body in a slot off its centre.
+/// A tool that hits a body in a slot away from its centre.
 struct Hit {
   Island island{makeSettings()};
   BodyIndex tool = island.addBody(makeTool(Vec3(-0.05, 0.012, 0.0), Vec3(0.5, 0.0, 0.0)));
@@ -56,7 +56,7 @@ TEST(IslandSlot, IsNotThereUntilItIsFilled) {
   EXPECT_FALSE(hit.island.isDynamic(hit.slot));
   EXPECT_TRUE(hit.island.isActive(hit.tool));
   EXPECT_EQ(hit.island.bodyCount(), 2);
-  hit.advance(200);  // right through where an empty slot's body would stand
+  hit.advance(200);  // straight through the place of the empty slot's body
   EXPECT_EQ(hit.island.state(hit.tool).v_W, Vec3(0.5, 0.0, 0.0));
   EXPECT_EQ(hit.island.state(hit.slot).p_W, Vec3::Zero());
 
@@ -149,7 +149,7 @@ TEST(IslandSlot, StartsAnewWhenFilledAgain) {
   used.island.setExternalWrench(used.slot, Vec3(1.0, 2.0, 3.0), Vec3::Zero());
   used.advance(10);
   fresh.advance(10);
-  // Over the old body without clearing it: nothing of it stays.
+  // Filling over the old body without clearing it leaves nothing of the old one.
   used.island.fill(used.slot, makeBox(Vec3::Zero()));
   fresh.island.fill(fresh.slot, makeBox(Vec3::Zero()));
   used.advance(100);

@@ -1,4 +1,4 @@
-// Numbers that no scene should have, found by `tandem bench stress`.
+// Extreme numbers that no real scene has, found by `tandem bench stress`.
 
 #include <cmath>
 
@@ -20,8 +20,8 @@ IslandBody makeBall(double radius, double mass, const Vec3& p_W, const Vec3& v_W
   return ball;
 }
 
-// A tolerance that nothing meets, and a time that the shortest step divides but for rounding: the
-// search for a shorter step used to go on for ever.
+// No step meets the tolerance, and the shortest step divides the time except for rounding. The
+// search for a shorter step used to loop for ever.
 TEST(IslandStress, ShortestStepIsTakenWhateverItsError) {
   IslandSettings settings;
   settings.haptic_period = kPeriod;
@@ -35,7 +35,7 @@ TEST(IslandStress, ShortestStepIsTakenWhateverItsError) {
   EXPECT_GT(island.state(ball).v_W.x(), 0.0);
 }
 
-// B_r / J = 2.8e7 1/s, seven times what the shortest step can follow: the spin used to grow.
+// B_r / J = 2.8e7 1/s is seven times what the shortest step can follow. The spin used to grow.
 TEST(IslandStress, TurnDamperFasterThanAnyStepOnlyTakesEnergy) {
   Island island({});
   IslandBody capsule;
@@ -57,7 +57,7 @@ TEST(IslandStress, TurnDamperFasterThanAnyStepOnlyTakesEnergy) {
   EXPECT_LT(spin, 1e-3);
 }
 
-// The same of contacts: six balls of a gram on the end of a needle of a gram, 1000 N s/m each.
+// The same for contacts: six balls of 1 g at the end of a needle of 1 g, with 1000 N s/m each.
 TEST(IslandStress, ContactDamperFasterThanAnyStepOnlyTakesEnergy) {
   IslandSettings settings;
   settings.obstacle_contact = {10.0, 1e3};
@@ -87,7 +87,8 @@ TEST(IslandStress, ContactDamperFasterThanAnyStepOnlyTakesEnergy) {
     }
     return energy;
   };
-  const double springs = 6.0 * 0.5 * 10.0 * 1e-6;  // no deeper than a ball's radius [J]
+  const double springs =
+      6.0 * 0.5 * 10.0 * 1e-6;  // energy of overlaps no deeper than a ball's radius [J]
   double energy = computeEnergy();
   for (int tick = 0; tick < 20; ++tick) {
     island.advance(kPeriod);
@@ -96,8 +97,8 @@ TEST(IslandStress, ContactDamperFasterThanAnyStepOnlyTakesEnergy) {
   }
 }
 
-// Halfway round the coupler's torque jumps from one way round to the other. A step across that used
-// to make energy, each time by up to torque x angle of the step.
+// At half a turn the coupler's torque jumps to the opposite direction. A step across the jump used
+// to create energy, each time up to torque x angle of the step.
 TEST(IslandStress, TurningOverMakesNoEnergy) {
   Island island({});
   const double inertia = 2e-5, stiffness = 0.5;  // [kg m^2], [N m/rad]
@@ -105,7 +106,7 @@ TEST(IslandStress, TurningOverMakesNoEnergy) {
   cube.shape = Box{Vec3::Constant(0.02)};
   cube.mass = 0.1;
   cube.inertia_B = inertia * Vec3(1.0, 1.3, 0.8);
-  // Enough to go over, with some to spare: K pi^2 / 2 < J w^2 / 2.
+  // The spin is just enough to pass half a turn: K pi^2 / 2 < J w^2 / 2.
   cube.start.w_W = 1.02 * M_PI * std::sqrt(stiffness / inertia) * Vec3::UnitX() + Vec3(0, 9, 4);
   const BodyIndex body = island.addBody(cube);
   const CouplerIndex coupler = island.addCoupler(body, {{200.0, 0.0}, {stiffness, 0.0}});
@@ -129,9 +130,9 @@ TEST(IslandStress, TurningOverMakesNoEnergy) {
   EXPECT_GT(turned_over, 3);
 }
 
-// Two balls, each in touch with something that is held; one is shot at the other within a tick,
-// from rest. As neither was alone, nobody looked whether they met: the shot went on inside the
-// other, and the overlap that it ended in was energy from nowhere.
+// Two balls each touch a held body; one is shot at the other from rest within a tick. As neither
+// was alone, their meeting was never checked. The shot went on inside the other ball and created
+// energy.
 TEST(IslandStress, WhoIsShotOutOfOneTouchMeetsTheNext) {
   const double stiffness = 3e5, radius = 0.02, mass = 0.14;  // [N/m], [m], [kg]
   const CouplerGains gains{stiffness, 0.0};
@@ -169,9 +170,9 @@ TEST(IslandStress, WhoIsShotOutOfOneTouchMeetsTheNext) {
   }
 }
 
-// A ball of a gram swings on a coupler, 0.4 rad in a haptic period, and grazes a post at the turn:
-// it touches it and is off again within 0.09 rad. In a slot nobody looked between the ends of a
-// step of half a radian, and most touches were not felt.
+// A ball of 1 g swings on a coupler, 0.4 rad in a haptic period, and grazes a post at the turn. The
+// touch lasts less than 0.09 rad. A slot used to check only the ends of a step of half a radian,
+// and missed most touches.
 TEST(IslandStress, TouchWithinAStepOfASlotIsFelt) {
   const double mass = 1e-3, stiffness = 160.0, post_stiffness = 800.0;  // [kg], [N/m]
   const double radius = 0.01, way = 0.01, clearance = 0.999 * way;      // [m]
@@ -191,7 +192,7 @@ TEST(IslandStress, TouchWithinAStepOfASlotIsFelt) {
   start.p_W.x() = -way;
   island.setState(ball, start);
 
-  // x = -A cos(w1 t) until it touches at t1, then middle + a cos(w2 (t - t1 - t2)), and back.
+  // x = -A cos(w1 t) until the touch at t1, then middle + a cos(w2 (t - t1 - t2)), and back.
   const double w1 = std::sqrt(stiffness / mass);
   const double w2 = std::sqrt((stiffness + post_stiffness) / mass);
   const double t1 = (M_PI - std::acos(clearance / way)) / w1;

@@ -52,7 +52,7 @@ double computeOscillation(const Oscillator& o, double mass, double x0, double t)
 
 class LoneCoupler : public ::testing::TestWithParam<Oscillator> {};
 
-// Exact map: only rounding of half a thousand steps is left.
+// The map is exact: only the rounding of about 500 steps is left.
 TEST_P(LoneCoupler, FollowsTheClosedFormToRounding) {
   const double mass = 0.1, x0 = 0.01;
   Island island({});
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Gains, LoneCoupler,
                          ::testing::Values(Oscillator{2000.0, 10.0},  // rings
                                            Oscillator{4000.0, 0.0},   // rings for ever
                                            Oscillator{1000.0, 20.0},  // critical
-                                           Oscillator{200.0, 30.0},   // slow and fast decay
+                                           Oscillator{200.0, 30.0},   // one slow and one fast decay
                                            Oscillator{0.0, 0.0}));    // no coupler at all
 
 TEST(Island, DoesNotDependOnHowAPeriodIsSplit) {
@@ -88,7 +88,7 @@ TEST(Island, DoesNotDependOnHowAPeriodIsSplit) {
       for (double part : parts) island.advance(part * kPeriod);
     return island.state(ball).p_W;
   };
-  // Each part is resolved to T/2^31: 2.3e-13 s at well below 1 m/s, 900 times.
+  // Each part is resolved to T/2^31 = 2.3e-13 s, at well below 1 m/s, 900 times.
   EXPECT_LT((run({1.0}) - run({0.3, 0.4, 0.3})).norm(), 1e-10);
 }
 
@@ -106,14 +106,14 @@ TEST(Island, PrescribedBodyMovesOnAndHeldBodyStays) {
   EXPECT_EQ(island.state(held).v_W, Vec3(1.0, 2.0, 3.0));
 }
 
-// Without outside forces the momentum of bodies in touch is kept: the third law.
+// Without outside forces the total momentum of touching bodies is constant (third law).
 class MomentumKept : public ::testing::TestWithParam<bool> {};
 
 TEST_P(MomentumKept, ThroughImpactAndRebound) {
   IslandSettings settings;
   if (GetParam()) settings.guide = Vec3::UnitX();
   Island island(settings);
-  const double offset = GetParam() ? 0.0 : 0.012;  // off-centre where it may rotate [m]
+  const double offset = GetParam() ? 0.0 : 0.012;  // off-centre if it may rotate [m]
   const BodyIndex ball =
       island.addBody(makeBall(0.1, Vec3(-0.05, offset, 0.0), Vec3(0.5, 0.0, 0.0)));
   const BodyIndex cube = island.addBody(makeCube(0.25, 0.04));
@@ -139,14 +139,14 @@ TEST_P(MomentumKept, ThroughImpactAndRebound) {
   EXPECT_LT((momentum() - p0).norm(), 1e-14);
   if (!GetParam()) {
     EXPECT_GT(std::abs(island.state(cube).w_W.z()), 0.5);
-    // Angular momentum is kept to the order of Runge-Kutta, about (w h)^4.
+    // Angular momentum is constant to the order of Runge-Kutta, about (w h)^4.
     EXPECT_LT((spin() - l0).norm(), 1e-9);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(GuideOrFree, MomentumKept, ::testing::Bool());
 
-// A spring contact gives back what it took; the exact map located make and break to 5e-13 s.
+// A spring contact returns the energy it stored. The exact map locates make and break to 5e-13 s.
 TEST(Island, ElasticImpactKeepsEnergy) {
   for (const bool guided : {true, false}) {
     IslandSettings settings;
@@ -164,9 +164,9 @@ TEST(Island, ElasticImpactKeepsEnergy) {
   }
 }
 
-// A sphere so fast that it goes through a soft box, round edges and past the middle, where another
-// face becomes the nearest and the force jumps. A step that does not end there makes energy: 3e-3
-// of it at a fixed step of 0.25 ms.
+// A fast sphere passes through a soft box, round edges and past the middle. There another face
+// becomes the nearest and the force jumps. A step that does not end at the jump creates energy:
+// 3e-3 of it at a fixed step of 0.25 ms.
 TEST(Island, EnergyIsKeptWhereTheNearestFaceChanges) {
   constexpr double kSpeed = 3.0;  // [m/s]
   for (const double offset : {0.008, 0.0115, 0.012, 0.0125, 0.016}) {
@@ -182,7 +182,7 @@ TEST(Island, EnergyIsKeptWhereTheNearestFaceChanges) {
     const double energy = 0.5 * 0.1 * island.state(ball).v_W.squaredNorm() +
                           0.5 * 0.25 * island.state(cube).v_W.squaredNorm() +
                           0.5 * 0.25 * 0.04 * 0.04 / 6.0 * island.state(cube).w_W.squaredNorm();
-    // What is left, 1.2e-6 at the most, is where the centre passes a region of edges.
+    // The remaining error, at most 1.2e-6, arises where the centre passes a region of edges.
     EXPECT_NEAR(energy / (0.5 * 0.1 * kSpeed * kSpeed), 1.0, 2e-6) << "offset " << offset;
   }
 }
@@ -209,7 +209,8 @@ TEST(Island, GuideKeepsAnyAxis) {
   }
 }
 
-// Intermediate-axis tumbling, where the gyroscopic term is everything: energy and momentum stay.
+// Intermediate-axis tumbling, where the gyroscopic term dominates: energy and momentum stay
+// constant.
 TEST(Island, FreeRotationKeepsEnergyAndAngularMomentum) {
   Island island({});
   IslandBody body = makeCube(0.2, 0.04);
@@ -229,7 +230,7 @@ TEST(Island, FreeRotationKeepsEnergyAndAngularMomentum) {
     island.advance(kPeriod);
     flipped = std::min(flipped, (island.state(cube).q_WB * Vec3::UnitY()).y());
   }
-  EXPECT_LT(flipped, -0.9);  // it did tumble
+  EXPECT_LT(flipped, -0.9);  // it tumbled
   EXPECT_LT((spin() - l0).norm() / l0.norm(), 1e-8);
   EXPECT_NEAR(energy() / e0, 1.0, 1e-8);
 }
@@ -243,7 +244,7 @@ TEST(Island, AngularCouplerTurnsACopyToItsTarget) {
   RigidState target;
   target.q_WB = Quat(Eigen::AngleAxisd(1.2, Vec3(1.0, 2.0, -1.0).normalized()));
   island.setTarget(0, target);
-  // The turn about one axis is the damped oscillator theta'' + 40 theta' + 2000 theta = 0.
+  // The rotation about one axis is the damped oscillator theta'' + 40 theta' + 2000 theta = 0.
   double worst = 0.0;
   for (int tick = 1; tick <= 300; ++tick) {
     island.advance(kPeriod);
@@ -271,8 +272,8 @@ TEST(Island, SphereRestsOnAnObstacleAtItsSink) {
   EXPECT_NEAR(island.computeContactForce(index).z(), 0.981, 1e-6);
 }
 
-// A body that creeps into contact so slowly that the finest step does not move it by a bit: the
-// search for the event went on for ever.
+// A body creeps into contact so slowly that the finest step does not change its position. The
+// search for the event used to loop for ever.
 TEST(Island, GuidePassesAnEventThatRoundingHides) {
   IslandSettings settings;
   settings.guide = Vec3::UnitX();
@@ -282,7 +283,8 @@ TEST(Island, GuidePassesAnEventThatRoundingHides) {
     const BodyIndex cube = island.addBody(makeCube(0.1, 0.04));
     island.addContact(ball, cube, {4000.0, 1.0});
     island.prepare();
-    // Both far along the slot, where a position's last bit is large, and just in contact there.
+    // Both bodies are far along the slot, where the last bit of a position is large, and just in
+    // contact.
     RigidState moved = island.state(ball);
     moved.p_W.x() += 0.1, moved.v_W.x() = speed;
     island.setState(ball, moved);

@@ -44,13 +44,13 @@ TEST(LinearSeries, IsTheLinearMap) {
     for (const int level : {0, 1, 5, 20, 31}) {
       map.step(level, state.data(), u.data(), w.data(), by_map.data());
       series.step(std::ldexp(kPeriod, -level), state.data(), u.data(), w.data(), by_series.data());
-      // Rounding of the map's exponential, whose norm has K / m, is the larger by far.
+      // Rounding of the map's exponential dominates; its norm contains K / m.
       for (std::size_t i = 0; i < n; ++i) {
         EXPECT_NEAR(by_series[i], by_map[i], 1e-12) << level;
         EXPECT_NEAR(by_series[n + i], by_map[n + i], 1e-9) << level;
       }
     }
-    // Two half steps are one, to the rounding of a double.
+    // Two half steps equal one full step, to the rounding of a double.
     std::vector<double> half(2 * n), halves(2 * n), later(n);
     for (std::size_t i = 0; i < n; ++i) later[i] = u[i] + 0.5 * kPeriod * w[i];
     series.step(kPeriod, state.data(), u.data(), w.data(), by_series.data());

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPacket = 1.0 / 128.0;
 constexpr double kTick = 1e-3;
 
-/// A peer that was heard at 0 for the last time, looked at once at `age`.
+/// Health of a peer that was last heard at time 0, checked once at `age`.
 LinkHealth silentFor(double age, double packet_period = kPacket, bool is_idle = false) {
   LinkHealth health({}, packet_period);
   health.hear(0.0, is_idle);
@@ -22,7 +22,7 @@ LinkHealth silentFor(double age, double packet_period = kPacket, bool is_idle = 
   return health;
 }
 
-/// Heard in time, and looked at each tick, from `from` to `until`.
+/// Checks at each tick from `from` to `until`, while packets arrive in time.
 void keepAlive(LinkHealth& health, double from, double until, bool place_is_free = true) {
   double next_packet = from;
   for (double t = from; t < until; t += kTick) {
@@ -79,18 +79,18 @@ TEST(LinkHealth, BoundariesBelongToTheLaterRowUntilTheGainsAreZero) {
 }
 
 TEST(LinkHealth, AgesAreLongerForSlowAndIdleSenders) {
-  // At 30 Hz three packets take 100 ms: four times as long.
+  // At 30 Hz three packets take 100 ms, four times as long as usual.
   EXPECT_EQ(silentFor(0.09, 1.0 / 30.0).state(), LinkState::kLive);
   EXPECT_EQ(silentFor(0.39, 1.0 / 30.0).state(), LinkState::kStale);
   EXPECT_EQ(silentFor(0.7, 1.0 / 30.0).state(), LinkState::kFading);
   EXPECT_NEAR(silentFor(0.7, 1.0 / 30.0).proxyShare(), 0.5, 1e-12);
   EXPECT_EQ(silentFor(1.01, 1.0 / 30.0).state(), LinkState::kLost);
-  // Idle at 1/16 s: 7.5 times.
+  // An idle peer sends every 1/16 s, so the limit is 7.5 times longer.
   EXPECT_EQ(silentFor(0.187, kPacket, true).state(), LinkState::kLive);
   EXPECT_EQ(silentFor(0.188, kPacket, true).state(), LinkState::kStale);
   EXPECT_EQ(silentFor(1.875, kPacket, true).state(), LinkState::kFading);
   EXPECT_EQ(silentFor(1.876, kPacket, true).state(), LinkState::kLost);
-  // A faster sender is given no less.
+  // A faster sender gets the same limit, not a shorter one.
   EXPECT_EQ(silentFor(0.0249, 1e-3).state(), LinkState::kLive);
 }
 
@@ -150,11 +150,11 @@ TEST(LinkHealth, ProxyIsNotLetInWhereSomethingIs) {
   EXPECT_EQ(health.state(), LinkState::kRejoining);
   EXPECT_TRUE(health.isProxyOut());
   EXPECT_EQ(health.proxyShare(), 0.0);
-  EXPECT_EQ(health.objectShare(), 1.0);  // objects are not in each other's way
+  EXPECT_EQ(health.objectShare(), 1.0);  // objects do not block each other
   keepAlive(health, 5.0, 5.1, true);
   EXPECT_FALSE(health.isProxyOut());
   EXPECT_NEAR(health.proxyShare(), 0.2, 5e-3);
-  // Once in, it stays: who walks into it meets gains that are still small.
+  // A user who came in stays in. Walking into something then meets gains that are still small.
   keepAlive(health, 5.1, 5.6, false);
   EXPECT_EQ(health.state(), LinkState::kLive);
 }
@@ -199,7 +199,7 @@ TEST(LinkHealth, CountsOnceEach) {
 
 TEST(LinkHealth, OverdueFromStaleOn) {
   LinkHealth health({}, kPacket);
-  EXPECT_FALSE(health.isOverdue(10.0));  // nothing heard: nothing stood still
+  EXPECT_FALSE(health.isOverdue(10.0));  // nothing was ever heard, so nothing is overdue
   health.hear(1.0, false);
   EXPECT_FALSE(health.isOverdue(1.02));
   EXPECT_TRUE(health.isOverdue(1.03));
@@ -227,7 +227,7 @@ TEST(LinkHealth, SharesNeverJumpAndStayBetween0And1) {
   LinkHealth health({}, kPacket);
   health.hear(0.0, false);
   double next = 0.0, proxy = 1.0, object = 1.0;
-  // Falling is the fastest: 1 in 150 ms.
+  // Falling is the fastest change: from 1 to 0 in 150 ms.
   const double most = kTick / 0.15 + 1e-9;
   for (int i = 1; i < 60'000; ++i) {
     const double t = i * kTick;

@@ -1,4 +1,4 @@
-// A private header of coordination: the map that everything alone moves by.
+// Private header of coordination: the map that moves a body with couplers only.
 #include "coordination/src/island/oscillator_map.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-/// S of x'' + c x' + k x = 0 in extended precision: the way after a unit push.
+/// Displacement S after a unit push, x'' + c x' + k x = 0, in extended precision.
 long double computeWay(long double k, long double c, long double h) {
   const long double d = c / 2, square = d * d - k;
   if (square == 0) return std::exp(-d * h) * h;
@@ -31,7 +31,7 @@ TEST_P(OscillatorMapOf, IsTheClosedForm) {
   for (const double h : {1e-3, 0.37e-3, 1e-6, 4e-3}) {
     const OscillatorMap map = computeOscillatorMap(k, c, h);
     const double way = static_cast<double>(computeWay(k, c, h));
-    // Rounding of some doublings, relative to the longest way there could be.
+    // Rounding of a few doublings, relative to the longest possible way.
     EXPECT_NEAR(map.velocity_to_way, way, 4e-15 * h) << "h = " << h;
     // x'' + c x' + k x = 1 from rest, integrated once: v + c x + k * integral of x = t.
     EXPECT_NEAR(map.velocity_to_velocity + c * map.velocity_to_way + k * map.acceleration_to_way,

@@ -31,7 +31,7 @@ StatePacket makeFullPacket() {
   return packet;
 }
 
-/// Every number of a full packet.
+/// Pointers to every number of a full packet.
 std::vector<double*> listNumbers(StatePacket& packet) {
   std::vector<double*> numbers = {&packet.time};
   const auto add = [&numbers](auto& coefficients) {

@@ -27,7 +27,7 @@ TEST(PassivityObserver, FadesTheForceWithWhatIsLeft) {
   PassivityObserver observer;
   observer.addOwn(-kTank + 0.25 * kBand);
   EXPECT_NEAR(observer.computeShare(1e-6), 0.25, 1e-12);
-  // Whether the hand gives or takes makes no step.
+  // The sign of the hand's power must not make a step in the share.
   EXPECT_EQ(observer.computeShare(-1e-6), observer.computeShare(1e-6));
 }
 
@@ -44,7 +44,7 @@ TEST(PassivityObserver, CountsWhatWasGotWhenNothingWasLeft) {
   EXPECT_NEAR(observer.overdrawn(), 0.003, 1e-15);
   observer.addOwn(-0.001);
   EXPECT_NEAR(observer.overdrawn(), 0.004, 1e-15);
-  // Others took theirs: nothing that this hand got.
+  // Energy that others absorbed is not energy that this hand got.
   observer.addOwn(1.0);
   observer.addReported(-5.0);
   EXPECT_NEAR(observer.overdrawn(), 0.004, 1e-15);
@@ -67,12 +67,12 @@ TEST(PassivityObserver, WhatOthersPutInMayBeGot) {
   observer.addOwn(-0.1);
   EXPECT_EQ(observer.computeShare(1e-3), 1.0);
   EXPECT_EQ(observer.own(), -0.1);
-  observer.addReported(-0.1);  // and got out again
+  observer.addReported(-0.1);  // the peer takes it out again
   EXPECT_NEAR(observer.available(), -kTank, 1e-15);
   EXPECT_EQ(observer.computeShare(1e-3), 0.0);
 }
 
-// An hour of rubbing at something must not pay for a blow afterwards.
+// An hour of friction must not pay for a blow afterwards.
 TEST(PassivityObserver, HeatIsForgotten) {
   PassivityObserver observer;
   for (int i = 0; i < 1000; ++i) observer.addOwn(1.0);
@@ -111,8 +111,8 @@ TEST(PassivityObserver, RefillsToTheTankAndNoFurther) {
   EXPECT_NEAR(observer.lowest(), kTank - 0.015, 1e-15);
 }
 
-// Whatever the force and the motion: a hand whose motion in a tick is the one that was foreseen
-// never gets more than the tank and what was reported.
+// Holds for any force and motion. A hand that moves in a tick as predicted never gets more than the
+// tank and the reported energy.
 TEST(PassivityObserver, HoldsForDrawnForces) {
   constexpr std::uint64_t kSeed = 41;
   SCOPED_TRACE(kSeed);

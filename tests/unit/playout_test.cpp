@@ -18,7 +18,7 @@ namespace {
 constexpr double kPeriod = 1.0 / 128.0;  // of packets [s]
 constexpr double kTick = 1e-3;
 constexpr double kDelay = 0.05;
-constexpr double kSkew = 1234.5;  // sender's clock - own [s]
+constexpr double kSkew = 1234.5;  // sender's clock minus own [s]
 
 StatePacket makeNumbered(std::uint64_t sequence) {
   StatePacket packet;
@@ -39,8 +39,8 @@ TEST(Playout, WithoutJitterGivesAtOnce) {
   EXPECT_LT(playout.wait(), 1e-9);
 }
 
-/// Sends for so long with a jitter that draws the lateness of each packet; gives the spread of
-/// what was given late in the run, and how many were given of those sent then.
+/// Sends for a given time; the jitter draws the lateness of each packet. Gives the spread of the
+/// playout delay late in the run, and how many of the packets sent then were played.
 struct Spread {
   double least = 1e9, most = -1e9;
   int sent = 0, given = 0;
@@ -89,7 +89,7 @@ TEST(Playout, TurnsJitterIntoConstantDelay) {
   test::Random random(kSeed);
   Playout playout;
   const Spread spread = run(playout, 30.0, 0.0, [&] { return random.uniform(0.0, 0.02); });
-  // Nearly all after the same time, up to the tick in which an arrival is seen.
+  // Nearly all are played after the same delay, up to the tick that notices an arrival.
   EXPECT_LT(spread.most - spread.least, 0.002);
   EXPECT_NEAR(spread.least, kDelay + 0.02, 0.002);
   EXPECT_GT(spread.given, 0.97 * spread.sent);
@@ -100,7 +100,7 @@ TEST(Playout, FollowsClocksThatDrift) {
   for (const double drift : {-500e-6, 500e-6}) {
     Playout playout;
     const Spread spread = run(playout, 60.0, drift, [&] { return random.uniform(0.0, 0.01); });
-    // In 2 s the clocks part by a millisecond.
+    // In 2 s the clocks drift apart by a millisecond.
     EXPECT_NEAR(spread.least, kDelay + 0.01, 0.004) << drift;
     EXPECT_GT(spread.given, 0.9 * spread.sent) << drift;
   }
@@ -145,7 +145,7 @@ TEST(Playout, SlewsTheWait) {
   EXPECT_NEAR(playout.wait(), 0.03, 1e-3);
 }
 
-// A site begins 1.3 s after its first packets: from then on no wait may jump.
+// A site starts 1.3 s after its first packets. From then on the wait must not jump.
 TEST(Playout, WaitSlewsFromTheStartOfASite) {
   PlayoutSettings settings;
   Playout playout(settings);
@@ -190,7 +190,7 @@ TEST(Playout, OvertakenPacketsAreStale) {
   EXPECT_EQ(playout.counts().stale, 2u);
 }
 
-// What a way has kept for seconds comes all at once; none of it may be felt.
+// A link holds packets for seconds and releases them all at once. None of it may be felt.
 TEST(Playout, BurstAfterAnOutageIsRefused) {
   Playout playout;
   std::uint64_t n = 0;
@@ -220,7 +220,7 @@ TEST(Playout, QueueThatRunsEmptySlowlyIsRefusedToo) {
     const double sent = static_cast<double>(n) * kPeriod;
     (void)playout.push(makeNumbered(n), sent, sent + kDelay);
   }
-  // Held for 8 s, then sent on twice as fast as it was sent.
+  // The link holds packets for 8 s, then releases them at twice the rate they were sent.
   const double start = static_cast<double>(n) * kPeriod + 8.0;
   for (const std::uint64_t first = n;; ++n) {
     const double sent = static_cast<double>(n) * kPeriod;
@@ -246,8 +246,8 @@ TEST(Playout, LongerWayIsAcceptedAfterAWhile) {
   EXPECT_NEAR(refused, 2.0 / kPeriod, 2.0);
 }
 
-/// One of 20 packets comes without any delay, all others after `delay`, for 20 s; gives how often
-/// nothing came out for longer than three packets take, in the last 10 s.
+/// One of 20 packets has no delay, all others have `delay`, for 20 s. Counts the gaps in playout
+/// longer than three packet periods in the last 10 s.
 int countGapsOfJumpers(double delay, std::uint64_t first_jumper, Spread& spread) {
   struct Arriving {
     double at;
@@ -278,7 +278,7 @@ int countGapsOfJumpers(double delay, std::uint64_t first_jumper, Spread& spread)
   return gaps;
 }
 
-// A state that came long before its time would make all that were sent before it worthless.
+// Playing a state long before its time would make all earlier packets worthless.
 TEST(Playout, PacketsThatJumpTheQueueWaitForTheirTurn) {
   for (const double delay : {0.03, 0.1, 0.3, 1.0}) {
     for (const std::uint64_t first : {0u, 7u}) {

@@ -13,7 +13,7 @@ namespace {
 
 const std::string kHeader = "t,force_x,force_y,force_z\n";
 
-/// A file of its own for each test, gone after it. Tests may run in parallel processes.
+/// Each test has a file of its own and removes it. Tests may run in parallel processes.
 class RecordedHandTest : public ::testing::Test {
  protected:
   RecordedHandTest()
@@ -26,7 +26,7 @@ class RecordedHandTest : public ::testing::Test {
     return makeRecordedHand(path_);
   }
 
-  /// What follows the file's name in the refusal of `content`; one line.
+  /// The message that refuses `content`, after the file's name; one line.
   std::string refusal(const std::string& content) const {
     try {
       (void)load(content);
@@ -62,7 +62,7 @@ TEST_F(RecordedHandTest, FindsTheRightRowInALongRecording) {
   }
   const auto hand = load(content);
   for (int i = 0; i + 1 < kRows; ++i) {
-    // All numbers are small integers and halves: exact.
+    // All numbers are small integers and halves, so results are exact.
     EXPECT_EQ(hand->computeForce(i, {}).x(), i * i);
     EXPECT_EQ(hand->computeForce(i + 0.5, {}).x(), 0.5 * (i * i + (i + 1) * (i + 1)));
   }

@@ -1,5 +1,5 @@
-// Rigid contact of an island's bodies, with contacts found by formulas: spheres and boxes on a
-// plane, spheres with each other.
+// Rigid contact of an island's bodies. Formulas find the contacts: spheres and boxes on a plane,
+// spheres with each other.
 
 #include <cmath>
 #include <numeric>
@@ -18,7 +18,7 @@ constexpr double kMass = 0.2;           // [kg]
 constexpr double kRadius = 0.02;        // [m]
 constexpr double kWeight = 9.81 * kMass;
 
-/// Bodies above the plane z = 0: spheres by their centre, boxes by their corners.
+/// Bodies above the plane z = 0: spheres given by their centre, boxes by their corners.
 class PlaneWorld final : public ContactFinder {
  public:
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
@@ -132,7 +132,7 @@ TEST(RigidContact, HoldsASphereAtRestToRounding) {
   EXPECT_NEAR(scene.island.state(0).v_W.norm(), 0.0, 1e-15);
 }
 
-// The path of an impact is that of its moment, wherever in the step that is: free fall, then the
+// An impact takes effect at its own moment, anywhere in the step: free fall, then rest on the
 // plane.
 TEST(RigidContact, StopsAnImpactAtItsMoment) {
   for (int phase = 0; phase < 16; ++phase) {
@@ -145,7 +145,7 @@ TEST(RigidContact, StopsAnImpactAtItsMoment) {
       lowest = std::min(lowest, scene.island.state(0).p_W.z());
     }
     EXPECT_GT(lowest, kRadius - 1e-9) << "phase " << phase;
-    // gamma takes the approach as uniform within the step: g h^2 / 8.
+    // gamma assumes a uniform approach within the step; the error is g h^2 / 8.
     EXPECT_NEAR(scene.island.state(0).p_W.z(), kRadius, 1e-7) << "phase " << phase;
     EXPECT_NEAR(scene.island.state(0).v_W.z(), 0.0, 1e-9) << "phase " << phase;
   }
@@ -157,11 +157,11 @@ TEST(RigidContact, BouncesWithItsRestitution) {
   scene.setVelocity(0, Vec3(0, 0, -0.5));
   scene.run(0.01);
   EXPECT_NEAR(scene.island.state(0).v_W.z(), 0.3, 1e-9);
-  // 2 ms down, 8 ms up, to rounding: the moment is exact in uniform motion.
+  // The sphere moves 2 ms down and 8 ms up. In uniform motion the moment is exact to rounding.
   EXPECT_NEAR(scene.island.state(0).p_W.z(), kRadius + 0.3 * 8e-3, 1e-9);
 }
 
-// v = v0 - mu g t, and x = v0^2 / (2 mu g) where it stops.
+// v = v0 - mu g t; the box stops at x = v0^2 / (2 mu g).
 TEST(RigidContact, BrakesASlidingBoxByCoulombsLaw) {
   RigidIsland scene({Vec3(0, 0, kRadius)}, true);
   scene.world.friction = 0.3;
@@ -171,7 +171,7 @@ TEST(RigidContact, BrakesASlidingBoxByCoulombsLaw) {
   EXPECT_NEAR(scene.island.state(0).v_W.norm(), v0 - a * 0.05, 1e-6);
   scene.run(0.1);
   EXPECT_NEAR(scene.island.state(0).v_W.norm(), 0.0, 1e-9);
-  // The last step stops within itself: at most mu g h^2.
+  // The last step stops within itself; the error is at most mu g h^2.
   EXPECT_NEAR(scene.island.state(0).p_W.head<2>().norm(), v0 * v0 / (2 * a), a * kStep * kStep);
 }
 
@@ -183,8 +183,8 @@ TEST(RigidContact, SticksBelowTheLimitOfFriction) {
   EXPECT_LT((scene.island.state(0).p_W - Vec3(0, 0, kRadius)).norm(), 1e-8);
 }
 
-// A box pushed at its top tips about its far edge when the push is above half its weight: just
-// below it stands.
+// A push at its top above half its weight tips a box about its far edge. Just below, the box
+// stands.
 TEST(RigidContact, TipsABoxAtHalfItsWeight) {
   for (const double push : {0.48, 0.52}) {
     RigidIsland scene({Vec3(0, 0, kRadius)}, true);
@@ -198,7 +198,7 @@ TEST(RigidContact, TipsABoxAtHalfItsWeight) {
   }
 }
 
-// A sphere let go with spin: slips until it rolls, then v = w r = 2/7 w0 r.
+// A sphere starts with spin and slips until it rolls at v = w r = 2/7 w0 r.
 TEST(RigidContact, LetsASpinningSphereRoll) {
   RigidIsland scene({Vec3(0, 0, kRadius)});
   scene.world.friction = 0.4;
@@ -216,7 +216,7 @@ TEST(RigidContact, CarriesABoxOnABelt) {
   scene.world.belt_W = Vec3(0.1, 0, 0);
   scene.run(0.1);
   EXPECT_NEAR(scene.island.state(0).v_W.x(), 0.1, 1e-8);
-  // 0.1 m/s after v / (mu g), along half the way a fixed speed would have made.
+  // It reaches 0.1 m/s after v / (mu g), along half the way of constant speed.
   const double slipping = 0.1 / (0.5 * 9.81);
   EXPECT_NEAR(scene.island.state(0).p_W.x(), 0.1 * (0.1 - 0.5 * slipping), 5e-7);
 }
@@ -252,7 +252,7 @@ TEST(RigidContact, LetsABodyRestAndWakesItWithAllItTouches) {
   scene.run(0.1);
   EXPECT_EQ(scene.world.searches, searches);
 
-  // The first is thrown at the second, which rests until it is near.
+  // The first sphere is thrown at the second, which rests until the first is near.
   scene.setVelocity(0, Vec3(2.0, 0, 0));
   EXPECT_FALSE(scene.island.isAsleep());
   scene.run(0.1);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPeriod = 1.0 / 128.0;
 
-/// One datagram there and the answer back, with these ways and a peer's clock that is ahead.
+/// Sends one datagram and its answer with these delays, to a peer whose clock is ahead.
 void exchange(RoundTrip& trip, double start, double there, double hold, double back, double ahead) {
   trip.add(start, start + there + hold + ahead, hold, start + there + hold + back);
 }
@@ -58,8 +58,8 @@ TEST(RoundTrip, FollowsAWayThatBecameLonger) {
 TEST(RoundTrip, NonsenseIsLeftOut) {
   RoundTrip trip;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  trip.add(2.0, 0.0, 0.0, 1.0);   // back before it was sent
-  trip.add(0.0, 0.0, 5.0, 1.0);   // held for longer than it was away
+  trip.add(2.0, 0.0, 0.0, 1.0);   // returned before it was sent
+  trip.add(0.0, 0.0, 5.0, 1.0);   // held for longer than the whole trip
   trip.add(0.0, 0.0, -1.0, 1.0);  // held for a negative time
   trip.add(kNan, 0.0, 0.0, 1.0);
   trip.add(0.0, kNan, 0.0, 1.0);

@@ -24,7 +24,7 @@ TEST(Schemes, UnknownNameListsWhatThereIs) {
   }
 }
 
-/// An island with one remote user of a scheme, whose device moves to 1 cm.
+/// An island with one remote user of a scheme; the user's device moves to 1 cm.
 struct Presence {
   Island island{IslandSettings{}};
   RemoteUser user;

@@ -29,7 +29,8 @@ TEST(SimulatedDevice, EncoderIsOffByHalfAStepAtMost) {
     const Vec3 reading = device.read(i * kPeriod).hip.p_W;
     const Vec3 error = reading - device.handle().p_W;
     ASSERT_LE(error.cwiseAbs().maxCoeff(), 0.5 * settings.encoder_resolution + 4 * kEps) << i;
-    // A whole number of steps from the start; the subtraction is off by eps / resolution steps.
+    // The reading is a whole number of steps from the start. The subtraction is off by eps /
+    // resolution steps.
     const Vec3 steps = (reading - settings.start_W) / settings.encoder_resolution;
     ASSERT_LE((steps - steps.array().round().matrix()).cwiseAbs().maxCoeff(), 1e-10) << i;
     device.write(random.inCube(1.0));

@@ -13,7 +13,7 @@ inline SimulatedDevice makeDevice(const SimulatedDeviceSettings& settings, const
   return {settings, makeConstantHand(hand_force)};
 }
 
-/// Reads at every haptic period from 0 to `ticks`; gives the last sample.
+/// Reads at every haptic period from 0 to `ticks`. Gives the last sample.
 inline DeviceSample readTicks(HapticDevice& device, int ticks) {
   DeviceSample sample;
   for (int i = 0; i <= ticks; ++i) sample = device.read(i * kPeriod);

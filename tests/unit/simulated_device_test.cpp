@@ -23,7 +23,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Scalar closed form of m x'' + b x' = f from rest, b > 0, in extended precision:
-/// x = f/b (t - tau (1 - e^-t/tau)), v = f/b (1 - e^-t/tau), tau = m/b.
+///  x = f/b (t - tau (1 - e^-t/tau)), v = f/b (1 - e^-t/tau), tau = m/b.
 struct ClosedForm {
   long double x;
   long double v;
@@ -31,7 +31,8 @@ struct ClosedForm {
 ClosedForm fromRest(double m, double b, double f, double t) {
   const long double a = static_cast<long double>(b) * t / m;  // t / tau
   const long double risen = -std::expm1(-a);
-  long double run = a - risen;  // for small a it cancels; then its series a^2/2! - a^3/3! + ...
+  long double run =
+      a - risen;  // cancels for small a; then the series a^2/2! - a^3/3! + ... is used
   if (a < 0.1L) {
     run = 0.0L;
     long double term = -a;
@@ -41,7 +42,7 @@ ClosedForm fromRest(double m, double b, double f, double t) {
   return {terminal * m / b * run, terminal * risen};
 }
 
-// --- motion under a constant hand --------------------------------------------------------------
+// Motion under a constant force.
 
 TEST(SimulatedDevice, FirstReadAtTimeZeroGivesTheStartAtRest) {
   SimulatedDeviceSettings settings;
@@ -67,7 +68,8 @@ TEST(SimulatedDevice, UndampedHandleFollowsTheParabola) {
   EXPECT_LT((hip.p_W - 0.5 * a).norm(), 4000 * kEps * a.norm());
 }
 
-// From a damping that only shows in the last digits to one that stops the handle within a sub-step.
+// Dampings range from one that changes only the last digits to one that stops the handle within a
+// sub-step.
 class DampedHandle : public ::testing::TestWithParam<double> {};
 
 TEST_P(DampedHandle, FollowsTheClosedFormToRounding) {
@@ -84,7 +86,7 @@ TEST_P(DampedHandle, FollowsTheClosedFormToRounding) {
     ASSERT_NEAR(hip.v_W.x() / static_cast<double>(expected.v), 1.0, tolerance) << t;
   }
 }
-// b [N s/m]; with m = 0.1 kg and h = 0.25 ms, b h / m crosses 1/2, where the series ends, at 200.
+// b [N s/m]. The series ends where b h / m = 1/2: at b = 200 with m = 0.1 kg and h = 0.25 ms.
 INSTANTIATE_TEST_SUITE_P(Damping, DampedHandle,
                          ::testing::Values(1e-4, 0.01, 0.5, 20.0, 190.0, 199.9, 200.0, 200.1, 399.9,
                                            400.1, 2000.0, 1e6, 1e12));
@@ -98,7 +100,7 @@ TEST(SimulatedDevice, VanishingDampingMeetsNoDamping) {
     settings.damping = damping;
     SimulatedDevice device = makeDevice(settings, Vec3(1, 0, 0));
     const PointState hip = readTicks(device, 100).hip;
-    // Damping takes the fraction b t / m = 1e-15 at most; the rest is rounding.
+    // Damping takes at most the fraction b t / m = 1e-15; the rest is rounding.
     EXPECT_NEAR(hip.p_W.x(), free_hip.p_W.x(), 400 * kEps * free_hip.p_W.x()) << damping;
     EXPECT_NEAR(hip.v_W.x(), free_hip.v_W.x(), 400 * kEps * free_hip.v_W.x()) << damping;
   }
@@ -108,7 +110,7 @@ TEST(SimulatedDevice, ReachesTheTerminalVelocity) {
   SimulatedDeviceSettings settings;
   settings.damping = 2.0;
   SimulatedDevice device = makeDevice(settings, Vec3(0, 3, 0));
-  // After 2 s = 40 time constants, e^-40 = 4e-18 is left of the difference.
+  // After 2 s = 40 time constants, e^-40 = 4e-18 of the difference is left.
   const PointState hip = readTicks(device, 2000).hip;
   EXPECT_NEAR(hip.v_W.y(), 1.5, 100 * kEps);
 }
@@ -126,7 +128,7 @@ TEST(SimulatedDevice, StateDoesNotDependOnHowReadsAreGrouped) {
     const PointState expected = once.read(1.0).hip;
     for (double t = 0.0; t < 1.0; t += random.uniform(0.0, 0.02)) (void)often.read(t);
     const PointState hip = often.read(1.0).hip;
-    // At most 4000 sub-steps in either way, each within one rounding of the exact map.
+    // Both runs take at most 4000 sub-steps, each within one rounding of the exact map.
     EXPECT_LT((hip.p_W - expected.p_W).norm(), 8000 * kEps * expected.p_W.norm()) << damping;
     EXPECT_LT((hip.v_W - expected.v_W).norm(), 8000 * kEps * expected.v_W.norm()) << damping;
   }
@@ -156,16 +158,16 @@ TEST(SimulatedDevice, TimeThatStandsStillOrRunsBackMovesNothing) {
     EXPECT_EQ(sample.hip.p_W, before.p_W) << now;
     EXPECT_EQ(sample.hip.v_W, before.v_W) << now;
   }
-  // ... and the clock is still at 0.25 s.
+  // The clock is still at 0.25 s.
   SimulatedDevice other = makeDevice({}, Vec3(5, 0, 0));
   (void)other.read(0.25);
   EXPECT_EQ(device.read(0.5).hip.p_W, other.read(0.5).hip.p_W);
 }
 
-// --- a hand that depends on the state ----------------------------------------------------------
+// A hand that depends on the state.
 
-/// Largest error of a handle let go 1 cm from the rest of a hand spring, over 1 s, against the
-/// closed form x = d (1 - e^-ct (cos wt + c/w sin wt)), c = total damping / 2 m.
+/// Largest error over 1 s of a handle released 1 cm from the rest of a hand spring. Closed form: x
+/// = d (1 - e^-ct (cos wt + c/w sin wt)), c = total damping / 2 m.
 double springError(double device_damping, double hand_damping, double period) {
   constexpr double m = 0.1;     // [kg]
   constexpr double K = 1000.0;  // [N/m]
@@ -187,8 +189,9 @@ double springError(double device_damping, double hand_damping, double period) {
 }
 
 TEST(SimulatedDevice, StiffHandSpringIsAccurateAtOneKilohertz) {
-  // The frequency is off by the fraction (w h)^2 / 24 with w = 100 rad/s, h = 0.25 ms: over 1 s the
-  // phase by 2.6e-3 rad, on 1 cm 26 um. Amplitude errors, (w h)^2 / 8, are bounded and add 1 um.
+  // The frequency is off by the fraction (w h)^2 / 24, with w = 100 rad/s and h = 0.25 ms. Over 1 s
+  // the phase is off by 2.6e-3 rad: 26 um on 1 cm. Amplitude errors, (w h)^2 / 8, are bounded and
+  // add 1 um.
   EXPECT_LT(springError(0.0, 0.0, 1e-3), 28e-6);
   EXPECT_LT(springError(0.5, 0.0, 1e-3), 28e-6);
   EXPECT_LT(springError(0.5, 2.0, 1e-3), 28e-6);
@@ -197,8 +200,8 @@ TEST(SimulatedDevice, StiffHandSpringIsAccurateAtOneKilohertz) {
 TEST(SimulatedDevice, HandSpringDamperConvergesWithSecondOrder) {
   for (const double device_damping : {0.0, 0.5}) {
     for (const double hand_damping : {0.0, 2.0}) {
-      // Periods of 1 ms and below, with four sub-steps each. Higher orders are (w h)^2 < 1e-3 of
-      // it.
+      // Periods are 1 ms and below, with four sub-steps each. Higher orders are smaller by (w h)^2
+      // < 1e-3.
       const double coarse = springError(device_damping, hand_damping, 0x1p-10);
       const double fine = springError(device_damping, hand_damping, 0x1p-11);
       EXPECT_NEAR(coarse / fine, 4.0, 0.1) << device_damping << ", " << hand_damping;
@@ -216,13 +219,14 @@ TEST(SimulatedDevice, UndampedHandSpringNeitherGainsNorLosesEnergy) {
     const PointState hip = device.read(i * kPeriod).hip;
     const double stretch = 0.01 - hip.p_W.x();
     const double energy = 0.5 * K * stretch * stretch + 0.5 * settings.mass * hip.v_W.squaredNorm();
-    // A symplectic map's energy swings about its mean by the fraction (w h)^2 / 4 = 1.6e-4.
+    // The energy of a symplectic map swings about its mean by the fraction (w h)^2 / 4 = 1.6e-4.
     ASSERT_NEAR(energy / start, 1.0, 1.7e-4) << i;
   }
 }
 
 TEST(SimulatedDevice, SpringSurvivesALateRead) {
-  // 200 ms without a read: the sub-steps stay at 0.25 ms, so the answer is the same as at 1 kHz.
+  // After 200 ms without a read the sub-steps are still 0.25 ms: the answer is the same as at 1
+  // kHz.
   const auto makeSpring = [] {
     return SimulatedDevice({}, makeMinimumJerkHand({{0.0, Vec3(0.01, 0, 0)}}, 1000.0, 0.0));
   };
@@ -266,7 +270,7 @@ TEST(SimulatedDevice, HandThatBreaksItsPromiseMakesReadingsInvalid) {
   }
 }
 
-// --- the rendered force ------------------------------------------------------------------------
+// The rendered force.
 
 TEST(SimulatedDevice, HoldsTheWrittenForceUntilTheNextWrite) {
   SimulatedDeviceSettings settings;
@@ -279,7 +283,7 @@ TEST(SimulatedDevice, HoldsTheWrittenForceUntilTheNextWrite) {
   device.write(Vec3(7, 7, 7));
   device.write(Vec3(-5, 0, 0));  // only the last write counts
   const PointState coasting = device.read(0.3).hip;
-  // 0.2 s under (3, 1, 0) N, then 0.1 s without force; 1200 sub-steps of rounding.
+  // The handle has 0.2 s under (3, 1, 0) N, then 0.1 s without force: 1200 sub-steps of rounding.
   const Vec3 v = Vec3(3, 1, 0) * 0.2 / m;
   EXPECT_LT((coasting.v_W - v).norm(), 1200 * kEps * v.norm());
   EXPECT_LT((coasting.p_W - v * (0.1 + 0.1)).norm(), 1200 * kEps * v.norm());
@@ -300,7 +304,7 @@ TEST(SimulatedDevice, NonFiniteForceIsZero) {
       f[axis] = bad;
       SimulatedDevice device = makeDevice({}, Vec3::Zero());
       device.write(Vec3(3, 0, 0));
-      device.write(f);  // takes the earlier force away as well
+      device.write(f);  // also removes the earlier force
       const DeviceSample sample = device.read(0.1);
       EXPECT_TRUE(sample.valid);
       EXPECT_EQ(sample.hip.p_W, Vec3::Zero());
@@ -309,7 +313,7 @@ TEST(SimulatedDevice, NonFiniteForceIsZero) {
   }
 }
 
-/// The force that the motors give for `f`, measured by the velocity of a free 1 kg handle after 1
+/// The force that the motors give for `f`, measured from the velocity of a free 1 kg handle after 1
 /// s.
 Vec3 measureForce(double max_force, const Vec3& f) {
   SimulatedDeviceSettings settings;
@@ -345,7 +349,7 @@ TEST(SimulatedDevice, TellsItsCapabilities) {
   EXPECT_EQ(device.capabilities().max_force, 8.0);
 }
 
-// --- the guide ---------------------------------------------------------------------------------
+// The guide.
 
 TEST(SimulatedDevice, GuideKeepsTheMotionOnItsLine) {
   const std::uint64_t seed = 5;
@@ -360,7 +364,7 @@ TEST(SimulatedDevice, GuideKeepsTheMotionOnItsLine) {
     SimulatedDevice device(settings, makeSineHand(random.inCube(5.0), 2.0, 0.4));
     for (int i = 0; i <= 2000; ++i) {
       const PointState hip = device.read(i * kPeriod).hip;
-      // One rounding of start + s * guide per component, whatever has happened before.
+      // One rounding of start + s * guide per component, whatever happened before.
       const Vec3 moved = hip.p_W - settings.start_W;
       const double tolerance = 4.0 * kEps * (settings.start_W.norm() + moved.norm());
       ASSERT_LE(moved.cross(axis).norm(), tolerance) << i;
@@ -385,7 +389,7 @@ TEST(SimulatedDevice, GuideLetsThroughTheForceAlongIt) {
     const PointState hip = readTicks(device, 100).hip;
     const double f = axis.dot(hand + rendered);
     const ClosedForm along = fromRest(settings.mass, settings.damping, f, 0.1);
-    // 400 sub-steps of rounding; the projection itself may cancel down from 10 N.
+    // Rounding of 400 sub-steps. The projection itself may cancel down from 10 N.
     const double tolerance = (400.0 + 40.0 / std::abs(f)) * kEps;
     EXPECT_LT((hip.p_W - static_cast<double>(along.x) * axis).norm(),
               tolerance * std::abs(static_cast<double>(along.x)));
@@ -405,7 +409,7 @@ TEST(SimulatedDevice, GuideAlongAnAxisLeavesTheOthersUntouched) {
   EXPECT_EQ(hip.v_W.tail<2>(), Eigen::Vector2d::Zero());
 }
 
-// --- settings ----------------------------------------------------------------------------------
+// Settings.
 
 std::string refusal(void (*change)(SimulatedDeviceSettings&)) {
   SimulatedDeviceSettings settings;

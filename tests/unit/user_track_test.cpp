@@ -1,4 +1,4 @@
-// A private header of the plugin: where a remote user counts as being.
+// Private header of the plugin: the position that a remote user counts as being at.
 #include "plugin/src/site/user_track.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(UserTrack, MakesUpForASilenceInAsLong) {
   EXPECT_NEAR((track.at(5.1, 1.0).p_W - Vec3(0.15, 0, 0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((track.at(5.1, 1.0).v_W - Vec3(0.5, 0, 0)).norm(), 0.0, 1e-12);
   EXPECT_TRUE(track.isMakingUp(5.19));
-  // Packets in time move it on as they are.
+  // Packets that arrive in time move the user as they are.
   track.hear({kThere + Vec3(0, 0.01, 0), Vec3::Zero()}, 5.1, 0.0);
   EXPECT_NEAR((track.at(5.1, 1.0).p_W - Vec3(0.15, 0.01, 0)).norm(), 0.0, 1e-12);
   EXPECT_EQ(track.at(5.3, 1.0).p_W, kThere + Vec3(0, 0.01, 0));

@@ -43,7 +43,7 @@ TEST(VirtualCoupler, WithoutGainsThereIsNoForce) {
   EXPECT_EQ(computeCouplerForce({}, leader, follower), Vec3::Zero());
 }
 
-// Exact: rounding is symmetric, so what one body gains the other loses to the last bit.
+// Exact: rounding is symmetric, so one body gains exactly the momentum that the other loses.
 TEST(VirtualCoupler, ReactionIsOppositeToTheLastBit) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   test::Random random(kSeed);
@@ -59,12 +59,13 @@ TEST(VirtualCoupler, DampingNeverFeedsTheMotionBetweenBoth) {
   for (int i = 0; i < 1000; ++i) {
     const PointState leader = drawState(random), follower = drawState(random);
     const Vec3 force = computeCouplerForce({0.0, 30.0}, leader, follower);
-    const double power = force.dot(follower.v_W) - force.dot(leader.v_W);  // into both bodies [W]
+    const double power =
+        force.dot(follower.v_W) - force.dot(leader.v_W);  // power into both bodies [W]
     EXPECT_LE(power, 0.0);
   }
 }
 
-// The force turns with the scene, and a common shift or drift is not felt.
+// The force turns with the scene. A common shift or drift has no effect.
 TEST(VirtualCoupler, SeesOnlyTheRelativeState) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   test::Random random(kSeed);
@@ -77,7 +78,7 @@ TEST(VirtualCoupler, SeesOnlyTheRelativeState) {
     };
     const Vec3 force = computeCouplerForce(kCoordination, leader, follower);
     const Vec3 moved = computeCouplerForce(kCoordination, move(leader), move(follower));
-    // States of size 3 times K = 200 N/m carry rounding of some 600 N x 1e-16.
+    // States of size 3 times K = 200 N/m carry rounding of about 600 N x 1e-16.
     EXPECT_NEAR((moved - turn * force).norm(), 0.0, 2e-12);
   }
 }
@@ -94,7 +95,7 @@ TEST(ContactForce, IsZeroWhileBodiesAreApart) {
       EXPECT_EQ(computeContactForce(kContact, overlap, rate), 0.0) << overlap << ' ' << rate;
 }
 
-// Bodies that part faster than K overlap / B would be pulled back by a plain damper.
+// A plain damper would pull back bodies that part faster than K overlap / B.
 TEST(ContactForce, NeverPulls) {
   const double fastest = 4000.0 * 0.001 / 1.0;  // [m/s]
   EXPECT_GT(computeContactForce(kContact, 0.001, -0.99 * fastest), 0.0);
@@ -108,8 +109,8 @@ TEST(ContactForce, IsZeroForNoNumber) {
   EXPECT_EQ(computeContactForce(kContact, 0.001, no_number), 0.0);
 }
 
-// Experiment I at rest: 5 N through one contact of 4000 N/m press 1.25 mm deep, whoever is the
-// lower.
+// Experiment I at rest: 5 N through one contact of 4000 N/m press 1.25 mm deep, with either body as
+// the lower one.
 TEST(ContactForce, HoldsTheHandOfExperimentOne) {
   const double x1 = 0.00125, xo1 = 0.0;  // eq. (7): user 1 pushes the cube
   EXPECT_DOUBLE_EQ(computeContactForce(kContact, x1 - xo1, 0.0), 5.0);
