@@ -1,5 +1,5 @@
-// The benchmarks' planar reference against whole-world Bullet at 24 kHz: another contact solver, in
-// three dimensions, on the same scenes.
+// Compares the benchmarks' planar reference with whole-world Bullet at 24 kHz on the same scenes.
+// Bullet is another contact solver, in three dimensions.
 
 #include <cmath>
 
@@ -14,7 +14,7 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Coupler and contact impulses of one step, from the states at its beginning.
+/// Applies the coupler and contact impulses of one step, from the states at its beginning.
 void push(const BenchScene& scene, BulletScene& bullet, SceneState& state, double now, double h) {
   bullet.read(state);
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
@@ -38,7 +38,7 @@ double computeToolError(const BenchScene& scene, const ReferenceRun& reference) 
   constexpr int kStepsPerSample = 2;
   constexpr double kStep = 1.0 / (kStepsPerSample * kGridRate);
   BulletScene bullet(scene, {});
-  // Otherwise an overlap found late is pushed out with a bounce, at any step.
+  // Without this an overlap found late is pushed out with a bounce, at any step.
   bullet.world().getSolverInfo().m_splitImpulsePenetrationThreshold = 1;
   SceneState state = startState(scene);
   double error = 0.0;
@@ -57,7 +57,8 @@ double computeToolError(const BenchScene& scene, const ReferenceRun& reference) 
 
 struct BulletCase {
   const char* scene;
-  double allowed;  // tool [m]; about twice what is measured with Bullet 3.24, of order one, too
+  double allowed;  // tool [m]; about twice the error measured with Bullet 3.24, which is also of
+                   // order one
 };
 
 class PlanarReferenceInBullet : public ::testing::TestWithParam<BulletCase> {};

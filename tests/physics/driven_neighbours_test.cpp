@@ -1,5 +1,5 @@
-// Kinematic bodies of the host: grippers, lifts, belts. They go where the host moves them, and push
-// and rub what the island holds.
+// Kinematic bodies of the host: grippers, lifts, belts. The host moves them; they push and rub
+// bodies that the island holds.
 
 #include <cmath>
 
@@ -35,7 +35,7 @@ struct DrivenScene : NeighbourScene {
   [[nodiscard]] double now() const { return static_cast<double>(site->tickCount()) / 1000.0; }
   [[nodiscard]] double hostTime() const { return steps * kPeriod; }
 
-  /// The host, `late` [s], puts the driven body to `place`(t) for the step that ends at t.
+  /// The host, `late` [s], moves the driven body to `place`(t) for the step that ends at t.
   template <typename Place, typename EachTick>
   void runDriven(double until, double late, Place place, EachTick each_tick) {
     while (hostTime() < until - 1e-9) {
@@ -54,26 +54,26 @@ struct DrivenScene : NeighbourScene {
 
 class DrivenNeighbours : public ::testing::TestWithParam<double> {};
 
-// A lift with a load: Coulomb holds it up to mu g, and it rides along.
+// A moving floor carries the cube: Coulomb friction holds it up to mu g.
 TEST_P(DrivenNeighbours, MovingFloorCarriesTheCube) {
   DrivenScene scene(true);
   scene.addDriven(Vec3(0.5, 0.5, 0.05), Vec3(0.0, 0.0, -0.05));
   scene.start(Vec3(0.0, 0.0, kHalf));
-  // From rest to 0.3 m/s with 1 m/s^2, below mu g = 2.9.
+  // The floor goes from rest to 0.3 m/s with 1 m/s^2, below mu g = 2.9.
   const auto x = [](double t) { return t < 0.3 ? 0.5 * t * t : 0.3 * t - 0.045; };
   scene.runDriven(
       1.5, GetParam(), [&](double t) { return toBullet(Vec3(x(t), 0.0, -0.05), Quat::Identity()); },
       [] {});
   EXPECT_NEAR(scene.site->object(0).v_W.x(), 0.3, 1e-6);
   EXPECT_NEAR(scene.site->object(0).p_W.z(), kHalf, 1e-5);
-  // What it was late by, it slid: at most v^2 / 2 mu g less than a way of two periods and the
+  // The cube slides by the lateness: at most v^2 / 2 mu g less than the way of two periods and the
   // delay.
   EXPECT_NEAR(scene.positionOf(*scene.cube).x(), x(scene.hostTime()),
               0.3 * (2 * kPeriod + GetParam()));
   EXPECT_EQ(scene.site->neighbourCount(), 1);
 }
 
-// Too fast a start: it slips with mu g until it is as fast.
+// The floor starts too fast: the cube slips with mu g until it is as fast.
 TEST_P(DrivenNeighbours, MovingFloorSlipsUnderTheCube) {
   DrivenScene scene(true);
   scene.addDriven(Vec3(2.0, 0.5, 0.05), Vec3(0.0, 0.0, -0.05));
@@ -83,13 +83,13 @@ TEST_P(DrivenNeighbours, MovingFloorSlipsUnderTheCube) {
       1.0, GetParam(),
       [&](double t) { return toBullet(Vec3(t - 0.1, 0.0, -0.05), Quat::Identity()); },
       [&] { velocities.push_back(scene.site->object(0).v_W); });
-  // 1 m/s at 2.943 m/s^2 takes 0.34 s; it has begun by 0.1 s.
+  // 1 m/s at 2.943 m/s^2 takes 0.34 s. Slipping has begun by 0.1 s.
   const double gained = velocities[300].x() - velocities[200].x();
   EXPECT_NEAR(gained, 0.1 * NeighbourScene::kFriction * kGravity, 2e-3);
   EXPECT_NEAR(velocities.back().x(), 1.0, test::byWidth(1e-6, 1e-5));
 }
 
-// A wall pushes it along; face on face, no overlap, at the wall's speed.
+// A wall pushes the cube, face on face, without overlap, at the wall's speed.
 TEST_P(DrivenNeighbours, MovingWallPushesTheCube) {
   for (const bool on_floor : {false, true}) {
     DrivenScene scene(on_floor);
@@ -110,26 +110,26 @@ TEST_P(DrivenNeighbours, MovingWallPushesTheCube) {
   }
 }
 
-// To and fro, never steady: what is guessed wrong is mended without a kick.
+// The wall swings and is never steady. Errors of prediction are corrected without a kick.
 TEST_P(DrivenNeighbours, SwingingWallKeepsTheCubeOnItsFace) {
   DrivenScene scene(true);
   scene.addFloor();
   scene.addDriven(Vec3(0.02, 0.1, 0.1), Vec3(-0.0405, 0.0, 0.101));
   scene.start(Vec3(0.0, 0.0, kHalf));
-  // 3 cm at 0.5 Hz: at most 0.1 m/s.
+  // 3 cm at 0.5 Hz is at most 0.1 m/s.
   double fastest = 0.0;
   const auto x = [](double t) { return -0.0405 + 0.03 * std::sin(M_PI * t); };
   scene.runDriven(
       2.0, GetParam(), [&](double t) { return toBullet(Vec3(x(t), 0.0, 0.101), Quat::Identity()); },
       [&] { fastest = std::max(fastest, scene.site->object(0).v_W.norm()); });
-  // It starts at full speed, and is two periods and the delay behind by then, to be made up in 0.1
-  // s.
+  // The wall starts at full speed. The cube is then two periods and the delay behind, and catches
+  // up in 0.1 s.
   EXPECT_LT(fastest, 0.03 * M_PI * (1.0 + (2 * kPeriod + GetParam()) / 0.1));
-  // It was pushed as far as the wall went, and stays there: friction stops it at once.
+  // The cube stays where the wall turned back: friction stops it at once.
   EXPECT_NEAR(scene.positionOf(*scene.cube).x(), 0.03 - 5e-4, 1.5e-3);
 }
 
-// Turning counts: a paddle that sweeps round meets the cube with w x r.
+// Rotation counts: a turning paddle hits the cube with w x r.
 TEST_P(DrivenNeighbours, TurningPaddleSweepsTheCube) {
   DrivenScene scene(false);
   scene.addDriven(Vec3(0.2, 0.005, 0.05), Vec3(0.0, -0.1, 0.0));
@@ -139,13 +139,13 @@ TEST_P(DrivenNeighbours, TurningPaddleSweepsTheCube) {
   };
   scene.runDriven(1.0, GetParam(), pose, [] {});
   const Vec3 v = scene.site->object(0).v_W;
-  // Some 0.15 m/s, across the paddle as it stood then.
+  // The speed is about 0.15 m/s, across the paddle at the time of contact.
   EXPECT_NEAR(v.norm(), 0.17, 0.06);
   EXPECT_GT(v.y(), 0.1);
 }
 INSTANTIATE_TEST_SUITE_P(Lateness, DrivenNeighbours, ::testing::Values(0.0, kPeriod, 0.025));
 
-// Bullet has the pose of all sub-steps' end from the first of them on.
+// From the first sub-step on Bullet has the pose of the end of all sub-steps.
 TEST(DrivenNeighbour, SubStepsDoNotMakeItFaster) {
   NeighbourScene scene;
   scene.settings.host_step = kPeriod;
@@ -169,12 +169,12 @@ TEST(DrivenNeighbour, SubStepsDoNotMakeItFaster) {
   }
 }
 
-// A body that stays where it is but has a velocity: only its surface moves.
+// The belt stays in place but has a velocity: only its surface moves.
 TEST(DrivenNeighbour, BeltCarriesTheCubeAndStays) {
   DrivenScene scene(true);
   btRigidBody& belt = scene.addDriven(Vec3(1.0, 0.2, 0.05), Vec3(0.0, 0.0, -0.05));
   scene.start(Vec3(0.0, 0.0, kHalf));
-  // Bullet works out kinematic velocities before each step; the host's own callback sets another.
+  // Bullet computes kinematic velocities before each step. The host's callback replaces them.
   struct Belt {
     static void run(btDynamicsWorld* world, btScalar) {
       static_cast<btRigidBody*>(world->getWorldUserInfo())
@@ -190,7 +190,7 @@ TEST(DrivenNeighbour, BeltCarriesTheCubeAndStays) {
   EXPECT_NEAR(scene.site->object(0).v_W.x(), 0.2, 1e-6);
   EXPECT_NEAR(scene.positionOf(*scene.cube).x(), 0.2, 0.03);
   EXPECT_NEAR(scene.site->object(0).p_W.z(), kHalf, 1e-5);
-  // The belt stops, and so does the load.
+  // The belt stops, and the load stops too.
   scene.rig.world.setWorldUserInfo(&scene.rig.addCube(0.0, 0.01, Vec3(0.0, 0.0, 5.0)));
   scene.runDriven(
       1.5, 0.0, [&](double) { return toBullet(Vec3(0.0, 0.0, -0.05), Quat::Identity()); }, [] {});
@@ -198,13 +198,13 @@ TEST(DrivenNeighbour, BeltCarriesTheCubeAndStays) {
   scene.site.reset();
 }
 
-// The hand is pushed, and pushes back at what does not mind.
+// A kinematic body pushes the hand; the hand's reaction does not move the body.
 TEST(DrivenNeighbour, IsFeltByTheHand) {
   DrivenScene scene(false);
   scene.addDriven(Vec3(0.02, 0.1, 0.1), Vec3(-0.1, 0.0, 0.0));
   scene.start(Vec3(0.0, 0.5, 0.0));
   scene.device.sample.hip.p_W = Vec3(0.0, 0.0, 0.0);
-  // Its face comes to 1 cm + 2 mm of overlap from below, and stands there.
+  // Its face rises from below to 1 cm + 2 mm of overlap, and stops there.
   const auto x = [](double t) { return -0.03 + 0.002 - 0.072 * std::max(0.0, 1.0 - 2.0 * t); };
   scene.runDriven(
       2.5, kPeriod, [&](double t) { return toBullet(Vec3(x(t), 0.0, 0.0), Quat::Identity()); },
@@ -212,7 +212,7 @@ TEST(DrivenNeighbour, IsFeltByTheHand) {
   EXPECT_NEAR(scene.site->force().x(), 2000.0 * 0.002, 1e-4);
 }
 
-// Up and down, slower than it would fall.
+// The lift goes up and down, more slowly than the cube would fall.
 TEST(DrivenNeighbour, LiftCarriesTheCube) {
   for (const double late : {0.0, kPeriod}) {
     DrivenScene scene(true);

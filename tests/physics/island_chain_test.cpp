@@ -1,5 +1,5 @@
-// The chain that everything is about - device, cube, remote user's proxy, off the cube's middle so
-// that it turns - against a solver that shares no code with the island.
+// The central chain against a solver that shares no code with the island: device, cube and the
+// remote user's proxy. Contacts are off the cube's middle, so it turns.
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +22,12 @@ struct ChainCase {
   const char* name;
   CouplerGains contact;
   double gap;             // of each sphere to the cube at the start [m]
-  double travel, speed;   // of the device: way in [m] and rate [1/s]
+  double travel, speed;   // distance [m] and rate [1/s] of the device's way in
   double reference_step;  // [s]
   double tolerance;       // [m]
 };
 
-/// How far the device and the proxy's user are in at the time t.
+/// Distance that the device and the proxy's user have moved in at time t.
 double wayIn(const ChainCase& c, double t) { return c.travel * (1.0 - std::exp(-c.speed * t)); }
 
 reference::SpringDamper convert(const CouplerGains& g) { return {g.stiffness, g.damping}; }
@@ -101,10 +101,10 @@ TEST_P(IslandChain, FollowsTheFineReference) {
 INSTANTIATE_TEST_SUITE_P(
     Cases, IslandChain,
     ::testing::Values(
-        // No event after the first instant: what is seen is the island's own error.
+        // No event follows the first instant: the difference is the island's own error.
         ChainCase{"press", {2000.0, 10.0}, 0.0, 0.004, 50.0, 1e-5, 2e-10},
         ChainCase{"stiff_press", {4000.0, 1.0}, 0.0, 0.003, 50.0, 1e-5, 5e-10},
-        // The reference has a step of the first contact wrong, B v h / m of velocity: 1e-8 m.
+        // The reference is off by one step at the first contact: B v h / m of velocity, 1e-8 m.
         ChainCase{"impact", {2000.0, 10.0}, 0.004, 0.02, 30.0, 5e-7, 1e-7},
         ChainCase{"stiff_impact", {4000.0, 1.0}, 0.004, 0.02, 30.0, 1e-6, 1e-7}),
     [](const auto& test) { return std::string(test.param.name); });

@@ -16,7 +16,7 @@
 #include "support/fakes.h"
 
 /// \file
-/// Scenes of the bench with the site's ticks in one line of time and the host's steps in another:
+/// Runs bench scenes with the site's ticks on one time line and the host's steps on another:
 ///
 ///     island  |--------|--------|--------|--------|--------|   ticks of 1 ms
 ///     host             [0 .. T] comes here or later            its step, simulated at once
@@ -24,19 +24,18 @@ namespace tandem::test {
 
 using namespace demos::bench;  // NOLINT: scenes and their reference
 
-/// When the host's steps come. Step n simulates [n T, (n + 1) T]; a punctual one comes at (n + 1)
-/// T.
+/// Times of the host's steps. Step n simulates [n T, (n + 1) T]; a punctual one comes at (n + 1) T.
 struct HostTiming {
   int rate = 60;              ///< 1 / T [Hz]
-  double late = 0.0;          ///< [s]
-  double jitter = 0.0;        ///< late by up to this besides [s]
+  double late = 0.0;          ///< lateness of each step [s]
+  double jitter = 0.0;        ///< extra random lateness, up to this [s]
   unsigned seed = 1;          ///< of the jitter
-  double stall_at = 1e9;      ///< steps that would come in the stall come at its end [s]
-  double stall = 0.0;         ///< [s]
+  double stall_at = 1e9;      ///< steps due in the stall come at its end [s]
+  double stall = 0.0;         ///< length of the stall [s]
   double known_stall = -1.0;  ///< SiteSettings::host_stall; negative: stall and jitter together
 };
 
-/// Tools of a scene with gains of their own: shared objects are tied to nobody.
+/// Tools of a scene with their own gains. Shared objects have no coupler.
 class LateToolScheme final : public Scheme {
  public:
   explicit LateToolScheme(CouplerGains gains) : gains_(gains) {}
@@ -55,7 +54,7 @@ class LateToolScheme final : public Scheme {
   const Scheme& proxies_ = findScheme("remote_dynamic_proxy");
 };
 
-/// A scene of the bench run by a site whose host comes as it likes.
+/// A bench scene run by a site whose host steps at any time.
 class LateHost {
  public:
   LateHost(const BenchScene& scene, const HostTiming& timing, SiteSettings settings = {})
@@ -88,7 +87,7 @@ class LateHost {
     chooseNextCall();
   }
 
-  /// Until the scene's end; `each_tick` before each tick, `each_step` after each step of the host.
+  /// Runs to the scene's end. Calls `each_tick` before each tick, `each_step` after each host step.
   template <typename EachTick, typename EachStep>
   void run(double duration, EachTick each_tick, EachStep each_step) {
     const auto end = static_cast<std::uint64_t>(std::llround(duration * kTargetRate));
@@ -115,7 +114,7 @@ class LateHost {
   [[nodiscard]] btRigidBody& proxy(std::size_t i) { return *site_->proxyBody(static_cast<int>(i)); }
   void endSite() { site_.reset(); }
 
-  /// What the host's world holds.
+  /// State of the bodies in the host's world.
   [[nodiscard]] SceneState hostState() {
     SceneState state = startState(scene_);
     bullet_.read(state);

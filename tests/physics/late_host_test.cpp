@@ -1,5 +1,5 @@
-// A host whose steps come late, unevenly, or not at all for a while: what the hand feels is the
-// same as with a punctual one.
+// A host whose steps come late, unevenly, or not at all for a while. The hand feels the same as
+// with a punctual host.
 
 #include "physics/late_host.h"
 
@@ -44,7 +44,8 @@ BenchBody makeBox(const char* name, double mass, const Vec3& p_W, const Vec3& v_
   return box;
 }
 
-/// A box that only Bullet knows flies at `speed` into the cube that a tool holds, from `way` off.
+/// A box that only Bullet knows flies at `speed` into a cube that a tool holds, from distance
+/// `way`.
 BenchScene makeFlight(double speed, double way) {
   BenchScene scene;
   scene.name = "flight";
@@ -66,7 +67,7 @@ const BenchScene& findScene(const std::string& name) {
   throw std::invalid_argument("no scene " + name);
 }
 
-/// A scene of the bench and what may be wrong in it, by tool [m], coupler force [N] and body [m].
+/// A scene of the bench and its allowed errors: tool [m], coupler force [N] and body [m].
 struct LateCase {
   const char* scene;
   RunErrors most;
@@ -74,7 +75,7 @@ struct LateCase {
 
 class LateHostOnScenes : public ::testing::TestWithParam<LateCase> {};
 
-// What boxes of a float host settle in is its own: a stack of them creeps by half a millimetre.
+// Boxes of a float host settle at arbitrary places: a stack of them creeps by half a millimetre.
 TEST_P(LateHostOnScenes, IsAsGoodAsAPunctualOne) {
   const BenchScene& scene = findScene(GetParam().scene);
   const ReferenceRun reference = runPlanarReference(scene, kReferenceRate);
@@ -89,7 +90,7 @@ TEST_P(LateHostOnScenes, IsAsGoodAsAPunctualOne) {
     EXPECT_EQ(host.site().counters().host_clock_set, 0u);
   }
 }
-// Twice what was measured, at least: the inner step's error depends on where in it an impact falls.
+// At least twice the measured error, which depends on where in an inner step an impact falls.
 INSTANTIATE_TEST_SUITE_P(Scenes, LateHostOnScenes,
                          ::testing::Values(LateCase{"free_box", {2e-5, 2e-5, 0.01}},
                                            LateCase{"free_box_fast", {2e-5, 4e-5, 0.03}},
@@ -98,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LateHostOnScenes,
                                            LateCase{"stack", {1e-4, byWidth(2e-4, 2e-3), 0.2}},
                                            LateCase{"wall", {2e-5, 1e-5, 0.02}}));
 
-// vii and viii: nobody knows the box until it is near.
+// Scenes vii and viii: the island knows the box only when it is near.
 TEST(LateHost, FlyingBoxIsMetWhereItIs) {
   for (const auto& [speed, way, stall_at] :
        {std::tuple(0.5, 0.2513, 0.35), std::tuple(2.0, 0.5013, 0.1)}) {
@@ -115,7 +116,7 @@ TEST(LateHost, FlyingBoxIsMetWhereItIs) {
   }
 }
 
-// The same motion to the last digits, whenever the host came: no tick is rounded to its time.
+// The motion is the same to the last digits at any lateness: no tick is rounded to the host's time.
 TEST(LateHost, MotionOfToolsDoesNotDependOnIt) {
   const BenchScene& scene = findScene("row");
   const auto run = [&](const HostTiming& timing) {
@@ -145,7 +146,7 @@ struct LateScene : NeighbourScene {
     while (now() < time - 1e-9) site->tick(now());
   }
   [[nodiscard]] double now() const { return static_cast<double>(site->tickCount()) / 1000.0; }
-  /// Steps of the host until `time` in its own, each `periods` late.
+  /// Runs host steps until the host's `time`, each `periods` late.
   template <typename EachStep>
   void runHostUntil(double time, int periods, EachStep before_step) {
     while (static_cast<double>(steps) * kPeriod < time - 1e-9) {
@@ -158,7 +159,7 @@ struct LateScene : NeighbourScene {
   int steps = 0;
 };
 
-// A steady force of the host is a steady force, however late; and its momentum is all there.
+// A steady force of the host stays steady at any lateness, and its momentum arrives in full.
 TEST(LateHost, ItsForceIsSteadyAndWhole) {
   for (const int periods : {0, 1, 2}) {
     LateScene scene;
@@ -194,9 +195,9 @@ TEST(LateHost, ItsTeleportHoldsFromThenOn) {
   }
 }
 
-// The island is two periods ahead when it hears of the box, and the box lies on the cube. Alone it
-// would fall g t^2 / 2 = 5 mm until then. (In its first step Bullet lets it sink by 2 mm, of which
-// it may keep 0.5 mm.)
+// The island is two periods ahead when it learns of the box, which lies on the cube. Without
+// support the box would fall g t^2 / 2 = 5 mm until then. Bullet lets it sink by 2 mm in its first
+// step; it may keep 0.5 mm.
 TEST(LateHost, NewcomerOnAHeldCubeDoesNotFallThrough) {
   double z[2];
   for (const int periods : {0, 2}) {
@@ -215,7 +216,7 @@ TEST(LateHost, NewcomerOnAHeldCubeDoesNotFallThrough) {
   EXPECT_NEAR(z[0], z[1], 1e-5);
 }
 
-// A whole stack is new, late.
+// A whole stack enters late.
 TEST(LateHost, NewStackStands) {
   LateScene scene(true);
   scene.addFloor();
@@ -231,8 +232,8 @@ TEST(LateHost, NewStackStands) {
   }
 }
 
-// The states that a late host asks for were kept for the moments that it had announced: a float's
-// 1/60 s is another one after a while, and a host may step as it likes.
+// The island keeps its past states for the moments that a late host announced. A float's 1/60 s
+// drifts from these, and a host may step at any time.
 TEST(LateHost, StepsThatNobodyAnnouncedAreMetAllTheSame) {
   for (const bool is_uneven : {false, true}) {
     SCOPED_TRACE(is_uneven ? "uneven" : "rounded");
@@ -263,8 +264,8 @@ TEST(LateHost, StepsThatNobodyAnnouncedAreMetAllTheSame) {
   }
 }
 
-// Nobody saw it coming: the cube had gone through where the box was, when the host told. Momentum
-// is kept, energy is not made.
+// The island sees the box late: the cube has already passed through its place. Momentum is
+// conserved, and no energy is created.
 TEST(LateHost, BoxThatAppearsInTheWayIsHitAfterTheFact) {
   for (const double mass : {0.02, 0.2, 20.0}) {
     LateScene scene;
@@ -282,7 +283,7 @@ TEST(LateHost, BoxThatAppearsInTheWayIsHitAfterTheFact) {
   }
 }
 
-// What the island gave the box while the host was late goes back with it.
+// An impulse that the island gave the box while the host was late returns with the box.
 TEST(LateHost, BoxTakesAlongWhatIsOwed) {
   LateScene scene;
   btRigidBody& box = scene.addBox(Vec3(0.045, 0.0, 0.0));
@@ -295,7 +296,7 @@ TEST(LateHost, BoxTakesAlongWhatIsOwed) {
   EXPECT_NEAR(scene.velocityOf(box).y(), 10.0, byWidth(1e-9, 1e-5));
 }
 
-// A debugger's break: the host has dropped the time and goes on from where it was.
+// After a debugger's break the host drops the lost time and continues from where it was.
 TEST(LateHost, LostTimeIsForgotten) {
   LateScene scene(true);
   scene.addFloor();

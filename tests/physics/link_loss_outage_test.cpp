@@ -1,4 +1,4 @@
-// A network that is cut for a while: what hands feel is continuous, and is what it was afterwards.
+// A network that is cut for a while. Forces on the hands are continuous, and recover afterwards.
 
 #include <cmath>
 
@@ -27,8 +27,8 @@ class Outage : public ::testing::TestWithParam<SchemeAndPhase> {
   }
 };
 
-/// A force grows no faster than its spring K_vc is compressed: by a hand and a body that come
-/// towards each other, each no faster than this [m/s].
+/// A force grows no faster than its spring K_vc is compressed. Hand and body approach each other,
+/// each no faster than this [m/s].
 constexpr double kFastest = 0.1;
 constexpr double kContactStiffness = 4000.0;
 
@@ -50,7 +50,7 @@ TEST_P(Outage, IsFeltWithoutAJerkAndLeavesNoTrace) {
     const std::size_t end = run.forces[0].size() - 1;
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(run.states[i][end], LinkState::kLive);
-      // Positions of hands that stand or move evenly: the end of the undisturbed run is the same.
+      // Hands stand or move evenly, so any late sample of the undisturbed run is the same.
       const std::size_t same = undisturbed.forces[i].size() - 1;
       EXPECT_NEAR(run.forces[i][end], undisturbed.forces[i][same],
                   0.02 + 0.05 * std::abs(undisturbed.forces[i][same]));
@@ -76,7 +76,7 @@ TEST_P(Outage, OfARemoteThatIsLostNothingIsFelt) {
     for (std::size_t k = lost; k < back; ++k) ASSERT_EQ(run.forces[i][k], 0.0) << k;
   }
   if (GetParam().phase == Phase::kPushing) {
-    // What is left is the drag of this copy.
+    // Only the drag of the local copy is left.
     EXPECT_NEAR(run.forces[0][back], -OutageRun::kObjectDamping * OutageRun::kPushSpeed, 1e-3);
   }
 }

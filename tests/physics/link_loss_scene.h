@@ -15,23 +15,23 @@
 #include "support/fakes.h"
 
 /// \file
-/// Two sites in virtual time whose network is cut for a while, with hands that go their way
-/// whatever they feel.
+/// Two sites in virtual time whose network is cut for a while. The hands follow fixed paths,
+/// whatever force they feel.
 namespace tandem::test {
 
-/// What the hands do.
+/// Motion of the hands.
 enum class Phase {
-  kFree,     ///< they move in the open
-  kPushing,  ///< the first pushes the cube along, the second is far
+  kFree,     ///< the hands move in free space
+  kPushing,  ///< the first pushes the cube along, the second is far away
   kHolding,  ///< they press the cube between them
-  kMeeting,  ///< they press against each other
+  kMeeting,  ///< the hands press against each other
 };
 
 struct OutageCase {
   std::string scheme = "remote_dynamic_proxy";
   Phase phase = Phase::kFree;
   bool is_guided = true;
-  double outage = 0.0;  ///< [s]
+  double outage = 0.0;  ///< duration of the cut [s]
 };
 
 /// One direction of a network with a constant delay.
@@ -61,7 +61,7 @@ struct OutageRun {
   static constexpr double kPeriod = 1e-3, kHostStep = 4e-3, kDelay = 0.02;
   static constexpr double kCutFrom = 1.0, kAfter = 2.0;  ///< [s]
   static constexpr double kHalf = 0.02, kRadius = 0.01;
-  static constexpr double kPress = 8e-4;      ///< how far hands go into what they press [m]
+  static constexpr double kPress = 8e-4;      ///< depth of the hands in what they press [m]
   static constexpr double kPushSpeed = 0.02;  ///< [m/s]
   static constexpr double kObjectDamping = 4.0;
 
@@ -77,7 +77,7 @@ struct OutageRun {
       settings.self = PeerId{static_cast<std::uint32_t>(i) + 1};
       settings.tick_source = TickSource::kCaller;
       settings.host_step = kHostStep;
-      settings.thins_when_idle = false;  // limits of age are those of the full rate
+      settings.thins_when_idle = false;  // age limits are those of the full rate
       settings.scheme = &findScheme(c.scheme);
       if (c.is_guided) settings.guide = Vec3(1, 0, 0);
       sites[i] = std::make_unique<Site>(settings, rigs[i].world, devices[i]);
@@ -104,7 +104,7 @@ struct OutageRun {
     }
   }
 
-  /// Where a hand is.
+  /// State of hand `i` at time `t`.
   [[nodiscard]] PointState hand(std::size_t i, double t) const {
     const double side = i == 0 ? -1.0 : 1.0;
     PointState state;
@@ -113,14 +113,14 @@ struct OutageRun {
       state.v_W.x() = side * 0.06 * std::cos(6.0 * t);
       return state;
     }
-    // Comes smoothly from 4 mm off.
+    // The hand approaches smoothly from 4 mm away.
     constexpr double kComing = 0.3, kWay = 4e-3 + kPress, kPi = 3.14159265358979323846;
     const double touch = kRadius + (c.phase == Phase::kMeeting ? 0.0 : kHalf);
     const double s = std::min(t / kComing, 1.0);
     state.p_W.x() = side * (touch + 4e-3 - kWay * 0.5 * (1.0 - std::cos(kPi * s)));
     state.v_W.x() = s < 1.0 ? -side * kWay * 0.5 * kPi / kComing * std::sin(kPi * s) : 0.0;
     if (c.phase == Phase::kPushing && t > kComing) {
-      // From rest to the speed in 0.2 s.
+      // The hand goes from rest to its speed in 0.2 s.
       const double since = t - kComing, ramp = std::min(since / 0.2, 1.0);
       state.v_W.x() = kPushSpeed * ramp;
       state.p_W.x() += kPushSpeed * (since < 0.2 ? 2.5 * since * since : since - 0.1);

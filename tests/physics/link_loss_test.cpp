@@ -1,4 +1,4 @@
-// A remote peer that falls silent, at one site: what its proxy and its object copies still do.
+// A remote peer that falls silent, seen at one site: behaviour of its proxy and its object copies.
 
 #include <cmath>
 #include <memory>
@@ -27,10 +27,10 @@ constexpr int kTicksPerStep = 4;
 constexpr double kHalf = 0.02, kRadius = 0.01, kMass = 0.1;
 constexpr double kPacket = 1.0 / 128.0;
 constexpr PeerId kRemote{2};
-const Vec3 kAway(-0.3, 0, 0.1);  // of the device
-const Vec3 kUser(0.3, 0, 0.1);   // of the remote user
+const Vec3 kAway(-0.3, 0, 0.1);  // device away from the cube
+const Vec3 kUser(0.3, 0, 0.1);   // remote user away from the cube
 
-/// A cube on a floor, a device off it and a remote user who is heard while `is_heard`.
+/// A cube on a floor, a device away from it and a remote user who sends while `is_heard`.
 struct Rig {
   explicit Rig(SiteSettings settings = {}, const Vec3& gravity = Vec3(0, 0, -9.81))
       : host(gravity), cube(host.addCube(2 * kMass, kHalf, Vec3(0, 0, kHalf))) {
@@ -145,12 +145,12 @@ TEST(LinkLoss, LostProxyIsPassedByTheDevice) {
     rig.device.sample.hip.p_W = kUser + Vec3(0.005, 0, 0);
     rig.run(0.2);
     EXPECT_EQ(rig.site->force(), Vec3(0, 0, 0)) << scheme;
-    // It is heard again where the device is, and not let in.
+    // The user is heard again at the device's place, and the proxy stays out.
     rig.hearAgain();
     rig.run(1.0);
     EXPECT_EQ(rig.state(), LinkState::kRejoining) << scheme;
     EXPECT_EQ(rig.site->force(), Vec3(0, 0, 0)) << scheme;
-    // It follows the user meanwhile.
+    // The ghost follows the user meanwhile.
     rig.moveUser(kUser + Vec3(0, 0, 0.004));
     rig.run(0.05);
     EXPECT_EQ(rig.proxy().p_W, rig.packet.user.p_W) << scheme;
@@ -167,7 +167,7 @@ TEST(LinkLoss, IsNotLetInInsideObjectsAndObstacles) {
   Rig rig;
   rig.run(0.1);
   rig.lose();
-  for (const Vec3& taken : {Vec3(0, 0, 0.045), Vec3(0.2, 0, 0.005)}) {  // in the cube, the floor
+  for (const Vec3& taken : {Vec3(0, 0, 0.045), Vec3(0.2, 0, 0.005)}) {  // in the cube, in the floor
     rig.moveUser(taken);
     rig.hearAgain();
     rig.run(0.3);
@@ -215,7 +215,7 @@ TEST(LinkLoss, ProxyComesBackWithoutEnergy) {
   }
 }
 
-// A spring that gets its gain back as it is stretched would put 0.25 J into the copy.
+// A spring that regains its gain while stretched would put 0.25 J into the copy.
 TEST(LinkLoss, ObjectComesBackAtAWalkingPace) {
   Rig rig({}, Vec3::Zero());
   rig.run(0.1);
@@ -242,7 +242,7 @@ TEST(LinkLoss, FadingWakesAndLosingLetsSleep) {
   rig.run(0.08);
   const std::uint64_t before = rig.site->islandCounters().asleep;
   rig.run(0.08);
-  EXPECT_LT(rig.site->islandCounters().asleep - before, 60u);  // awake from 100 ms on
+  EXPECT_LT(rig.site->islandCounters().asleep - before, 60u);  // fading wakes it at 100 ms
   rig.run(0.5);
   EXPECT_EQ(rig.state(), LinkState::kLost);
   const std::uint64_t skipped = rig.site->counters().host_steps_skipped;
@@ -301,7 +301,7 @@ TEST(LinkLoss, ImpulseInjectionDoesTheSame) {
   settings.injection = Injection::kImpulse;
   Rig rig(settings, Vec3::Zero());
   rig.is_heard = true;
-  // The host steps with the ticks.
+  // The host steps together with the ticks.
   const auto run = [&](double seconds) {
     for (double t = 0; t < seconds - 1e-9; t += kPeriod) {
       const double now = static_cast<double>(rig.ticks++) * kPeriod;
@@ -348,7 +348,7 @@ TEST_P(NativeLinkLoss, FadesLosesAndComesBack) {
     rig.run(0.2);
     EXPECT_NEAR(rig.site->object(0).v_W.z(), 0.1, 1e-4);
     rig.cube.setLinearVelocity(btVector3(0, 0, 0));
-    // In the cube it is not let in, beside it it is.
+    // Inside the cube the proxy stays out; beside it the proxy returns.
     const Vec3 beside = rig.site->object(0).p_W + Vec3(0.2, 0, 0);
     rig.moveUser(rig.site->object(0).p_W + Vec3(kHalf, 0, 0));
     rig.packet.objects[0].state.p_W = rig.site->object(0).p_W;
@@ -364,7 +364,7 @@ TEST_P(NativeLinkLoss, FadesLosesAndComesBack) {
   }
 }
 
-/// On a float Bullet point-to-point joints blow up while their gains fall (docs/native.md).
+/// On a float Bullet, point-to-point joints blow up while their gains fall (docs/native.md).
 std::vector<ContactModel> modelsThatCanFade() {
   std::vector<ContactModel> models = {ContactModel::kNativeRigid, ContactModel::kNativeSoft,
                                       ContactModel::kSpring6Dof};

@@ -1,4 +1,4 @@
-// More shared objects than fit one packet: they take turns, and those that nobody touches cost
+// There are more shared objects than fit one packet: they take turns, and untouched objects cost
 // nothing.
 
 #include <cmath>
@@ -26,10 +26,10 @@ constexpr double kPeriod = 1e-3;  // haptic period [s]
 constexpr int kTicksPerStep = 4;  // of the host: 250 Hz
 constexpr double kHostStep = kTicksPerStep * kPeriod;
 constexpr double kHalf = 0.02, kRadius = 0.01;  // cubes and device [m]
-constexpr double kMass = 0.1;                   // of this copy of a cube [kg]
+constexpr double kMass = 0.1;                   // mass of this copy of a cube [kg]
 constexpr PeerId kRemote{2};
 
-/// Cubes side by side in space, that only the device moves.
+/// Cubes side by side in space, moved only by the device.
 struct Crowd {
   BulletRig host;
   FakeDevice device{Vec3(0, 0, 1)};
@@ -78,7 +78,7 @@ TEST(ManyObjects, EightOrLessAreInEveryPacket) {
 TEST(ManyObjects, TakeTurnsAndWhatMovesGoesFirst) {
   Crowd crowd(64);
   std::set<ObjectId> seen;
-  // All count as moved before they are sent first: seven by that and one in turn, per packet.
+  // Each counts as moved until it is sent first: a packet takes seven of these and one in turn.
   for (int i = 0; i < 10; ++i) {
     crowd.tick();
     seen.merge(crowd.lastSent());
@@ -87,7 +87,7 @@ TEST(ManyObjects, TakeTurnsAndWhatMovesGoesFirst) {
   while (crowd.ticks % kTicksPerStep != 0) crowd.tick();
   crowd.host.step(kHostStep);
   for (const ObjectId id : {60u, 17u}) crowd.cubes[id]->setLinearVelocity(btVector3(0, 0, 1));
-  crowd.hostStep();  // the island hears of it
+  crowd.hostStep();  // the island learns of it
   seen.clear();
   for (int i = 0; i < 12; ++i) {
     crowd.tick();
@@ -109,7 +109,7 @@ TEST(ManyObjects, NewestWinsForEachByItself) {
     crowd.tick();
   };
   put(5, 0);
-  put(3, 1);  // overtaken, but the newest of object 1
+  put(3, 1);  // overtaken by a later packet, but the newest of object 1
   EXPECT_EQ(crowd.site->counters().packets_taken, 2u);
   EXPECT_EQ(crowd.site->latest(0).sequence, 5u);
   put(4, 0), put(3, 1), put(2, 1), put(5, 0);
@@ -118,7 +118,7 @@ TEST(ManyObjects, NewestWinsForEachByItself) {
 
 TEST(ManyObjects, CostTheIslandNothingUntouched) {
   Crowd crowd(256);
-  // The device comes down on the first, and presses it to and fro.
+  // The device comes down on the first cube, and presses it to and fro.
   crowd.device.sample.hip.p_W = Vec3(0, 0, kHalf + kRadius);
   const auto press = [&](int steps) {
     for (int i = 0; i < steps; ++i) {

@@ -1,4 +1,5 @@
-// More than two sites: every one has links to all others, and every copy couplers to all others'.
+// More than two sites: each has links to all others, and each copy has couplers to all other
+// copies.
 
 #include <array>
 #include <memory>
@@ -17,10 +18,10 @@ namespace {
 using test::BulletRig;
 using testing::FakeDevice;
 
-constexpr double kMass = 0.8, kHalf = 0.02;  // of the whole cube [kg], [m]
+constexpr double kMass = 0.8, kHalf = 0.02;  // mass [kg] and half edge [m] of the whole cube
 constexpr double kPeriod = 1e-3, kHostStep = 4e-3, kPacketRate = 500.0;
 
-/// N sites around a circle that share a cube in its middle; nobody touches it.
+/// N sites around a circle share a cube in its middle; no hand touches it.
 class Party {
  public:
   Party(int agreed, int present, double delay) {
@@ -48,7 +49,7 @@ class Party {
     }
   }
 
-  /// `force_W` on the first site's copy, by its host.
+  /// Runs with `force_W` on the first site's copy, applied by its host.
   void run(double seconds, const Vec3& force_W) {
     for (int step = 0; step < std::lround(seconds / kHostStep); ++step) {
       for (int tick = 0; tick < 4; ++tick) {
@@ -93,9 +94,8 @@ class Party {
 
 class ManyPeers : public ::testing::TestWithParam<int> {};
 
-// The plain sum of couplers: each of the N (N - 1) pulls back by K v tau, as its target is as old
-// as the way and half a packet period. So a pushed cube comes to the speed at which that is the
-// push.
+// Each of the N (N - 1) couplers pulls back by K v tau. Its target is as old as the delay plus half
+// a packet period. A pushed cube reaches the speed at which the sum equals the push.
 TEST_P(ManyPeers, MoveAtTheSpeedAtWhichDelayHoldsThemBack) {
   const int n = GetParam();
   constexpr double kForce = 0.4, kDelay = 0.02, kStiffness = 200.0;
@@ -106,7 +106,7 @@ TEST_P(ManyPeers, MoveAtTheSpeedAtWhichDelayHoldsThemBack) {
   for (int i = 0; i < n; ++i) EXPECT_NEAR(party.copy(i).v_W.x(), speed, 0.03 * speed) << i;
 }
 
-// One is pushed for a while; all follow over the network, and come to rest at one place.
+// One copy is pushed for a while. All follow over the network and come to rest at one place.
 TEST_P(ManyPeers, CopiesMeetAgain) {
   const int n = GetParam();
   Party party(n, n, 0.02);
@@ -117,12 +117,12 @@ TEST_P(ManyPeers, CopiesMeetAgain) {
   for (int i = 0; i < n; ++i) EXPECT_LT(party.copy(i).v_W.norm(), 0.02) << i;
 }
 
-// Who happens to be online does not change what a copy weighs.
+// The mass of a copy does not depend on which peers are online.
 TEST_P(ManyPeers, MassIsSharedByAllThatWereAgreedOn) {
   const int n = GetParam();
   Party alone(n, 1, 0.0);
   alone.run(0.1, Vec3(0.4, 0, 0));
-  const double lag = 2.0 * kHostStep;  // of the host's force, at most
+  const double lag = 2.0 * kHostStep;  // largest delay of the host's force
   EXPECT_LE(alone.copy(0).v_W.x(), 0.4 * n / kMass * 0.1 + 1e-6);
   EXPECT_GE(alone.copy(0).v_W.x(), 0.4 * n / kMass * (0.1 - lag) - 1e-6);
 }

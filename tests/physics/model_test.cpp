@@ -1,5 +1,5 @@
-// The model, not the numbers: guided runs with drawn parameters against an independent integration
-// of eqs (1)-(14).
+// Tests the model, not its numbers: guided runs with random parameters against an independent
+// integration of eqs (1)-(14).
 
 #include <cmath>
 
@@ -34,7 +34,7 @@ Scenario makeScenario(const reference::PaperParameters& p, const Vec3& axis) {
   s.hands[1].force = Vec3(p.hand_force_2, 0, 0);
   s.network.delay = p.sampling.delay;
   s.packet_rate = p.sampling.packet_rate;
-  // The equations know of no guards; drawn intermittent contact can be wild.
+  // The equations contain no guards, and random intermittent contact can be wild.
   s.passivity = false;
   s.max_slew = 1e9;
   return s;
@@ -64,7 +64,7 @@ Vec3 drawAxis(test::Random& random) {
   return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
 }
 
-/// Difference of a trace to its reference, over the largest size of the reference.
+/// Difference between a trace and its reference, over the largest size of the reference.
 struct TraceError {
   double worst = 0.0, size = 0.0;
   void add(double value, double expected) {
@@ -74,9 +74,7 @@ struct TraceError {
   [[nodiscard]] double relative() const { return size > 0.0 ? worst / size : worst; }
 };
 
-/// Traces of one run against the reference, and of the reference against itself with the device's
-/// other motion inside a tick (moving on, instead of p + v tau): how far the model itself is told
-/// by these parameters.
+/// Relative differences between the traces of one run and the reference.
 struct Comparison {
   double device, object, coherency, force;  // relative
 };
@@ -108,7 +106,8 @@ Comparison compare(const reference::PaperParameters& p, const Vec3& axis) {
           relative(run.summary().sites[0].force_mean, expected.summary.force_mean[0])};
 }
 
-/// The largest relative difference that the choice of the device's motion inside a tick makes.
+/// Largest relative difference between the two device motions inside a tick (continuous, or p + v
+/// tau). It bounds how precisely the model defines a run with these parameters.
 double computeAmbiguity(reference::PaperParameters p) {
   const reference::PaperResult extrapolated = reference::runPaperModel(p);
   p.hip_motion = reference::HipMotion::kContinuous;
@@ -133,8 +132,8 @@ struct ModelCase {
 
 class Model : public ::testing::TestWithParam<ModelCase> {};
 
-// Smooth runs agree within 1 %. Where contact comes and goes the motion is chaotic and the
-// model itself does not tell digits: such draws are counted, and may not be many.
+// Smooth runs agree within 1 %. With intermittent contact the motion is chaotic, and the model
+// fixes no digits. Such draws are counted, and must be few.
 TEST_P(Model, AgreesForParametersInNoFile) {
   test::Random random(GetParam().seed);
   int told = 0;

@@ -1,4 +1,4 @@
-// Sites whose contact and couplers are Bullet's own.
+// Sites that use Bullet's own contacts and couplers.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ SiteSettings makeNativeSettings(ContactModel model) {
   return settings;
 }
 
-// The proxy's user stays where the proxy starts; the device stands 3 mm deep in it. At rest the
-// proxy has given way until both springs pull alike: 3 mm K K_t / (K + K_t) on the device.
+// The proxy's user stays where the proxy starts; the device stands 3 mm deep in it. At rest both
+// springs pull alike: the device feels 3 mm K K_t / (K + K_t).
 TEST(NativeModel, DeviceFeelsStiffnessTimesPenetrationAtRest) {
   for (const ContactModel model : kSoftModels) {
     BulletRig rig;
@@ -39,7 +39,7 @@ TEST(NativeModel, DeviceFeelsStiffnessTimesPenetrationAtRest) {
     site.connect(PeerId{2}, link, Vec3::Zero());
     for (int i = 0; i < 2000; ++i) rig.step(1e-3);
     ASSERT_EQ(site.status(), kTickOk);
-    // The host's step is all that ticks it; a float host's millisecond is a little longer.
+    // Only the host's step ticks the site; a float host's millisecond is slightly longer.
     EXPECT_NEAR(static_cast<double>(site.tickCount()), 2000.0, byWidth(0.0, 1.0));
     const double overlap = 0.02 - (site.proxy(0)->p_W.x() - site.hip().p_W.x());
     EXPECT_NEAR(site.force().x(), -2000.0 * overlap, byWidth(1e-6, 1e-2));
@@ -123,7 +123,7 @@ TEST(NativeModel, RefusesWhatHasNoMeaning) {
   EXPECT_EQ(rig.world.getNumCollisionObjects(), 0);
 }
 
-// --- Whole experiments ---
+// Whole experiments.
 
 demos::Scenario load(const std::string& file, std::vector<std::string> overrides) {
   return demos::loadScenario(std::string(TANDEM_SCENARIOS "/") + file, overrides);
@@ -138,8 +138,8 @@ demos::RunSummary run(const std::string& file, std::vector<std::string> override
 class NativeExperiments
     : public ::testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {};
 
-// Rigid contact of a hand that is moved by its own reaction rings, and Point2Point's iteration
-// diverges at short steps. Whatever happens, a run ends with numbers, or says that there are none.
+// Rigid contact rings if its own reaction moves the hand. Point2Point's iteration diverges at short
+// steps. A run must always end with numbers, or report that there are none.
 TEST_P(NativeExperiments, EndFiniteOrSayWhyNot) {
   const auto& [file, model, rate] = GetParam();
   demos::VirtualRun run(
@@ -154,8 +154,9 @@ TEST_P(NativeExperiments, EndFiniteOrSayWhyNot) {
     EXPECT_NE(std::string(error.what()).find("grew beyond all numbers"), std::string::npos);
     EXPECT_TRUE((run.world(0).site().status() | run.world(1).site().status()) & kStateNotFinite);
   }
-  // CFM = m / (dt (dt K_t + B_t)) of cube and proxy, both 0.1 kg: below 1 in Experiment I at 240 Hz
-  // (0.78), above it in Experiment II and the playground (2.2) and at 1 kHz (3.3, 9.8).
+  // CFM = m / (dt (dt K_t + B_t)) of cube and proxy, both 0.1 kg. It is below 1 in Experiment I at
+  // 240 Hz (0.78). It is above 1 in Experiment II and the playground (2.2), and at 1 kHz (3.3,
+  // 9.8).
   const bool diverges = std::string(model) == "point_to_point" &&
                         !(std::string(file) == "experiment1.toml" && std::string(rate) == "240");
   EXPECT_EQ(grew, diverges);
@@ -172,8 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
                                          "point_to_point"),
                        ::testing::Values("240", "1000")));
 
-// At the haptic rate Bullet's compliant contact is first order in 1 ms, and so is its way of taking
-// packets in: a tenth, as for impulse injection.
+// At the haptic rate Bullet's compliant contact is first order in 1 ms, and so is its use of
+// packets. The tolerance is a tenth, as for impulse injection.
 TEST(NativeModel, SoftModelsComeNearThePaperAtTheHapticRate) {
   for (const char* model : {"contact.model=native_soft", "contact.model=spring_6dof"}) {
     const auto one = run("experiment1.toml", {model, "rates.host=1000"});

@@ -1,4 +1,4 @@
-// What the host does to bodies while the island holds them, and what it gets back.
+// Changes that the host makes to bodies while the island holds them, and the states it gets back.
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ TEST(HeldNeighbour, TakesTheHostsImpulse) {
   EXPECT_NEAR(scene.velocityOf(*scene.box).y(), 0.1, byWidth(1e-12, 1e-6));
 }
 
-// It leaves the chain with the momentum of the very step in which it was hit.
+// The box leaves the chain with the momentum of the step in which it was hit.
 TEST(HeldNeighbour, TakesTheHostsImpulseAlong) {
   HeldNeighbour scene;
   scene.box->applyCentralImpulse(btVector3(0, btScalar(2), 0));
@@ -77,7 +77,7 @@ TEST(HeldNeighbour, IsTeleported) {
   EXPECT_LT((scene.positionOf(*scene.box) - Vec3(0.0, 3.0, 0.0)).norm(), byWidth(1e-12, 1e-6));
 }
 
-// d v / d t = -b v with 1 - 0.4 = exp(-b): the box sinks in honey, on the island as in Bullet.
+// d v / d t = -b v with 1 - 0.4 = exp(-b): damping is the same on the island as in Bullet.
 TEST(HeldNeighbour, IsDampedAsTheHostHasIt) {
   HeldNeighbour scene(false, 0.4, 0.2);
   scene.box->setLinearVelocity(btVector3(0, btScalar(0.01), 0));
@@ -86,7 +86,7 @@ TEST(HeldNeighbour, IsDampedAsTheHostHasIt) {
   ASSERT_EQ(scene.site->neighbourCount(), 1);
   EXPECT_NEAR(scene.velocityOf(*scene.box).y(), 0.01 * std::sqrt(0.6), byWidth(1e-10, 1e-5));
   EXPECT_NEAR(scene.box->getAngularVelocity().y(), 0.1 * std::sqrt(0.8), byWidth(1e-9, 5e-5));
-  // The host changes its mind.
+  // The host changes the damping.
   scene.box->setDamping(btScalar(0.9), btScalar(0.2));
   scene.rig.step(kStep);
   const double speed = scene.velocityOf(*scene.box).y();
@@ -144,8 +144,8 @@ TEST(HeldNeighbour, MayBeTakenOutOfTheWorldAndDeleted) {
   EXPECT_GT(scene.velocityOf(*scene.cube).x(), 0.0);
 }
 
-// A body out of the world that comes back, an hour later or after the site's end, stands on the
-// floor as before.
+// A body leaves the world and returns an hour later or after the site's end. It stands on the floor
+// as before.
 TEST(HeldNeighbour, MeetsTheFloorAgainWhenItComesBack) {
   for (const bool site_ends : {false, true}) {
     HeldNeighbour scene(true);
@@ -157,7 +157,7 @@ TEST(HeldNeighbour, MeetsTheFloorAgainWhenItComesBack) {
     scene.rig.world.addRigidBody(scene.box);
     scene.run(0.5);
     EXPECT_NEAR(scene.positionOf(*scene.box).z(), 0.02, 3e-3) << site_ends;
-    // And the cube's neighbour once more.
+    // The box becomes the cube's neighbour once more.
     scene.box->setWorldTransform(toBullet(Vec3(kEdge + 5e-3, 0.0, 0.02), Quat::Identity()));
     scene.run(0.5);
     EXPECT_NEAR(scene.positionOf(*scene.box).z(), 0.02, 3e-3) << site_ends;
@@ -172,7 +172,8 @@ TEST(HeldNeighbour, FloorMayLeaveAndComeBack) {
   scene.run(0.1);
   scene.rig.world.removeRigidBody(&floor);
   scene.run(0.1);
-  // Missed after the first step, whose last tick ended 17 ms later.
+  // The island notices after the first step that the floor is gone; that step's last tick ends 17
+  // ms later.
   const double fall = 0.5 * kGravity * 0.083 * 0.083;
   EXPECT_NEAR(scene.positionOf(box).z(), 0.02 - fall, 1e-5);
   for (btRigidBody* body : {&box, scene.cube}) {
@@ -219,7 +220,7 @@ TEST(HeldNeighbour, IsGivenBackAsItWas) {
   }
 }
 
-/// A pile that sleeps in Bullet, and the cube asleep before it, 3 mm away.
+/// A pile that sleeps in Bullet, and the cube asleep beside it, 3 mm away.
 struct SleepingPile : NeighbourScene {
   static constexpr int kCount = 6;
 
@@ -243,7 +244,7 @@ struct SleepingPile : NeighbourScene {
   }
 };
 
-// Sharing the cube wakes what it touches in Bullet's eyes; left in peace, all sleep again.
+// Sharing the cube wakes the bodies that touch it in Bullet. Undisturbed, all sleep again.
 TEST(SleepingNeighbour, SleepsWhileItIsHeld) {
   SleepingPile pile;
   pile.run(3.0);
@@ -263,12 +264,12 @@ TEST(SleepingNeighbour, WakesWhenItIsPushed) {
   pile.run(0.2);
   EXPECT_LT(pile.countAsleep(), SleepingPile::kCount);
   EXPECT_GT(pile.positionOf(*pile.boxes[0]).x(), before + 1e-4);
-  // It comes to rest, and Bullet puts it to sleep again.
+  // The pile comes to rest, and Bullet puts it to sleep again.
   pile.run(4.0);
   EXPECT_EQ(pile.countAsleep(), SleepingPile::kCount);
 }
 
-// Several sub-steps to a call: Bullet gives weight at the call's start, to those awake then.
+// In a call with several sub-steps Bullet applies weight once, to the bodies awake at its start.
 TEST(SleepingNeighbour, HasItsWeightWhenItWakesBetweenSubSteps) {
   SleepingPile pile;
   pile.pushCube(1.0);
@@ -289,7 +290,7 @@ TEST(SleepingNeighbour, HostWakesItByAnImpulse) {
   EXPECT_GT(pile.velocityOf(last).x(), 0.4);
 }
 
-// Slow in Bullet's eyes, and for long, but pushed all the while.
+// The body is slow for a long time but always pushed, so Bullet must not let it sleep.
 TEST(SleepingNeighbour, DoesNotFallAsleepWhileItCreeps) {
   NeighbourScene scene;
   btRigidBody& box = scene.addBox(Vec3(kEdge + 5e-3, 0.0, 0.0));

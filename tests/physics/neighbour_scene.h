@@ -15,8 +15,8 @@ inline constexpr double kGravity = 9.81;  // [m/s^2], along -z
 /// A host's world of 4 cm boxes with one shared cube of 0.1 kg (the copy), and a hand.
 struct NeighbourScene {
   static constexpr double kHalf = 0.02;     // [m]
-  static constexpr double kCubeMass = 0.1;  // of the copy [kg]
-  static constexpr double kBoxMass = 0.2;   // of all others [kg]
+  static constexpr double kCubeMass = 0.1;  // mass of the copy [kg]
+  static constexpr double kBoxMass = 0.2;   // mass of each other box [kg]
   static constexpr double kFriction = 0.3;  // of every pair
 
   BulletRig rig;
@@ -33,7 +33,7 @@ struct NeighbourScene {
   }
 
   btRigidBody& addFloor() {
-    // Bullet's own boxes of this size rattle on a plane.
+    // Bullet's own boxes of this size rattle on a plane: the floor is a box.
     const btVector3 half(2, 2, btScalar(0.1));
     return rub(rig.addBody(rig.makeShape<btBoxShape>(half), 0.0, Vec3(0.0, 0.0, -0.1)));
   }
@@ -43,12 +43,12 @@ struct NeighbourScene {
   }
   btRigidBody& addBox(const Vec3& p_W, double mass = kBoxMass) {
     boxes.push_back(&rub(rig.addCube(mass, kHalf, p_W)));
-    // Bullet calls what drifts at 0.5 m/s tired, and stops it.
+    // Bullet would put a body to sleep that drifts at 0.5 m/s, and stop it.
     boxes.back()->setSleepingThresholds(0, 0);
     return *boxes.back();
   }
   void addCube(const Vec3& p_W) { cube = &rub(rig.addCube(2.0 * kCubeMass, kHalf, p_W)); }
-  /// Shares a cube there, unless there is one; everything else should be in its place.
+  /// Shares a cube there, unless there is one. All other bodies should be in place first.
   void start(const Vec3& p_W = Vec3::Zero()) {
     if (cube == nullptr) addCube(p_W);
     site = std::make_unique<Site>(settings, rig.world, device);
@@ -66,14 +66,14 @@ struct NeighbourScene {
     }
   }
 
-  /// Of the cube and all boxes, as the host has them.
+  /// Momentum of the cube and all boxes in the host's world.
   [[nodiscard]] Vec3 momentum() const {
     Vec3 sum = kCubeMass * fromBullet(cube->getLinearVelocity());
     for (const btRigidBody* box : boxes)
       sum += fromBullet(box->getLinearVelocity()) / static_cast<double>(box->getInvMass());
     return sum;
   }
-  /// Kinetic, and potential in the scene's weight [J].
+  /// Kinetic energy, and potential energy under the scene's weight [J].
   [[nodiscard]] double energy() const {
     double sum = energyOf(*cube);
     for (const btRigidBody* box : boxes) sum += energyOf(*box);
@@ -96,7 +96,7 @@ struct NeighbourScene {
   }
 
  private:
-  /// Bullet multiplies the friction of two bodies.
+  /// Bullet multiplies the friction of the two bodies.
   static btRigidBody& rub(btRigidBody& body) {
     body.setFriction(static_cast<btScalar>(std::sqrt(kFriction)));
     return body;

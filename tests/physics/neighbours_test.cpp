@@ -1,5 +1,5 @@
-// Moving bodies of the host that the island holds while they may be touched: contact is right,
-// momentum is kept, energy is not made.
+// Moving bodies of the host that the island holds while they are near. Contact is right, momentum
+// is conserved, and no energy is created.
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ using test::NeighbourScene;
 
 constexpr double kEdge = 2.0 * NeighbourScene::kHalf;  // [m]
 
-/// Rounding of sums of momentum; float: of the velocities that the host keeps.
+/// Rounding of sums of momentum; with float, rounding of the velocities that the host keeps.
 const double kMomentumTolerance = byWidth(1e-9, 1e-5);
 
 TEST(Neighbours, AreTakenBeforeTouchAndGivenBackAfterwards) {
@@ -31,7 +31,7 @@ TEST(Neighbours, AreTakenBeforeTouchAndGivenBackAfterwards) {
     if (gap < 1e-3) held_in_time &= scene.site->neighbourCount() == 1;
   });
   EXPECT_TRUE(held_in_time);
-  EXPECT_EQ(scene.site->neighbourCount(), 1);  // together since: restitution is 0
+  EXPECT_EQ(scene.site->neighbourCount(), 1);  // they stay together: restitution is 0
   scene.cube->applyCentralImpulse(btVector3(btScalar(-0.1), 0, 0));
   scene.run(0.5);
   EXPECT_EQ(scene.site->neighbourCount(), 0);
@@ -39,14 +39,15 @@ TEST(Neighbours, AreTakenBeforeTouchAndGivenBackAfterwards) {
   EXPECT_EQ(scene.site->counters().demoted, 1u);
 }
 
-/// Boxes in a row beside the cube, 2 mm apart.
+/// Adds boxes in a row beside the cube, 2 mm apart.
 void addRow(NeighbourScene& scene, int count, double z = 0.0) {
   for (int i = 1; i <= count; ++i) scene.addBox(Vec3(i * (kEdge + 2e-3), 0.0, z));
 }
 
 class RowOfBoxes : public ::testing::TestWithParam<int> {};
 
-// The host pushes the cube with 2 N for 0.1 s: all momentum is there afterwards, whoever has it.
+// The host pushes the cube with 2 N for 0.1 s. Afterwards the sum of all momenta equals the
+// impulse.
 TEST_P(RowOfBoxes, KeepsTheMomentumOfTheHostsForce) {
   for (const double rate : {60.0, 240.0, 1000.0}) {
     NeighbourScene scene;
@@ -65,7 +66,7 @@ TEST_P(RowOfBoxes, KeepsTheMomentumOfTheHostsForce) {
   }
 }
 
-// Without restitution all go on together, and the rest of the energy is gone.
+// Without restitution all bodies continue together, and the rest of the energy is gone.
 TEST_P(RowOfBoxes, GoesOnTogetherAfterAnImpact) {
   NeighbourScene scene;
   addRow(scene, GetParam());
@@ -84,7 +85,7 @@ TEST_P(RowOfBoxes, GoesOnTogetherAfterAnImpact) {
 }
 INSTANTIATE_TEST_SUITE_P(Lengths, RowOfBoxes, ::testing::Values(1, 3, 8));
 
-// With weight, friction, floor and nothing that drives them, energy only falls.
+// With weight, friction and floor but no drive, energy only falls.
 TEST(Neighbours, GainNoEnergyOnAFloor) {
   for (const double speed : {0.2, 0.5, 1.0, 2.0}) {
     NeighbourScene scene(true);
@@ -95,7 +96,7 @@ TEST(Neighbours, GainNoEnergyOnAFloor) {
     double energy = scene.energy();
     const double start = energy;
     scene.run(1.0, 60.0, [&] {
-      // A micrometre up is 2 uJ of the boxes' weight.
+      // Rising by 1 um adds 2 uJ of the boxes' weight.
       EXPECT_LE(scene.energy(), energy + 1e-9 * start + byWidth(1e-8, 1e-6)) << speed;
       energy = std::min(energy, scene.energy());
     });
@@ -103,7 +104,7 @@ TEST(Neighbours, GainNoEnergyOnAFloor) {
   }
 }
 
-// The press that hand-off alone cannot carry: hand, cube, box, wall.
+// Hand-off alone cannot carry this press: hand, cube, box, wall.
 TEST(Neighbours, CarryASustainedPressToAWall) {
   for (const double rate : {60.0, 240.0}) {
     NeighbourScene scene;
@@ -137,8 +138,8 @@ TEST(Neighbours, StackStandsBesideTheCube) {
   }
 }
 
-// Pushed at the bottom, it slides with the cube or topples, and makes no energy while it is held;
-// what rolls away is Bullet's, which pushes overlap out and makes some.
+// Pushed at the bottom, the stack slides with the cube or topples, and gains no energy while held.
+// A box that rolls away is Bullet's, which pushes overlap out and adds some.
 TEST(Neighbours, PushedStackGainsNoEnergy) {
   for (const double speed : {0.3, 1.0, 3.0}) {
     NeighbourScene scene(true);
@@ -160,7 +161,7 @@ TEST(Neighbours, PushedStackGainsNoEnergy) {
   }
 }
 
-// Bullet leaves stacks in each other by up to 0.5 mm. Pushed out it would be energy.
+// Bullet leaves stacks overlapping by up to 0.5 mm. Pushing this out would add energy.
 TEST(Neighbours, KeepTheOverlapTheyComeWith) {
   NeighbourScene scene(true);
   scene.addFloor();
@@ -192,7 +193,7 @@ TEST(Neighbours, TwoSharedCubesMeet) {
   EXPECT_LT((scene.momentum() - Vec3(-0.05, 0.0, 0.0)).norm(), kMomentumTolerance * 0.05);
 }
 
-// Pushed away on a slippery floor, let go, it hits another that the island does not know.
+// A pushed box slides away on a slippery floor and hits another that the island does not know.
 TEST(Neighbours, SlideAwayAndAreTheHostsAgain) {
   NeighbourScene scene;
   btRigidBody& first = scene.addBox(Vec3(kEdge + 5e-3, 0.0, 0.0));
@@ -210,7 +211,7 @@ TEST(Neighbours, SlideAwayAndAreTheHostsAgain) {
   EXPECT_NEAR(scene.momentum().x(), momentum, kMomentumTolerance * momentum);
 }
 
-/// Longer than the island has room for: the rest is Bullet's.
+/// The row is longer than the island has room for: the rest is Bullet's.
 class ShortIsland : public ::testing::TestWithParam<int> {};
 
 TEST_P(ShortIsland, KeepsMomentumWithTheRestOfTheRow) {
@@ -222,7 +223,7 @@ TEST_P(ShortIsland, KeepsMomentumWithTheRestOfTheRow) {
   scene.run(0.5, 60.0, [&] { EXPECT_LE(scene.site->neighbourCount(), GetParam()); });
   EXPECT_GT(scene.velocityOf(*scene.boxes.back()).x(), 0.02);
   EXPECT_LT((scene.momentum() - Vec3(0.05, 0.0, 0.0)).norm(), kMomentumTolerance * 0.05);
-  // And however they part.
+  // The boxes may part in any way.
   scene.run(2.0);
   EXPECT_LT((scene.momentum() - Vec3(0.05, 0.0, 0.0)).norm(), kMomentumTolerance * 0.05);
 }

@@ -1,4 +1,4 @@
-// The paper's two experiments must come out: docs/paper.md, "Outcomes".
+// The paper's two experiments must be reproduced: docs/paper.md, "Outcomes".
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ RunSummary runScenario(const char* file, std::vector<std::string> overrides,
   return run.summary();
 }
 
-/// Allowed relative difference: the paper's model holds the device continuous, and hand-off is the
+/// Allowed relative difference. The paper's model has a continuous device. Hand-off follows the
 /// model itself; impulse injection is semi-implicit Euler at 1 kHz.
 struct Allowed {
   double mean, largest;
@@ -49,9 +49,9 @@ TEST_P(ExperimentI, GivesThePapersCoherency) {
   expectWithin(run.sites[0].force_mean, row.force_mean, allowed.mean, "mean force on user 1");
   expectWithin(run.sites[0].received_mean, row.received_mean[0], allowed.mean,
                "as received at site 1");
-  if (injection == "impulse") return;  // staleness of half a tick more
-  // At site 2 the copy nearly follows what it receives: half a millimetre of staleness, read with
-  // its two digits.
+  if (injection == "impulse") return;  // half a tick more staleness
+  // At site 2 the copy nearly follows the received state. The staleness is half a millimetre,
+  // printed with two digits.
   EXPECT_NEAR(run.sites[1].received_mean, row.received_mean[1],
               allowed.mean * row.received_mean[1] + 6e-5);
 }

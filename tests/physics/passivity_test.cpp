@@ -1,4 +1,4 @@
-// The account of energy of a site, and what it does to the force.
+// The energy account of a site, and its effect on the force.
 
 #include <cmath>
 
@@ -33,7 +33,7 @@ struct Row {
 
 class GuardsOfTheExperiments : public ::testing::TestWithParam<Row> {};
 
-// Of right forces nothing is taken, in the steady rows and in the intermittent ones.
+// Correct forces are not reduced, neither in steady nor in intermittent runs.
 TEST_P(GuardsOfTheExperiments, InterveneNowhereInAMinute) {
   std::vector<std::string> overrides = GetParam().overrides;
   overrides.push_back(std::string("experiment.scheme=") + GetParam().scheme);
@@ -47,7 +47,7 @@ TEST_P(GuardsOfTheExperiments, InterveneNowhereInAMinute) {
     EXPECT_EQ(site.counters.energy_limited, 0u);
     EXPECT_GT(site.passivity.lowest(), PassivitySettings{}.band);
   }
-  // Who is pushed got energy all the same: an account of one port would have run dry.
+  // A pushed user receives energy all the same: an account of one port would have run dry.
   if (run.summary().sites[1].force_mean > 0.5) {
     EXPECT_LT(run.summary().sites[1].passivity.own(), -3.0 * PassivitySettings{}.tank);
   }
@@ -65,15 +65,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Row{"experiment2.toml", "remote_dynamic_proxy", {"network.delay=0.2"}},
                       Row{"experiment2.toml", "remote_dynamic_proxy", {"contact.stiffness=4000"}}));
 
-/// A passive hand, and a remote user who shakes at it and reports what the test says.
+/// A passive hand, and a remote user who shakes at it and reports the energy that the test gives.
 struct ShakenHand {
   BulletRig rig;
   FakeDevice device{Vec3(0.019, 0.0, 0.0)};
   FakeLink link;
   std::unique_ptr<Site> site;
-  double got = 0.0;           ///< by the hand [J]
-  double largest_step = 0.0;  ///< of the force, from tick to tick [N]
-  double lowest = 1.0;        ///< that was available [J]
+  double got = 0.0;           ///< energy received by the hand [J]
+  double largest_step = 0.0;  ///< largest change of the force between ticks [N]
+  double lowest = 1.0;        ///< lowest energy that was available [J]
 
   explicit ShakenHand(const PassivitySettings& passivity) {
     SiteSettings settings;
@@ -84,7 +84,7 @@ struct ShakenHand {
     site->connect(kRemote, link, Vec3::Zero());
   }
 
-  /// `report(t)`: of the packet at that time.
+  /// `report(t)` fills the report of the packet at time t.
   template <typename Report>
   void run(double duration, Report report, double start = 0.0) {
     Vec3 force_W = Vec3::Zero();
@@ -120,7 +120,7 @@ TEST(Passivity, APeerThatPutsNothingInGivesNoMoreThanTheTank) {
   EXPECT_GT(hand.got, 0.5 * settings.tank);
   EXPECT_GT(hand.lowest, -1e-4);
   EXPECT_GT(hand.site->counters().energy_limited, 1000u);
-  // It fades: no kick that would not have been there without.
+  // The force fades: there is no kick that an unwatched hand would not feel.
   ShakenHand unwatched(PassivitySettings{.enabled = false});
   unwatched.run(20.0, [](double) { return 0.0; });
   EXPECT_LE(hand.largest_step, unwatched.largest_step);
@@ -135,7 +135,8 @@ TEST(Passivity, APeerThatPutsItInMayGiveIt) {
   EXPECT_NEAR(hand.site->passivity().own(), -hand.got, 0.01 * hand.got);
 }
 
-// What it did before it was heard, or while it was lost, is no debt and no credit of this hand.
+// Energy of a peer before it was heard, or while it was lost, is no debt and no credit of this
+// hand.
 TEST(Passivity, OnlyWhatAPeerDoesWhileItIsHeardCounts) {
   for (const double past : {-5.0, 5.0}) {
     SCOPED_TRACE(past);
@@ -146,7 +147,7 @@ TEST(Passivity, OnlyWhatAPeerDoesWhileItIsHeardCounts) {
   }
 }
 
-// A single bad reading costs the force of its tick, and nothing later.
+// A single bad reading costs the force of its own tick, and nothing later.
 TEST(Passivity, AReadingThatIsNoNumberLeavesTheAccountAlone) {
   ShakenHand hand(PassivitySettings{});
   const auto giving = [](double t) { return t > 0.0 ? 0.1 + t : 0.0; };
@@ -183,7 +184,7 @@ TEST(Passivity, SwitchedOffItSaysSoInPackets) {
   EXPECT_EQ(hand.site->counters().energy_limited, 0u);
 }
 
-/// A cube that nobody touches, and whose couplers do not pull.
+/// A cube without contact whose couplers do not pull.
 struct LoneCube {
   static constexpr double kMass = 0.4, kShare = 0.2;
   BulletRig rig;
@@ -220,7 +221,7 @@ TEST(EnergyAccount, CountsTheHostsImpulses) {
   scene.step(10);
   scene.cube.applyCentralImpulse(btVector3(btScalar(0.1), 0, 0));
   scene.step(10);
-  // The host hits the whole of the copy, m/N.
+  // The host's impulse acts on the whole mass of the copy, m/N.
   const double v = scene.site->object(0).v_W.x();
   EXPECT_GT(v, 0.1);
   EXPECT_NEAR(scene.own(), 0.5 * LoneCube::kShare * v * v, byWidth(1e-12, 1e-8));

@@ -1,4 +1,4 @@
-// A hand pushes shared objects of other shapes than boxes on a floor, and feels floors of
+// A hand pushes shared objects of shapes other than boxes on a floor, and feels floors of
 // triangles.
 
 #include <cmath>
@@ -16,12 +16,12 @@ using test::byWidth;
 using test::kGravity;
 using test::NeighbourScene;
 
-constexpr double kRadius = 0.01;  // of the hand [m]
-constexpr double kHeight = 0.02;  // half, of the objects [m]
-constexpr double kMargin = 1e-4;  // of hulls and meshes [m]
+constexpr double kRadius = 0.01;  // radius of the hand [m]
+constexpr double kHeight = 0.02;  // half height of the objects [m]
+constexpr double kMargin = 1e-4;  // collision margin of hulls and meshes [m]
 constexpr double kObject = 0.1;   // mass of the copy [kg]
 
-/// A hand that waits, then goes along x; and the mean of its force in the last half second.
+/// A hand that waits, then moves along x. Records its mean force in the last half second.
 class MovingHand final : public HapticDevice {
  public:
   explicit MovingHand(const Vec3& start) : start_(start) {}
@@ -56,21 +56,22 @@ class SharedShape : public ::testing::TestWithParam<const char*> {
     if (kind == "CapsuleLying") return scene.rig.makeShape<btCapsuleShape>(h, btScalar(0.04));
     auto& hull = scene.rig.makeShape<btConvexHullShape>();
     hull.setMargin(static_cast<btScalar>(kMargin));
-    // A prism of eight sides, on end.
+    // A prism of eight sides, standing upright.
     for (const Vec3& p : test::makePrism(kHeight, kHeight, 8).corners)
       hull.addPoint(toBullet(Vec3(p.x(), -p.z(), p.y())));
     return hull;
   }
 };
 
-// From the side through the middle, at 5 cm/s: it goes along, and friction is what the hand feels.
+// The hand pushes from the side through the middle at 5 cm/s. The object goes along; the hand feels
+// its friction.
 TEST_P(SharedShape, IsPushedOverAFloor) {
   NeighbourScene scene(true);
   scene.addFloor();
   btRigidBody& object =
       scene.rig.addBody(make(scene), 2.0 * kObject, Vec3(0.0, 0.0, kHeight + kMargin));
   object.setFriction(static_cast<btScalar>(std::sqrt(NeighbourScene::kFriction)));
-  // Low, so that it does not tip, but off the floor.
+  // The hand is low, so the object does not tip, but off the floor.
   MovingHand hand(Vec3(-kHeight - kRadius - 0.005, 0.0, 0.6 * kHeight));
   Site site(scene.settings, scene.rig.world, hand);
   site.share(object);
@@ -81,7 +82,7 @@ TEST_P(SharedShape, IsPushedOverAFloor) {
   EXPECT_NEAR(scene.positionOf(object).z(), rest, 1e-4);
   // A capsule rolls away.
   if (std::string(GetParam()) == "CapsuleLying") return;
-  // While it slides Bullet drops points that it stands on and finds them again.
+  // While the object slides, Bullet drops contact points and finds them again.
   EXPECT_NEAR(scene.velocityOf(object).x(), MovingHand::kSpeed, 5e-3);
   EXPECT_NEAR(-hand.meanForce().x(), NeighbourScene::kFriction * kObject * kGravity, 0.01);
 }
@@ -90,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SharedShape,
                          ::testing::Values("CylinderUpright", "CapsuleLying", "Hull"),
                          [](const auto& kind) { return std::string(kind.param); });
 
-// Neighbours of these shapes are felt by the hand and hold the shared cube.
+// The hand feels neighbours of these shapes, and they hold the shared cube.
 TEST(SharedShapes, NeighboursOfOtherShapesAreFelt) {
   NeighbourScene scene;
   auto& hull = scene.rig.makeShape<btConvexHullShape>();
@@ -112,7 +113,7 @@ TEST(SharedShapes, NeighboursOfOtherShapesAreFelt) {
   EXPECT_LT(scene.velocityOf(body).y(), -0.01);
 }
 
-/// The device's force over a floor of triangles, or a plane.
+/// The device's force over a floor of triangles or a plane.
 std::vector<Vec3> pressAndSlide(bool is_mesh) {
   NeighbourScene scene;
   btTriangleMesh triangles;

@@ -1,4 +1,5 @@
-// A site in a host's world: what reaches Bullet, and what of the host's doing reaches the hand.
+// A site in a host's world: the states that reach Bullet, and the host's actions that reach the
+// hand.
 
 #include <cmath>
 
@@ -21,14 +22,15 @@ using testing::makePacket;
 constexpr PeerId kRemote{2};
 const Vec3 kFarAway(10.0, 0.0, 0.0);
 
-// m x'' + B x' + K x = 0 from x0 at rest, K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
+// m x'' + B x' + K x = 0 from x0 at rest. K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
 // 0.35.
 double computeRinging(double x0, double t) {
   const double c = 10.0 / 0.2, w = std::sqrt(2000.0 / 0.1 - c * c);
   return x0 * std::exp(-c * t) * (std::cos(w * t) + c / w * std::sin(w * t));
 }
 
-/// A proxy alone with its coupler: starts 10 mm from its user, who is at rest and sent one packet.
+/// A proxy with its coupler only. It starts 10 mm from its user, who is at rest and sent one
+/// packet.
 struct LoneProxy {
   BulletRig rig;
   FakeDevice device{kFarAway};
@@ -37,7 +39,7 @@ struct LoneProxy {
 
   explicit LoneProxy(SiteSettings settings = {}) {
     settings.coordination = {2000.0, 10.0};
-    settings.link_loss.enabled = false;  // one packet is to pull for ever
+    settings.link_loss.enabled = false;  // one packet pulls for ever
     site = std::make_unique<Site>(settings, rig.world, device);
     site->connect(kRemote, link, Vec3(0.01, 0.0, 0.0));
     link.arrivals.push_back({makePacket(kRemote, 0, Vec3::Zero()), 0.0});
@@ -49,7 +51,7 @@ struct LoneProxy {
 
 class LoneCouplerAfterHandoff : public ::testing::TestWithParam<double> {};
 
-// The btRigidBody itself is on the closed form after every host step, whatever the step.
+// The btRigidBody itself is on the closed form after every host step, at any step size.
 TEST_P(LoneCouplerAfterHandoff, BodyFollowsTheClosedForm) {
   LoneProxy proxy;
   double worst = 0.0, t = 0.0;
@@ -58,11 +60,11 @@ TEST_P(LoneCouplerAfterHandoff, BodyFollowsTheClosedForm) {
     t += static_cast<btScalar>(1.0 / GetParam());
     worst = std::max(worst, std::abs(proxy.bodyX() - computeRinging(0.01, t)));
   }
-  // Float: half a bit of 10 mm. Double: as asked.
+  // Float: half a bit of 10 mm. Double: the requested tolerance.
   EXPECT_LT(worst, byWidth(1e-9, 1e-9 + 0.01 * 0x1p-24));
 }
 
-// 4000 Hz: the host is faster than the island's ticks.
+// At 4000 Hz the host is faster than the island's ticks.
 INSTANTIATE_TEST_SUITE_P(HostRates, LoneCouplerAfterHandoff,
                          ::testing::Values(60.0, 240.0, 1000.0, 4000.0));
 
@@ -93,7 +95,7 @@ TEST_P(Grouping, SubStepsPerCallDoNotChangeTheIsland) {
 }
 INSTANTIATE_TEST_SUITE_P(SubSteps, Grouping, ::testing::Values(1, 4, 16));
 
-/// A shared cube with the local hand just touching its face at -x.
+/// A shared cube whose face at -x just touches the local hand.
 struct HeldCube {
   BulletRig rig;
   FakeDevice device{Vec3(-0.03, 0.0, 0.0)};
@@ -118,7 +120,7 @@ TEST(SharedObject, CarriesItsShareOfTheMassUntilTheSiteEnds) {
   EXPECT_NEAR(1.0 / held.cube.getInvMass(), 0.2, 1e-7);
 }
 
-// The host pushes with 4 N for 0.1 s: the copy of 0.1 kg takes the momentum of 0.4 N s, exactly
+// The host pushes with 4 N for 0.1 s. The copy of 0.1 kg receives the momentum of 0.4 N s exactly
 // once.
 TEST(HostsOwnForce, MovesTheIslandBody) {
   for (const double rate : {60.0, 240.0, 1000.0}) {
@@ -129,7 +131,7 @@ TEST(HostsOwnForce, MovesTheIslandBody) {
       held.cube.applyCentralForce(btVector3(0, 4, 0));
       held.rig.step(1.0 / rate);
     }
-    for (int i = 0; i < 3; ++i) held.rig.step(1.0 / rate);  // what was given at the end arrives
+    for (int i = 0; i < 3; ++i) held.rig.step(1.0 / rate);  // an impulse given at the end arrives
     EXPECT_NEAR(held.cube.getLinearVelocity().y(), 4.0 * steps / rate / 0.1, byWidth(1e-9, 1e-5))
         << rate;
   }
@@ -144,7 +146,7 @@ TEST(HostsOwnImpulse, MovesTheIslandBody) {
   EXPECT_NEAR(held.site->object(0).v_W.y(), 0.2, byWidth(1e-9, 1e-6));
 }
 
-// The same push towards the hand is felt there: the spring's sink is F / K.
+// The hand feels the same push towards it: the spring sinks by F / K.
 TEST(HostsOwnForce, IsFeltAtTheDevice) {
   HeldCube held;
   double force = 0.0;
@@ -177,8 +179,8 @@ TEST(SharedObject, FallsAsTheClosedFormSays) {
               byWidth(1e-8, 2e-6));
 }
 
-// Friction holds a cube on a floor against a finger below mu m g, and lets it slide above, as
-// Coulomb says.
+// Below mu m g friction holds a cube on a floor against a finger; above, it slides by Coulomb's
+// law.
 TEST(SharedObject, SticksAndSlidesOnAFloor) {
   for (const double force : {0.4, 0.9}) {
     BulletRig rig(Vec3(0.0, 0.0, -9.81));
@@ -200,14 +202,14 @@ TEST(SharedObject, SticksAndSlidesOnAFloor) {
       cube.applyCentralForce(btVector3(static_cast<btScalar>(force), 0, 0));
       rig.step(1.0 / 60.0);
     }
-    // A copy of 0.1 kg holds up to 0.5 * 0.1 * 9.81 = 0.49 N; half a second above that gives (F -
+    // A copy of 0.1 kg holds up to 0.5 * 0.1 * 9.81 = 0.49 N. Half a second above that gives (F -
     // 0.49) / m t.
     const double speed = force < 0.4905 ? 0.0 : (force - 0.4905) / 0.1 * 0.5;
     EXPECT_NEAR(site.object(0).v_W.x(), speed, 0.04 * speed + 1e-3) << force;
   }
 }
 
-// What is not shared and moves is Bullet's: momentum is handed over and back, none is lost.
+// A moving body that is not shared is Bullet's. Momentum is handed over and back, and none is lost.
 TEST(NativeNeighbour, KeepsMomentumWithTheSharedCube) {
   BulletRig rig;
   btRigidBody& cube = rig.addCube(0.2);
@@ -231,7 +233,7 @@ TEST(Site, SecondSiteOnAWorldIsRefused) {
   EXPECT_THROW(Site({}, rig.world, device), Error);
 }
 
-// A hand somewhere at the world's origin would push what stands there.
+// A hand wrongly placed at the world's origin would push bodies there.
 TEST(Site, DeviceWithoutAPositionIsRefused) {
   BulletRig rig;
   FakeDevice device;
@@ -259,7 +261,7 @@ TEST(Site, GivesTheWorldBackAsItWas) {
   EXPECT_EQ(rig.world.getNumCollisionObjects(), bodies);
   EXPECT_EQ(cube.getLinearDamping(), damping);
   EXPECT_EQ(cube.getActivationState(), activation);
-  rig.step(1.0 / 240.0);  // nobody is called any more
+  rig.step(1.0 / 240.0);  // no callback is called any more
 }
 
 TEST(Site, RefusesWhatCannotWork) {

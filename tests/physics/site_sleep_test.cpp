@@ -1,4 +1,4 @@
-// While nothing moves a site does nothing, and whatever moves is felt as if it had never slept.
+// A site at rest does no work, and any motion is felt as if the site had never slept.
 
 #include <cmath>
 #include <memory>
@@ -23,19 +23,20 @@ constexpr double kPeriod = 1e-3;  // haptic period [s]
 constexpr int kTicksPerStep = 4;  // of the host: 250 Hz
 constexpr double kHostStep = kTicksPerStep * kPeriod;
 constexpr double kHalf = 0.02, kRadius = 0.01;  // cube, and device and proxy [m]
-constexpr double kMass = 0.1;                   // of this copy of the cube [kg]
+constexpr double kMass = 0.1;                   // mass of this copy of the cube [kg]
 constexpr PeerId kRemote{2};
-const Vec3 kAway(-0.2, 0, 0.1);  // of the device
+const Vec3 kAway(-0.2, 0, 0.1);  // position of the device away from the cube
 
 struct Options {
   Vec3 gravity = Vec3(0, 0, -9.81);
   bool has_floor = true;
-  bool is_restless = false;   ///< the device trembles: nothing ever sleeps
-  bool ticks_itself = false;  ///< the site, in the host's steps
+  bool is_restless = false;   ///< the device trembles, so nothing ever sleeps
+  bool ticks_itself = false;  ///< the site ticks inside the host's steps
   SiteSettings settings;
 };
 
-/// A cube that rests on the floor (or nowhere), a device and a remote user's proxy off it.
+/// A cube that rests on the floor (or floats), with a device and a remote user's proxy away from
+/// it.
 struct Rig {
   BulletRig host;
   btRigidBody* floor = nullptr;
@@ -111,7 +112,7 @@ TEST(SiteSleep, NeitherSearchesNorHandsOffWhileNothingMoves) {
   EXPECT_EQ(rig.counters().searches, before.searches);
   EXPECT_EQ(rig.counters().bodies_handed_off, before.bodies_handed_off);
   EXPECT_EQ(rig.counters().bodies_woken, before.bodies_woken);
-  EXPECT_EQ(rig.counters().packets_sent - before.packets_sent, 16u);  // the others still hear
+  EXPECT_EQ(rig.counters().packets_sent - before.packets_sent, 16u);  // peers still receive packets
   EXPECT_EQ(rig.object().p_W, object.p_W);
   EXPECT_TRUE(rig.cube.getWorldTransform() == pose);
 }
@@ -120,7 +121,7 @@ TEST(SiteSleep, IdlePacketsSaySoAndTheFirstMotionIsSentInItsTick) {
   Rig rig;
   rig.fallAsleep();
   EXPECT_TRUE(rig.link.sent.back().is_idle);
-  // Between two packets that are due.
+  // This is between two due packets.
   const std::uint64_t sent = rig.counters().packets_sent;
   while (rig.counters().packets_sent == sent) rig.tick();
   for (int i = 0; i < 5; ++i) rig.tick();
@@ -187,7 +188,7 @@ TEST(SiteSleep, DeviceThatPressesIsFeltAsIfNothingHadSlept) {
     rig.tick();
   };
   press(asleep), press(awake);
-  EXPECT_LT(asleep.device.force_W.x(), -1.0);  // K 1 mm and more
+  EXPECT_LT(asleep.device.force_W.x(), -1.0);  // K times 1 mm and more
   EXPECT_GT(asleep.object().v_W.x(), 0.0);
   asleep.device.sample.hip.v_W.setZero();
   awake.device.sample.hip.v_W.setZero();
@@ -204,7 +205,7 @@ TEST(SiteSleep, DeviceThatPressesIsFeltAsIfNothingHadSlept) {
     ASSERT_LT((asleep.device.force_W - awake.device.force_W).norm(), byWidth(1e-5, 1e-3)) << i;
   }
   EXPECT_GT(asleep.object().p_W.x(), 1e-4);
-  EXPECT_EQ(asleep.counters().bodies_woken, 1u);  // the cube; the proxy sleeps on
+  EXPECT_EQ(asleep.counters().bodies_woken, 1u);  // the cube; the proxy stays asleep
 }
 
 TEST(SiteSleep, WokenByAPacketInItsTick) {
@@ -216,7 +217,7 @@ TEST(SiteSleep, WokenByAPacketInItsTick) {
   packet.objects[0].state.p_W.z() += 0.05;  // the other user has lifted it
   rig.link.arrivals.push_back({packet, static_cast<double>(rig.ticks) * kPeriod});
   rig.tick();
-  // 10 N upwards on 0.1 kg, without its weight
+  // 10 N upwards on 0.1 kg, minus its weight.
   EXPECT_NEAR(rig.object().v_W.z(), (200.0 * 0.05 / kMass - 9.81) * kPeriod, 0.02);
   for (int i = 1; i < kTicksPerStep; ++i) rig.tick();
   const double end = rig.object().p_W.z();
@@ -239,7 +240,7 @@ TEST(SiteSleep, SamePacketsDoNotWake) {
   EXPECT_EQ(rig.counters().host_steps_skipped, before + 100);
 }
 
-// The host pushes a body as it is used to, without asking whether it sleeps.
+// The host pushes a body without asking whether it sleeps.
 TEST(SiteSleep, WokenByAForceOfTheHost) {
   Rig rig(inSpace());
   rig.fallAsleep();
@@ -269,7 +270,7 @@ TEST(SiteSleep, WokenByAnImpulseAndATeleportOfTheHost) {
   moved.hostStep();
   EXPECT_NEAR(moved.object().p_W.x(), 0.5, byWidth(1e-15, 1e-7));
   moved.run(0.1);
-  EXPECT_TRUE(moved.isCubeAsleep());  // it stands there, and sleeps again
+  EXPECT_TRUE(moved.isCubeAsleep());  // the cube stands there, and sleeps again
   EXPECT_NEAR(static_cast<double>(moved.cube.getCenterOfMassPosition().x()), 0.5,
               byWidth(1e-15, 1e-7));
 }
@@ -280,7 +281,7 @@ TEST(SiteSleep, WakesInTheHostsStepIfItTicksThere) {
   options.settings = withoutCouplers();
   Rig rig(options);
   rig.fallAsleep();
-  // The device comes down on the cube: felt within the step in which it does.
+  // The device comes down on the cube, and feels it within the same step.
   rig.device.sample.hip.p_W = Vec3(0, 0, 2 * kHalf + kRadius - 1e-3);
   rig.hostStep();
   EXPECT_GT(rig.site->force().z(), 1.0);
@@ -288,7 +289,7 @@ TEST(SiteSleep, WakesInTheHostsStepIfItTicksThere) {
   rig.device.sample.hip.p_W = kAway;
   rig.run(0.1);
   rig.fallAsleep();
-  // An impulse of the host's, which need not wake it.
+  // An impulse of the host, which need not wake the cube.
   rig.cube.setLinearVelocity(btVector3(0, 0, btScalar(0.5)));
   rig.hostStep();
   EXPECT_NEAR(rig.object().v_W.z(), 0.5 - 9.81 * kHostStep, 0.05);
@@ -307,7 +308,8 @@ TEST(SiteSleep, WeightOfAWokenBodyIsNotFeltTwice) {
   EXPECT_NEAR(rig.object().p_W.z(), height, 1e-12);
 }
 
-// A body of the host's alone that hits; Bullet wakes ours, the island has the momentum.
+// A body that only the host knows hits the cube. Bullet wakes ours, and the island has the
+// momentum.
 TEST(SiteSleep, WokenByWhatHitsItInBullet) {
   for (const int sub_steps : {1, 4}) {
     Rig rig(inSpace());
@@ -315,7 +317,7 @@ TEST(SiteSleep, WokenByWhatHitsItInBullet) {
     btRigidBody& ball = rig.host.addBody(rig.host.makeShape<btSphereShape>(btScalar(0.01)), 0.05,
                                          Vec3(0, 0.1, kHalf));
     ball.setLinearVelocity(btVector3(0, -1, 0));
-    // The ball is new to the world: everything is looked at once more. It is far yet, and missed.
+    // The ball is new to the world, so all bodies are checked once more. It is still far away.
     const auto momentum = [&] {
       return 0.05 * static_cast<double>(ball.getLinearVelocity().y()) +
              kMass * rig.object().v_W.y();

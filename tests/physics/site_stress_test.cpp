@@ -1,4 +1,4 @@
-// A site with numbers that no scene should have, found by `tandem bench stress`.
+// A site with extreme numbers that no real scene has, found by `tandem bench stress`.
 
 #include <algorithm>
 
@@ -16,10 +16,10 @@ using test::BulletRig;
 using testing::FakeDevice;
 using testing::FakeLink;
 
-// A proxy of 12 g deep in a fixed ball is shot out at 9 m/s, at rest when the host looks around.
-// The floor is 70 mm on, farther than the 40 mm that a body at rest is given; the next look is a
-// step of 1/30 s later, 0.3 m of way. The floor used to be found only when the proxy was deep in
-// it.
+// A proxy of 12 g deep in a fixed ball is shot out at 9 m/s. It is at rest when the host searches
+// its surroundings. The floor is 70 mm away; a body at rest is searched to 40 mm. The next search
+// is a step of 1/30 s later, after 0.3 m of way. The floor used to be found only when the proxy was
+// deep in it.
 TEST(SiteStress, FloorIsFoundBeforeAShotProxyIsInIt) {
   BulletRig rig;
   btSphereShape ball_shape(btScalar(0.02));
@@ -45,8 +45,7 @@ TEST(SiteStress, FloorIsFoundBeforeAShotProxyIsInIt) {
   {
     Site site(settings, rig.world, device);
     site.connect(PeerId{2}, link, Vec3(0.0, -0.02, 0.0));
-    // From 1 cm of overlap: v = x sqrt(K / m). What the floor's spring takes of it is as deep
-    // again.
+    // From 1 cm of overlap v = x sqrt(K / m). The floor's spring sinks by the same depth.
     const double deepest = top + settings.proxy.radius - 0.011;
     double rise = 0.0;
     for (int tick = 0; tick < 30; ++tick) {

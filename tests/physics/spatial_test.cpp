@@ -1,5 +1,5 @@
-// Guide off: the same physics in three dimensions, against an independent solver that shares no
-// code with us.
+// Without the guide: the same physics in three dimensions, against an independent solver that
+// shares no code with us.
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,13 @@ namespace {
 
 struct SpatialCase {
   const char* name;
-  Vec3 force1, force2;    // hands [N]
-  Vec3 offset1, offset2;  // starts off the axis [m]
+  Vec3 force1, force2;    // forces of the hands [N]
+  Vec3 offset1, offset2;  // start positions off the axis [m]
   double duration;        // [s]
-  double turn;            // the cube must have turned at least this far [rad]
+  double turn;            // least turn of the cube [rad]
 };
 
-/// How far apart two ways are, and how long the reference's is [m].
+/// Largest distance between two paths, and the length of the reference path [m].
 struct Trace {
   double error = 0, way = 0;
   void add(const Vec3& p, const Vec3& expected, const Vec3& start) {
@@ -63,7 +63,7 @@ TEST_P(Spatial, AgreesWithTheReference) {
       turned = std::max(turned, row(i).box_q.angularDistance(Quat::Identity()));
     }
   }
-  // Both hold the device's force over a tick and differ by their integrators only.
+  // Both hold the device's force over a tick. Only their integrators differ.
   EXPECT_LT(device.error, 1e-3 * device.way);
   EXPECT_LT(object.error, 1e-3 * object.way);
   EXPECT_LT(proxy.error, 1e-3 * proxy.way);
@@ -74,7 +74,7 @@ TEST_P(Spatial, AgreesWithTheReference) {
 INSTANTIATE_TEST_SUITE_P(
     Pushes, Spatial,
     ::testing::Values(
-        // Head-on is unstable sideways: rounding needs a second to show.
+        // A head-on push is unstable sideways: rounding needs a second to show.
         SpatialCase{"axial", {5, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.5, 0.0},
         SpatialCase{"off_axis_force", {4, 0.6, 0.3}, {-1, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.25, 0.0},
         SpatialCase{
