@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <btBulletDynamicsCommon.h>
-// After the common header.
+// These need the common header first.
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
@@ -20,7 +20,7 @@
 
 namespace tandem::test {
 
-/// The worlds that Bullet has.
+/// The kinds of world that Bullet has.
 enum class WorldKind { kDiscrete, kMultiBody, kSoftRigid, kSoftMultiBody, kParallel };
 
 inline constexpr WorldKind kAllKinds[] = {WorldKind::kDiscrete, WorldKind::kMultiBody,
@@ -43,7 +43,7 @@ inline constexpr WorldKind kAllKinds[] = {WorldKind::kDiscrete, WorldKind::kMult
   return "Parallel";
 }
 
-/// A host with a world of any kind. The world may go before all else of it: `world.reset()`.
+/// A host with a world of any kind. `world.reset()` may destroy the world before all other members.
 struct AnyHost {
   WorldKind kind;
   btSoftBodyRigidBodyCollisionConfiguration configuration;
@@ -78,7 +78,7 @@ struct AnyHost {
   [[nodiscard]] btMultiBodyDynamicsWorld* multi() const {
     return dynamic_cast<btMultiBodyDynamicsWorld*>(world.get());
   }
-  /// Either kind of world with soft bodies.
+  /// Any world with soft bodies.
   struct Soft {
     btSoftRigidDynamicsWorld* rigid;
     btSoftMultiBodyDynamicsWorld* multi;
@@ -116,7 +116,7 @@ struct AnyHost {
   }
   btBoxShape& makeBox(const Vec3& half) { return makeShape<btBoxShape>(toBullet(half)); }
 
-  /// Mass 0: static.
+  /// Adds a body; mass 0 makes it static.
   btRigidBody& addBody(btCollisionShape& shape, double mass, const Vec3& p_W = Vec3::Zero(),
                        const Quat& q_WB = Quat::Identity()) {
     btVector3 inertia(0, 0, 0);
@@ -132,7 +132,7 @@ struct AnyHost {
     return addBody(makeBox(Vec3::Constant(0.02)), mass, p_W);
   }
 
-  /// A pendulum of two links that hangs from a fixed base at `p_W`; for worlds that can have one.
+  /// Adds a pendulum of two links on a fixed base at `p_W`, in worlds that support it.
   void addMultiBody(const Vec3& p_W) {
     constexpr int kLinks = 2;
     btBoxShape& shape = makeBox(Vec3::Constant(0.02));
@@ -161,20 +161,20 @@ struct AnyHost {
     multi_body->updateCollisionObjectWorldTransforms(turns, places);
   }
 
-  /// A cloth above `p_W`, held at its corners; for worlds that can have one.
+  /// Adds a cloth above `p_W`, held at its corners, in worlds that support it.
   void addSoftBody(const Vec3& p_W) {
     btSoftBodyWorldInfo& info = soft()->info();
     info.m_broadphase = &broadphase;
     info.m_dispatcher = &dispatcher;
     info.m_gravity = world->getGravity();
-    info.m_sparsesdf.setDefaultVoxelsz(btScalar(0.005));  // [m]; it comes with 0.25
+    info.m_sparsesdf.setDefaultVoxelsz(btScalar(0.005));  // [m]; the default is 0.25
     const auto corner = [&](double x, double y) { return toBullet(Vec3(p_W + Vec3(x, y, 0.0))); };
     constexpr double kHalf = 0.08;
     soft_body.reset(btSoftBodyHelpers::CreatePatch(info, corner(-kHalf, -kHalf),
                                                    corner(kHalf, -kHalf), corner(-kHalf, kHalf),
                                                    corner(kHalf, kHalf), 6, 6, 15, true));
     soft_body->setTotalMass(btScalar(0.1));
-    soft_body->getCollisionShape()->setMargin(btScalar(0.005));  // it comes with 0.25 m
+    soft_body->getCollisionShape()->setMargin(btScalar(0.005));  // the default is 0.25 m
     soft()->addSoftBody(soft_body.get());
   }
 

@@ -8,7 +8,7 @@
 
 namespace tandem::test {
 
-/// All that attaching may touch of a body, to be compared bit for bit. Forces are spent.
+/// All settings of a body that attaching may touch, compared bit for bit. Clears its forces.
 [[nodiscard]] inline std::vector<btScalar> readSettings(btRigidBody& body) {
   std::vector<btScalar> numbers = {body.getInvMass(),
                                    body.getLinearDamping(),
@@ -28,7 +28,7 @@ namespace tandem::test {
   add(body.getGravity());
   add(body.getLinearFactor());
   add(body.getAngularFactor());
-  // The weight has no getter: what gravity adds to the force.
+  // The weight has no getter, so it is read as the force that gravity adds.
   body.clearForces();
   body.applyGravity();
   add(body.getTotalForce());
@@ -36,7 +36,7 @@ namespace tandem::test {
   return numbers;
 }
 
-/// FNV-1a over the bits of numbers.
+/// FNV-1a hash over the bits of numbers.
 class BitHash {
  public:
   template <typename Value>
@@ -52,7 +52,7 @@ class BitHash {
     add(pose.getOrigin());
     for (int row = 0; row < 3; ++row) add(pose.getBasis()[row]);
   }
-  /// Its whole motion: where and how fast it is, how tired, and what is shown of it.
+  /// Adds a body's motion: pose, velocity, sleep timer and interpolated pose.
   void add(const btRigidBody& body) {
     add(body.getWorldTransform());
     add(body.getLinearVelocity());

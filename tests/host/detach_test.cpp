@@ -1,4 +1,4 @@
-// Whatever a site has changed of a host is as it was when it ends.
+// When a site ends, every setting that it changed in the host is restored.
 
 #include <memory>
 
@@ -30,7 +30,7 @@ struct Slots : btDiscreteDynamicsWorld {
   }
 };
 
-/// What a host can set of a body or its place in the world.
+/// The settings of a body, and its place in the world, that a host can change.
 struct Seen {
   explicit Seen(btRigidBody& body)
       : settings(test::readSettings(body)),

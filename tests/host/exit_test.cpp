@@ -1,5 +1,5 @@
-// A program ends by exit() with all of it alive: links open, the haptic thread running. What is
-// static goes in the order in which it came, so the world may go before the site, or after it.
+// A program calls exit() with everything alive: links open, the haptic thread running. Statics are
+// destroyed in reverse order of construction, so the world may end before the site, or after it.
 
 #include <chrono>
 #include <cstdlib>
@@ -82,7 +82,7 @@ TEST_F(ExitDeathTest, WithALinkOpenAndTheWorldGoingFirst) {
 TEST_F(ExitDeathTest, FromTheMiddleOfMainWithALinkOpen) {
   EXPECT_EXIT(
       {
-        // Nothing of it is ever destroyed.
+        // These objects are never destroyed.
         FakeDevice device;
         AnyHost host(WorldKind::kDiscrete);
         UdpMesh mesh(makeMeshSettings(), makePeers());

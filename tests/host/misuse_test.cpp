@@ -1,5 +1,4 @@
-// What hosts do wrong, and what comes of it: a message or a status bit, and nothing touched that is
-// not there any more.
+// Mistakes of hosts. Each gives a message or a status bit, and no freed object is touched.
 
 #include <memory>
 #include <string>
@@ -57,7 +56,7 @@ struct Scene {
   std::unique_ptr<Site> site;
 };
 
-// ---- At attach ----
+// Mistakes at attach.
 
 TEST(Misuse, AttachingTwiceIsRefusedAndLeavesTheFirstAlone) {
   Scene scene;
@@ -119,7 +118,7 @@ TEST(Misuse, ABodyOfAnotherWorldIsRefused) {
   EXPECT_EQ(two.site->objectCount(), 1);
 }
 
-// ---- While attached ----
+// Mistakes while attached.
 
 TEST(Misuse, ABodyTakenOutAndDeletedStopsTheSite) {
   Scene scene;
@@ -159,7 +158,7 @@ TEST(Misuse, ABodyPutBackIsRestoredWhenTheSiteEnds) {
   scene.run(1);
   scene.host.world->addRigidBody(&scene.cube);
   scene.run(1);
-  EXPECT_EQ(scene.site->status(), kBodyMissing);  // for good
+  EXPECT_EQ(scene.site->status(), kBodyMissing);  // permanently
   scene.site.reset();
   EXPECT_EQ(scene.before, test::readSettings(scene.cube));
 }
@@ -176,7 +175,8 @@ TEST(Misuse, AProxyTakenOutStopsTheSiteAndIsStillItsOwn) {
 
 TEST(Misuse, AProxyTakenOutAndDeletedIsNotDeletedTwice) {
   Scene scene;
-  scene.host.addCube(0.1, Vec3(0.0, 0.09, 0.0));  // which the island holds, and filters from it
+  scene.host.addCube(0.1,
+                     Vec3(0.0, 0.09, 0.0));  // the island holds it and filters it from the cube
   scene.run(4);
   ASSERT_EQ(scene.site->neighbourCount(), 1);
   btRigidBody* proxy = scene.site->proxyBody(0);
@@ -202,9 +202,9 @@ TEST(Misuse, DeviceAndLinkMayEndBeforeASiteThatTicksNoMore) {
   host.step(kStep);
 }
 
-// ---- In the host's own callbacks ----
+// Calls from the host's own callbacks.
 
-/// What the callbacks below do, once.
+/// Actions of the callbacks below, each done once.
 struct Doings {
   std::unique_ptr<Site>* ends = nullptr;
   int calls = 0;
@@ -239,7 +239,7 @@ struct HostCallbacks : ::testing::Test {
     site->connect(kRemote, scene.link, kRemoteStart);
     return site;
   }
-  /// The site is gone, and the host's own callbacks go on.
+  /// The site is gone; the host's own callbacks still run.
   void expectLeft() {
     EXPECT_EQ(scene.site, nullptr);
     EXPECT_EQ(scene.before, test::readSettings(scene.cube));
@@ -249,7 +249,7 @@ struct HostCallbacks : ::testing::Test {
     EXPECT_EQ(in_pre.calls, pre + 3);
     EXPECT_EQ(in_post.calls, post + 3);
     EXPECT_EQ(scene.host.world->getNumCollisionObjects(), 1);
-    // The world can be had again.
+    // A new site can attach to the world.
     scene.site = make();
     scene.run(3);
     EXPECT_EQ(scene.site->counters().host_steps, 3u);

@@ -1,5 +1,5 @@
-// Multi-bodies and soft bodies beside what is shared: they stay Bullet's. Shared bodies meet them
-// in Bullet, at the host's rate; the hand does not feel them.
+// Multi-bodies and soft bodies beside shared bodies stay Bullet's. Shared bodies meet them in
+// Bullet at the host's rate; the hand does not feel them.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using test::WorldKind;
 using testing::FakeDevice;
 using testing::FakeLink;
 
-/// The hand pushes a shared cube along x into whatever is there.
+/// The hand pushes a shared cube along x into any body there.
 struct Push {
   explicit Push(WorldKind kind) : host(kind) {
     cube = &host.addCube(0.2);
@@ -28,7 +28,7 @@ struct Push {
   void run(double seconds) {
     Site site(SiteSettings{}, *host.world, device);
     site.share(*cube);
-    site.connect(PeerId{2}, link, Vec3(0.0, 0.2, 0.0));  // whose copy holds this one back
+    site.connect(PeerId{2}, link, Vec3(0.0, 0.2, 0.0));  // the remote copy holds this one back
     for (int i = 0; i < static_cast<int>(120.0 * seconds); ++i) {
       device.sample.hip.p_W.x() += 0.1 / 120.0;
       host.step(1.0 / 120.0);
@@ -45,12 +45,12 @@ struct Push {
   btRigidBody* cube = nullptr;
   FakeDevice device;
   FakeLink link;
-  double farthest = 0.0;  // that the cube got from its plane [m]
+  double farthest = 0.0;  // farthest distance of the cube from its plane [m]
 };
 
 class MultiBodyNearby : public ::testing::TestWithParam<WorldKind> {};
 
-// The pendulum hangs across the cube's way; its links turn about x, which is along the push.
+// The pendulum hangs across the cube's path. Its links turn about x, the direction of the push.
 TEST_P(MultiBodyNearby, IsHitByASharedCubeInBullet) {
   for (const bool is_in_the_way : {true, false}) {
     Push push(GetParam());
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, MultiBodyNearby,
 
 class SoftBodyNearby : public ::testing::TestWithParam<WorldKind> {};
 
-// A cloth that falls on the cube, or beside it, hand and all.
+// A cloth falls on the cube, or beside both the cube and the hand.
 TEST_P(SoftBodyNearby, PushesASharedCubeInBullet) {
   for (const bool is_over_it : {true, false}) {
     Push push(GetParam());

@@ -8,9 +8,9 @@
 
 namespace tandem::test {
 
-/// A host's scene with all that Bullet has: 21 boxes, balls and hulls fall on a heap, with
-/// friction, a joint and a kinematic sweeper; besides, where the world can have them, a multi-body
-/// that swings into them and a cloth that they fall on.
+/// A host's scene with all kinds of Bullet bodies. 21 boxes, balls and hulls fall on a heap with
+/// friction, a joint and a kinematic sweeper. Worlds that support them add a multi-body that swings
+/// into the heap and a cloth.
 class Pile {
  public:
   explicit Pile(WorldKind kind) : host_(kind, Vec3(0.0, 0.0, -9.81)) {
@@ -37,10 +37,10 @@ class Pile {
 
   [[nodiscard]] AnyHost& host() { return host_; }
   [[nodiscard]] btDiscreteDynamicsWorld& world() { return *host_.world; }
-  /// Of those in the heap; the ground is the first of the host's.
+  /// Body `i` of the heap; the host's first body is the ground.
   [[nodiscard]] btRigidBody& body(int i) { return *host_.bodies[static_cast<std::size_t>(i) + 1]; }
 
-  /// 1/60 s in so many sub-steps.
+  /// Steps 1/60 s in `sub_steps` sub-steps.
   void step(int sub_steps = 4) {
     ++steps_;
     sweeper_->setWorldTransform(

@@ -1,5 +1,5 @@
-// A host's own simulation does not know that somebody is attached, as long as nothing of it is
-// shared; nor afterwards.
+// Attaching a site that shares nothing does not change a bit of the host's simulation, nor does
+// detaching.
 
 #include <memory>
 
@@ -23,7 +23,7 @@ constexpr int kMiddle = 150;
 
 using Hashes = std::vector<std::uint64_t>;
 
-/// The hash after each step; `before` is told of each step to come.
+/// Hashes after each step; calls `before` ahead of each step.
 template <typename Before>
 Hashes simulate(Pile& pile, Before before) {
   Hashes hashes;
@@ -52,7 +52,7 @@ TEST_P(SameBits, TheSceneIsOneThatWouldShowADifference) {
   for (int i = 1; i < kMiddle; ++i) ASSERT_NE(hashes[i], hashes[i - 1]) << "nothing moves";
 }
 
-// In the heap, too, where the hand feels nothing that moves.
+// The hand is inside the heap too, and feels no moving body.
 TEST_P(SameBits, WithAHandAloneAttached) {
   const Hashes bare = simulateBare();
   for (const Vec3& hand_W : {Vec3(10.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.03)}) {

@@ -1,4 +1,4 @@
-// However a host steps its world, of whatever kind: what couplers pull is where it ought to be.
+// Bodies on couplers follow the closed form in every kind of world, at any stepping of the host.
 
 #include <cmath>
 #include <functional>
@@ -20,24 +20,24 @@ using testing::FakeDevice;
 using testing::FakeLink;
 
 constexpr PeerId kRemote{2};
-constexpr double kStart = 0.01;      // [m] from where it is pulled to
+constexpr double kStart = 0.01;      // [m] from the coupler's rest
 constexpr double kDuration = 0.5;    // [s]
 constexpr double kTolerance = 1e-6;  // [m]
 
-/// m x'' + B x' + K x = 0 from kStart at rest, K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
+/// m x'' + B x' + K x = 0 from kStart at rest. K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
 /// 0.35.
 double computeRinging(double t) {
   const double c = 10.0 / 0.2, w = std::sqrt(2000.0 / 0.1 - c * c);
   return kStart * std::exp(-c * t) * (std::cos(w * t) + c / w * std::sin(w * t));
 }
 
-/// One way to call stepSimulation(). Returns the time that the world has moved on [s].
+/// One way to call stepSimulation(). Returns the time that the world advanced [s].
 struct Stepping {
   const char* name;
   std::function<double(btDiscreteDynamicsWorld&, int call)> step;
 };
 
-/// `n` steps of 1/240 s in a call.
+/// A call with `n` steps of 1/240 s.
 Stepping makeGrouped(const char* name, int n) {
   return {name, [n](btDiscreteDynamicsWorld& world, int) {
             const btScalar fixed = btScalar(1) / 240;
@@ -82,8 +82,9 @@ std::vector<Stepping> makeSteppings() {
 
 class HostStepping : public ::testing::TestWithParam<std::tuple<WorldKind, Stepping>> {};
 
-// A shared cube, pulled to a remote copy at rest, and the proxy of a remote user at rest. Near the
-// origin float shows the island's positions to half a bit of 10 mm, 6e-10 m: one tolerance does.
+// A shared cube is pulled to a remote copy at rest; the proxy's remote user is at rest too. Near
+// the origin float shows positions to half a bit of 10 mm, 6e-10 m: one tolerance covers both
+// widths.
 TEST_P(HostStepping, FreeCouplersFollowTheClosedForm) {
   const auto& [kind, stepping] = GetParam();
   AnyHost host(kind, Vec3(0.0, 0.0, 0.0));
@@ -92,7 +93,7 @@ TEST_P(HostStepping, FreeCouplersFollowTheClosedForm) {
   FakeLink link;
   SiteSettings settings;
   settings.coordination = {2000.0, 10.0};
-  settings.link_loss.enabled = false;  // one packet is to pull for ever
+  settings.link_loss.enabled = false;  // one packet pulls for ever
   Site site(settings, *host.world, device);
   site.share(cube);
   const Vec3 user_W(0.0, 1.0, 0.0);
@@ -122,7 +123,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, HostStepping,
                                   std::get<1>(way.param).name;
                          });
 
-/// How far 0.1 N push a shared body in a second, after so many steps that nobody ticked in [m].
+/// Way of a shared body under 0.1 N in a second, after `steps_before` host steps without a tick
+/// [m].
 double computePush(int steps_before, bool shares_first, double first_tick) {
   AnyHost host(WorldKind::kDiscrete, Vec3::Zero());
   btRigidBody& cube = host.addCube(0.2);
@@ -151,7 +153,7 @@ TEST(HostClock, StepsBeforeTheFirstTickAreNotOfItsTime) {
   ASSERT_NEAR(push, 0.25, 0.01);  // f t^2 / (2 m)
   for (const bool shares_first : {false, true}) {
     for (const double first_tick : {0.0, 10.0}) {
-      // A step that was made just before the clock began counts as the first.
+      // A step just before the clock begins counts as the first.
       EXPECT_NEAR(computePush(600, shares_first, first_tick), push, 0.01)
           << shares_first << ' ' << first_tick;
     }

@@ -1,5 +1,5 @@
-// A host may destroy its world before what is attached to it. The sanitizer sees what is touched
-// too late, and what is never freed.
+// A host may destroy its world before the site attached to it. The sanitizer detects late accesses
+// and leaks.
 
 #include <memory>
 #include <new>
@@ -25,8 +25,8 @@ using testing::FakeLink;
 using testing::makePacket;
 
 constexpr PeerId kRemote{2};
-constexpr double kPeriod = 1e-3;      // of a tick [s]
-constexpr double kStep = 1.0 / 60.0;  // of the host [s]
+constexpr double kPeriod = 1e-3;      // period of a tick [s]
+constexpr double kStep = 1.0 / 60.0;  // step of the host [s]
 
 std::string allOf(const std::vector<std::string>& lines) {
   std::string text;
@@ -89,7 +89,7 @@ TEST_P(WorldEnd, GivesTheBodiesBackAndLetsTheHandGo) {
   EXPECT_EQ(site.status(), kWorldGone);
   scene.host.reset();
 
-  // 2 N a tick.
+  // The force falls by 2 N a tick.
   double force = site.force().norm();
   while (force > 0.0) {
     EXPECT_EQ(scene.tick(), kWorldGone);
@@ -109,7 +109,7 @@ TEST_P(WorldEnd, IsSaidInWords) {
   scene.host->world.reset();
   EXPECT_NE(allOf(scene.site->warnings()).find("destroy a Site before its world"),
             std::string::npos);
-  // What was known of its bodies is still said.
+  // Warnings about the destroyed bodies are still available.
   EXPECT_NE(allOf(scene.site->warnings()).find("damping"), std::string::npos);
   try {
     scene.site->share(*scene.cube);
@@ -120,7 +120,7 @@ TEST_P(WorldEnd, IsSaidInWords) {
   EXPECT_THROW(scene.site->connect(PeerId{3}, scene.link, Vec3::Zero()), Error);
 }
 
-// Bullet's own examples end so: whatever is in the world is deleted, then the world.
+// Bullet's examples end so: they delete every object in the world, then the world.
 TEST_P(WorldEnd, HostMayDeleteAllThatIsInItsWorldFirst) {
   PressedCube scene(GetParam());
   btDiscreteDynamicsWorld& world = *scene.host->world;
@@ -149,7 +149,7 @@ TEST_P(WorldEnd, AfterASiteLeavesTheWorldAsItWas) {
     btSimulationIslandManager* other = host.world->getSimulationIslandManager();
     ASSERT_NE(other, own);
     EXPECT_FALSE(other->getSplitIslands());
-    // A host may set it by either.
+    // A host may set it through either manager.
     other->setSplitIslands(true);
     host.step(kStep);
     EXPECT_TRUE(own->getSplitIslands());
@@ -198,8 +198,7 @@ TEST(WorldEndsEarly, TakesNothingFromAWorldAtTheSameAddress) {
   world->~btDiscreteDynamicsWorld();
 }
 
-/// Another plugin that puts an island manager of its own on top, as we do, and leaves when it
-/// likes.
+/// Another plugin that installs its own island manager on top, as we do, and leaves at any time.
 struct OnTop {
   struct Manager final : btSimulationIslandManager {};
   struct Slot : btDiscreteDynamicsWorld {
