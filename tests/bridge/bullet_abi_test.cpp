@@ -21,7 +21,7 @@ std::string refusalOf(const BulletAbi& host) {
 TEST(BulletAbi, AcceptsTheBulletItWasBuiltFor) { EXPECT_EQ(refusalOf(bulletAbiOfThisCode()), ""); }
 
 TEST(BulletAbi, SeesTheWidthOfTheBulletThatIsLoaded) {
-  // Touches Bullet, so that its library is in the process.
+  // Uses Bullet, so that its library is loaded into the process.
   const test::BulletRig rig;
   const std::size_t loaded = loadedBulletScalarBytes();
   if (loaded == 0) GTEST_SKIP() << "Bullet is linked statically and exports nothing";
@@ -32,7 +32,7 @@ TEST(BulletAbi, FindsTheLibraryThatBringsAWidth) {
   const test::BulletRig rig;
   EXPECT_EQ(findOtherBulletWidth(sizeof(btScalar)), "");
   if (loadedBulletScalarBytes() == 0) GTEST_SKIP() << "Bullet is linked statically";
-  // To a library of another width, the one that is loaded here is the other.
+  // For a caller of another width, the library loaded here has the wrong width.
   const std::string found = findOtherBulletWidth(sizeof(btScalar) + 1);
   EXPECT_NE(found.find("libBulletDynamics"), std::string::npos) << found;
 }

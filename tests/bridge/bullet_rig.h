@@ -12,7 +12,7 @@
 
 namespace tandem::test {
 
-/// Tests run against both widths of Bullet; each states what it expects of either.
+/// Picks the expectation for Bullet's width; the tests run against both.
 [[nodiscard]] constexpr double byWidth(double if_double, double if_float) {
   return sizeof(btScalar) == sizeof(double) ? if_double : if_float;
 }
@@ -22,7 +22,7 @@ namespace tandem::test {
   return Quat(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
-/// A host's world with what it owns.
+/// A host's world and the objects that it owns.
 struct BulletRig {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -47,7 +47,7 @@ struct BulletRig {
     return reference;
   }
 
-  /// Mass 0: static.
+  /// Adds a body; mass 0 makes it static.
   btRigidBody& addBody(btCollisionShape& shape, double mass, const Vec3& p_W = Vec3::Zero(),
                        const Quat& q_WB = Quat::Identity()) {
     btVector3 inertia(0, 0, 0);
@@ -70,7 +70,7 @@ struct BulletRig {
   void step(double dt) { world.stepSimulation(static_cast<btScalar>(dt), 0); }
 };
 
-/// A listener made of two functions.
+/// A listener built from two functions.
 template <typename Before, typename After>
 class Listener final : public HostStepListener {
  public:

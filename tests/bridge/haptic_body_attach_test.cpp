@@ -12,7 +12,7 @@ namespace {
 
 using test::BulletRig;
 
-/// Everything that attaching may touch, to be compared bit for bit.
+/// All settings that attaching may touch, compared bit for bit.
 std::vector<btScalar> snapshot(btRigidBody& body) {
   std::vector<btScalar> numbers = {
       body.getInvMass(),          body.getLinearDamping(),
@@ -37,7 +37,7 @@ std::vector<btScalar> snapshot(btRigidBody& body) {
   addMatrix(body.getWorldTransform().getBasis());
   add(body.getInterpolationLinearVelocity());
   add(body.getInterpolationWorldTransform().getOrigin());
-  // The weight has no getter: what gravity adds to the force.
+  // The weight has no getter, so it is read as the force that gravity adds.
   body.applyGravity();
   add(body.getTotalForce());
   body.clearForces();
@@ -72,7 +72,7 @@ TEST(HapticBodyAttach, RestoresEverythingBitForBit) {
         rig.addBody(shape, 0.01 + uniform(), Vec3(0, 1, 0), test::turn(uniform(), {1, 2, 3}));
     body.setDamping(static_cast<btScalar>(uniform()), static_cast<btScalar>(uniform()));
     body.setLinearVelocity(btVector3(1, static_cast<btScalar>(uniform()), 0));
-    // Bullet computes a weight in two ways; the host may have used either last.
+    // Bullet computes a weight in two ways; the host may have used either one last.
     if (i % 2 == 0)
       body.setMassProps(static_cast<btScalar>(0.01 + uniform()), body.getLocalInertia());
     body.updateInertiaTensor();
@@ -154,7 +154,7 @@ TEST(HapticBodyAttach, RefusesWhatItCannotMoveAndSaysWhy) {
 TEST(HapticBodyAttach, NeverSleepsWhileAttachedAndMaySleepAfterwards) {
   BulletRig rig(Vec3(0, -9.81, 0));
   rig.addBody(rig.makeShape<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0);
-  // Large enough that Bullet does not rock it about at 60 Hz.
+  // The cube is large enough that Bullet does not rock it at 60 Hz.
   btRigidBody& cube = rig.addCube(0.3, 0.2, Vec3(0, 0.2, 0));
   {
     const HapticBody attached(rig.world, cube);
@@ -236,7 +236,7 @@ TEST(HapticBodyAttach, NoticesThatTheBodyLeftTheWorldAndWritesNothingMore) {
   btRigidBody& cube = rig.addCube(0.3);
   HapticBody attached(rig.world, cube);
   EXPECT_TRUE(attached.isInWorld());
-  rig.world.removeRigidBody(&first);  // moves the other one in Bullet's list
+  rig.world.removeRigidBody(&first);  // moves the other body in Bullet's list
   EXPECT_TRUE(attached.isInWorld());
   rig.world.addRigidBody(&first);
   rig.world.removeRigidBody(&cube);
@@ -258,7 +258,7 @@ TEST(HapticBodyAttach, OutlivesABodyThatTheHostDeleted) {
   btRigidBody& cube = rig.addCube(0.3);
   HapticBody attached(rig.world, cube, 0.5);
   rig.world.removeRigidBody(&cube);
-  rig.bodies.clear();  // the sanitizer would see any access
+  rig.bodies.clear();  // the sanitizer detects any later access
   EXPECT_FALSE(attached.isInWorld());
   EXPECT_FALSE(attached.takeHostChanges(0.01).moved);
 }

@@ -11,9 +11,9 @@ namespace {
 using test::BulletRig;
 using test::byWidth;
 
-constexpr double kMass = 0.25;  // [kg], exact in binary: expected impulses are, too
+constexpr double kMass = 0.25;  // [kg], exact in binary, so impulses are exact too
 
-/// What the pre-tick of a whole step sees, sub-step by sub-step.
+/// Changes that the pre-tick sees in a whole step, sub-step by sub-step.
 std::vector<HostChange> takeDuringStep(BulletRig& rig, HapticBody& body, int sub_steps) {
   constexpr double kSubStep = 1.0 / 256.0;
   std::vector<HostChange> changes;
@@ -114,7 +114,7 @@ TEST_F(HostChanges, SeeATeleportByOneUnitInTheLastPlace) {
 }
 
 TEST_F(HostChanges, AreNoneWhereTheHostRenewsTheWeightInItsPreTick) {
-  // The usual work-around for forces that stay over sub-steps; our callback comes after it.
+  // The usual work-around for forces that stay over sub-steps. Our callback runs after it.
   rig.world.setInternalTickCallback(
       [](btDynamicsWorld* world, btScalar) {
         auto* host = static_cast<btDiscreteDynamicsWorld*>(world);

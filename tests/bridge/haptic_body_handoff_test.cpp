@@ -11,7 +11,7 @@ namespace {
 using test::BulletRig;
 using test::byWidth;
 
-/// Some motion that no force law would give: it only has to be reproduced.
+/// A motion that no force law gives. It only has to be reproduced.
 RigidState computeMotion(double t) {
   RigidState state;
   state.p_W = Vec3(0.1 * std::sin(7 * t), 0.2 + 0.05 * std::cos(11 * t), 0.3 * t);
@@ -25,8 +25,8 @@ double angleBetween(const Quat& a, const Quat& b) { return 2.0 * (a * b.conjugat
 
 class HandOff : public ::testing::TestWithParam<double> {};
 
-// A free body is where the island put it: by Bullet's own integration already, with the weight, a
-// constant host force and torque and Bullet's gyroscopic term in the way.
+// A free body is exactly where the island put it after Bullet's own integration. Weight, a constant
+// host force and torque, and Bullet's gyroscopic term act on it.
 TEST_P(HandOff, CarriesAFreeBodyExactly) {
   const double dt = 1.0 / GetParam();
   BulletRig rig(Vec3(0, -9.81, 0));
@@ -71,7 +71,7 @@ TEST_P(HandOff, CarriesAFreeBodyExactly) {
 }
 INSTANTIATE_TEST_SUITE_P(HostRates, HandOff, ::testing::Values(60.0, 240.0, 1000.0));
 
-// A step that turns the body further than Bullet can integrate still ends where the island says.
+// Even a step that turns the body further than Bullet can integrate ends at the island's pose.
 TEST(HandOff, ReachesPosesBeyondBulletsLargestTurnPerStep) {
   BulletRig rig;
   HapticBody body(rig.world, rig.addCube(0.3));
@@ -124,8 +124,8 @@ TEST(HandOff, AdditionalDampingOfTheBodyIsNoImpulseOfTheSolver) {
   EXPECT_NEAR(body.state().p_W.x(), 1e-4, byWidth(1e-18, 1e-11));
 }
 
-// A body of the island runs into one of Bullet's, off centre and rubbing. What the native body
-// gains is what restore() gives back.
+// A body of the island hits one of Bullet's, off centre and with friction. restore() gives back the
+// momentum that the native body gains.
 TEST(HandOff, ReturnsTheMomentumExchangedWithANativeNeighbour) {
   constexpr double kStep = 1.0 / 240.0;
   BulletRig rig;
@@ -170,14 +170,14 @@ TEST(HandOff, ReturnsTheMomentumExchangedWithANativeNeighbour) {
     rig.step(kStep);
     total_given += given.impulse_W;
     EXPECT_LT((momentum() - momentum_before).norm(), byWidth(1e-15, 1e-7)) << "step " << i;
-    // About the origin, with the arms at which the solver acted. The contact's two points are a gap
-    // of up to v dt apart along the normal, across which friction has an arm.
+    // Angular momentum about the origin, with the arms at which the solver acted. The contact's two
+    // points are up to v dt apart along the normal, and friction acts over that distance.
     const Vec3 arms = (start.p_W - p_native).cross(given.impulse_W);
     EXPECT_LT((spin() - spin_before + arms).norm(),
               0.5 * kStep * given.impulse_W.norm() + byWidth(1e-15, 1e-8))
         << "step " << i;
   }
-  EXPECT_GT(total_given.norm(), 0.01);  // they did meet
+  EXPECT_GT(total_given.norm(), 0.01);  // they collided
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 using test::BulletRig;
 
-/// What ran, in order. One per test.
+/// Order in which callbacks ran; one trace per test.
 std::string trace;
 
 struct TracingListener final : HostStepListener {
@@ -44,7 +44,7 @@ struct Slots : btDynamicsWorld {
   }
 };
 
-/// Another plugin that chains as we do and goes in any order.
+/// Another plugin that chains as we do, and may leave in any order.
 struct Layer {
   explicit Layer(btDynamicsWorld& host) : world(host) {
     below_pre = Slots::pre(world);
@@ -156,7 +156,8 @@ TEST_F(HostWorldTest, StaysAsSilentLinkUnderALayer) {
     attached.reset();
     EXPECT_EQ(traceOfStep(rig), "HLlh");
   }
-  // The layer has put our silent link back on top; it still reaches the host, and wakes up again.
+  // The layer has put our silent callback back on top. It still calls the host's, and works again
+  // when needed.
   EXPECT_EQ(traceOfStep(rig), "Hh");
   attached = std::make_unique<HostWorld>(rig.world, listener);
   EXPECT_EQ(traceOfStep(rig), "Hbah");
@@ -176,7 +177,8 @@ TEST_F(HostWorldTest, CanBeAttachedAgainOnTopOfALayerOverItsSilentLink) {
 }
 
 TEST(HostWorld, DoesNotMistakeANewWorldForOneThatDiedAtItsAddress) {
-  // A world that dies with a silent link of ours in its chain, and another one built in its place.
+  // A world is destroyed with our silent callback in its chain. Another world is built in its
+  // place.
   alignas(BulletRig) std::byte memory[sizeof(BulletRig)];
   TracingListener listener;
   auto* rig = new (memory) BulletRig;
@@ -197,7 +199,7 @@ TEST(HostWorld, DoesNotMistakeANewWorldForOneThatDiedAtItsAddress) {
 
 class SubStepGrouping : public ::testing::TestWithParam<int> {};
 
-// 16 ms in steps of 1 ms are 16 callbacks with 1 ms each, however the host groups them.
+// 16 ms in steps of 1 ms are 16 callbacks of 1 ms each, in any grouping by the host.
 TEST_P(SubStepGrouping, GivesEachSubStepItsOwnCallback) {
   constexpr double kStep = 1e-3;  // sub-step of the host [s]
   BulletRig rig;

@@ -10,7 +10,7 @@
 namespace tandem {
 namespace {
 
-/// Largest eigenvalue of one step of v += dt (-K x - B v) / m; x += dt v, by its trace and
+/// Largest eigenvalue of one step of v += dt (-K x - B v) / m; x += dt v. Uses trace and
 /// determinant.
 double computeSpectralRadius(double K, double B, double m, double dt) {
   const double trace = 2.0 - dt * B / m - dt * dt * K / m;

@@ -1,4 +1,4 @@
-// Couplers by Bullet's own means against closed forms.
+// Couplers made of Bullet's own means, against closed forms.
 
 #include "bullet_bridge/src/native/native_coupling.h"
 
@@ -42,7 +42,7 @@ double releaseError(NativeCouplerKind kind, double rate) {
 
 class ExplicitCoupler : public ::testing::TestWithParam<NativeCouplerKind> {};
 
-// Semi-implicit Euler is of first order: 0.64 mm at 1 kHz, a quarter of it at four times the rate.
+// Semi-implicit Euler is first order: 0.64 mm at 1 kHz, a quarter of it at four times the rate.
 TEST_P(ExplicitCoupler, ConvergesToTheClosedFormInFirstOrder) {
   EXPECT_NEAR(releaseError(GetParam(), 1000.0), 0.640e-3, 0.005e-3);
   EXPECT_NEAR(releaseError(GetParam(), 4000.0), 0.157e-3, 0.005e-3);
@@ -81,7 +81,7 @@ TEST_P(ExplicitCoupler, TurnsByItsAngularGains) {
     const double angle = 2.0 * std::asin(fromBullet(cube.getOrientation()).z());
     error = std::max(error, std::abs(angle - freeDecay(inertia, angular, kStart, i / kRate)));
   }
-  EXPECT_LT(error, 0.045e-3);  // as for the linear part above
+  EXPECT_LT(error, 0.045e-3);  // the same bound as for the linear part above
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ExplicitCoupler,
@@ -105,8 +105,8 @@ TEST(PointToPoint, IsImplicitEulerAtLongSteps) {
   }
 }
 
-// Its CFM grows as 1/dt: 1.3 at 240 Hz, 8 at 1 kHz; above 1 Bullet's iteration diverges. What is
-// not a number must show: nothing hides it.
+// The CFM grows as 1/dt: 1.3 at 240 Hz, 8 at 1 kHz. Above 1 Bullet's iteration diverges. The NaN
+// must be visible: nothing hides it.
 TEST(PointToPoint, DivergesAtShortSteps) {
   for (const double rate : {240.0, 1000.0})
     EXPECT_FALSE(releaseError(NativeCouplerKind::kPointToPoint, rate) < 1e6) << rate;

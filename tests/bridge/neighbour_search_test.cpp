@@ -1,4 +1,4 @@
-// Who is taken from the host's world before it can be touched, and who stays with the host.
+// The search selects bodies to hold before they can be touched; all others stay with the host.
 
 #include <algorithm>
 #include <random>
@@ -13,7 +13,7 @@ namespace {
 
 using test::BulletRig;
 
-constexpr double kHalf = 0.02;         // of all cubes [m]
+constexpr double kHalf = 0.02;         // half edge of all cubes [m]
 constexpr double kHorizon = 2.5 / 60;  // [s]
 /// D of a pair at rest [m]: 2 mm + 1/2 20 m/s^2 T^2.
 constexpr double kAtRest = 2e-3 + 10.0 * kHorizon * kHorizon;
@@ -53,7 +53,7 @@ TEST_F(NeighbourSearchTest, ReachesFartherForWhoComesFaster) {
   EXPECT_EQ(findOnce(Vec3(2.0, 0.0, 0.0)), Bodies{&box});
   box.setLinearVelocity(btVector3(-2, 0, 0));
   EXPECT_EQ(findOnce(), Bodies{&box});
-  // Side by side at the same speed nobody comes nearer.
+  // Cubes side by side at equal speed do not approach each other.
   EXPECT_TRUE(findOnce(Vec3(-2.0, 0.0, 0.0)).empty());
 }
 
@@ -90,7 +90,7 @@ TEST_F(NeighbourSearchTest, WhoIsHeldStaysForAWhile) {
   moveTo(1.6 * kAtRest);
   EXPECT_TRUE(find(search).empty());
   moveTo(1.4 * kAtRest);
-  EXPECT_TRUE(find(search).empty());  // it is not held any more
+  EXPECT_TRUE(find(search).empty());  // it was released above
   moveTo(0.9 * kAtRest);
   EXPECT_EQ(find(search), Bodies{&box});
 }
@@ -106,7 +106,7 @@ TEST_F(NeighbourSearchTest, CapacityTakesTheNearestFirst) {
   EXPECT_EQ(find(many), (Bodies{&nearest, &near, &far}));
 }
 
-// Who touches the island's own comes before who touches a neighbour, however near the latter is.
+// Bodies that touch the island's own come before those that touch a neighbour, at any distance.
 TEST_F(NeighbourSearchTest, CapacityTakesWaveByWave) {
   btRigidBody& first = addAtGap(5e-3);
   addAtGap(5e-3 + 2.0 * kHalf);
@@ -122,7 +122,7 @@ TEST_F(NeighbourSearchTest, EqualGapsComeInTheHostsOrder) {
   EXPECT_EQ(findOnce(), added);
 }
 
-// The order depends on neither addresses nor the broadphase's history.
+// The order depends neither on addresses nor on the broadphase's history.
 TEST_F(NeighbourSearchTest, OrderIsTheSameForEqualWorlds) {
   const auto findIndices = [](bool with_history) {
     BulletRig world;

@@ -17,7 +17,7 @@ struct Impact {
 };
 class ObstacleImpact : public ::testing::TestWithParam<Impact> {
  protected:
-  /// A wall at x = 0 whose free side is -x, and a cube flying at it from `gap` away.
+  /// A wall at x = 0 whose free side is -x, and a cube that flies at it from distance `gap`.
   void fly(double gap, double restitution) {
     scene.weightless = true;
     btCollisionShape& shape =
@@ -35,8 +35,7 @@ class ObstacleImpact : public ::testing::TestWithParam<Impact> {
   static constexpr double kStep = 1.0 / 4000.0;
 };
 
-// Whatever the phase of the impact in the step: the cube stops at the wall, neither in it nor
-// thrown back.
+// At any phase of the impact in the step the cube stops at the wall, without overlap or rebound.
 TEST_P(ObstacleImpact, StopsAtTheWallWithoutABounce) {
   for (int phase = 0; phase < 10; ++phase) {
     ObstacleScene& s = scene;
@@ -98,12 +97,12 @@ TEST(ObstacleContact, LetsACubeTipWhoseCentreIsBeyondTheEdge) {
   scene.start(Vec3(0.005, 0.02, 0));
   double energy = scene.energy();
   const double start_energy = energy;
-  // About the edge, with no slip: sin(tilt) grows as for a pendulum on its head.
+  // The cube tips about the edge without slip: sin(tilt) grows as for an inverted pendulum.
   scene.run(0.1, 1.0 / 4000.0, Vec3::Zero(), [&] { energy = std::max(energy, scene.energy()); });
   EXPECT_LT(scene.state.q_WB.angularDistance(test::turn(-0.5, {0, 0, 1})), 0.5);
   EXPECT_GT(scene.state.q_WB.angularDistance(Quat::Identity()), 0.2);
   EXPECT_LT(scene.state.w_W.z(), -2.0);
-  // Semi-implicit steps exchange m g v dt / 2 with the fall; v stays below 0.2 m/s.
+  // Semi-implicit steps add m g v dt / 2 of energy to a fall; v stays below 0.2 m/s.
   EXPECT_LT(energy - start_energy, ObstacleScene::kMass * ObstacleScene::kGravity * 0.2 / 8000.0);
   EXPECT_NEAR(scene.state.v_W.z(), 0.0, byWidth(1e-6, 1e-3));
 }
@@ -118,7 +117,7 @@ TEST(ObstacleContact, DropsATiltedCubeWithoutGainOfEnergy) {
     gain = std::max(gain, scene.energy() - energy);
     energy = scene.energy();
   });
-  // In one step a contact's arm is the one at its end: second order in w dt.
+  // In one step a contact's arm is the one at its end: the error is second order in w dt.
   EXPECT_LT(gain, 1e-5);
   EXPECT_LT(scene.state.v_W.norm(), byWidth(1e-6, 1e-4));
   EXPECT_NEAR(scene.position().y(), ObstacleScene::kHalf, 5e-6);
@@ -140,7 +139,7 @@ TEST(ObstacleContact, HoldsACubeOnATriangleMesh) {
   }
   ObstacleScene scene;
   auto& mesh = scene.rig.makeShape<btBvhTriangleMeshShape>(&triangles, true);
-  constexpr double kMargin = 1e-4;  // the skin that Bullet lays around triangles [m]
+  constexpr double kMargin = 1e-4;  // collision margin that Bullet adds around triangles [m]
   mesh.setMargin(static_cast<btScalar>(kMargin));
   scene.addObstacle(mesh, 0.5);
   scene.start(Vec3(0.004, ObstacleScene::kHalf + kMargin + 1e-3, 0.002),
@@ -153,7 +152,7 @@ TEST(ObstacleContact, HoldsACubeOnATriangleMesh) {
   EXPECT_LT(scene.state.v_W.norm(), byWidth(1e-3, 5e-3));
 }
 
-// What a host has let overlap a little stays so; what is deeper comes out slowly, without speed.
+// A small overlap left by the host stays. A deeper one is pushed out slowly, without speed.
 TEST(ObstacleContact, LetsOverlapOutSlowlyAndWithoutSpeed) {
   for (const double overlap : {3e-4, 5e-3}) {
     ObstacleScene scene;

@@ -11,7 +11,7 @@ namespace {
 using test::byWidth;
 using test::ObstacleScene;
 
-constexpr double kFriction = 0.3;  // of the floor; the cube's is 1, and Bullet multiplies
+constexpr double kFriction = 0.3;  // friction of the floor; the cube's is 1, and Bullet multiplies
 constexpr double kHold = kFriction * ObstacleScene::kMass * ObstacleScene::kGravity;  // mu m g [N]
 
 struct Floor {
@@ -33,7 +33,7 @@ class ObstacleFloor : public ::testing::TestWithParam<Floor> {
   }
   [[nodiscard]] double dt() const { return 1.0 / GetParam().inner_rate; }
   [[nodiscard]] static Vec3 along(double angle) { return {std::cos(angle), 0, std::sin(angle)}; }
-  /// Where a float host can put floor and cube at all, they may overlap by so much.
+  /// Rounding of the places at which a float host can put floor and cube.
   [[nodiscard]] static double placement() { return GetParam().far * byWidth(1e-15, 1e-7); }
   ObstacleScene scene;
 };
@@ -46,14 +46,14 @@ TEST_P(ObstacleFloor, HoldsACubeAtRestWithoutCreepOrBounce) {
     lowest = std::min(lowest, scene.position().y() - start.y());
     fastest = std::max(fastest, scene.state.v_W.norm());
   });
-  // A float Bullet resolves the gap to some nanometres at decimetres from its origin, per step as a
-  // velocity.
+  // Decimetres from its origin a float Bullet resolves the gap to some nanometres. Per step this is
+  // a velocity.
   const double resolution = byWidth(1e-10, 1e-7);
   EXPECT_LT(highest, resolution + placement());
   EXPECT_GT(lowest, -resolution - placement());
-  // Sideways it may creep at what the rows are solved to: 1e-9 m/s, in float 1e-7 m/s.
+  // The cube may creep sideways at the residual of the solved rows: 1e-9 m/s, in float 1e-7 m/s.
   EXPECT_LT((scene.position() - start).norm(), byWidth(2e-9, 2e-7) + 2 * placement());
-  // A gap misread by half a unit of a metre-sized coordinate is a speed of that over the step.
+  // A gap error of half a unit of a metre-sized coordinate gives that distance per step as speed.
   EXPECT_LT(fastest, byWidth(1e-8, 1e-6) + (byWidth(0, 5e-8) + placement()) / dt());
   EXPECT_LT(scene.state.q_WB.angularDistance(Quat::Identity()), byWidth(1e-7, 1e-5));
 }
@@ -62,7 +62,7 @@ TEST_P(ObstacleFloor, HoldsByStictionBelowTheLimit) {
   for (const double angle : {0.0, 0.3, M_PI / 4}) {
     const Vec3 start = scene.position();
     scene.run(0.5, dt(), 0.98 * kHold * along(angle));
-    // The first steps of a new direction settle; then it may creep as above.
+    // The first steps of a new direction settle; then the cube may creep as above.
     EXPECT_LT((scene.position() - start).norm(), byWidth(1e-7, 1e-6) + 2 * placement())
         << "angle " << angle;
   }
@@ -91,8 +91,8 @@ TEST_P(ObstacleFloor, BrakesASlidingCubeToRest) {
   const Vec3 start = scene.position();
   scene.run(0.3, dt());
   EXPECT_LT(scene.state.v_W.norm(), byWidth(1e-7, 1e-5) + (byWidth(0, 5e-8) + placement()) / dt());
-  // The last step's speed is taken off within the step: mu g dt^2 at most per step; two per cent
-  // cover it.
+  // The last step stops within itself. The error is at most mu g dt^2 per step; two per cent cover
+  // it.
   EXPECT_NEAR((scene.position() - start).norm(), stopping, 0.02 * stopping + speed * dt());
 }
 

@@ -17,8 +17,8 @@ void* countingAllocate(std::size_t size, int alignment) {
 }
 void countingFree(void* memory) { std::free(memory); }
 
-/// Bullet's allocator counts from here on. Bullet frees with the functions set at that time, so
-/// objects made before must not be freed while this lives; it stays for the rest of the process.
+/// Counts Bullet's allocations from here on, for the rest of the process. Bullet frees with the
+/// functions set at that time. Objects made earlier must not be freed while this lives.
 void countBulletAllocations() {
   static const bool once = [] {
     btAlignedAllocSetCustomAligned(countingAllocate, countingFree);
@@ -27,8 +27,7 @@ void countBulletAllocations() {
   static_cast<void>(once);
 }
 
-/// A cube that touches, slides and tips on a floor; how often Bullet allocates after it has settled
-/// once.
+/// Counts Bullet's allocations while a cube touches, slides and tips on a floor, after one warm-up.
 int countWhileSliding(test::ObstacleScene& scene) {
   scene.start(Vec3(0, test::ObstacleScene::kHalf, 0));
   const RigidState start = scene.state;

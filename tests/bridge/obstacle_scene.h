@@ -7,7 +7,7 @@
 
 namespace tandem::test {
 
-/// Whether a body at `at`, with that index and reach, could touch anything.
+/// True if a body at `at`, with that index and reach, could touch any obstacle.
 inline bool isNear(Obstacles& obstacles, BodyIndex body, const RigidState& at, double reach) {
   const auto i = static_cast<std::size_t>(body);
   const std::vector<RigidState> states(8, at);
@@ -19,8 +19,8 @@ inline bool isNear(Obstacles& obstacles, BodyIndex body, const RigidState& at, d
   return near[i] != 0;
 }
 
-/// A 4 cm cube of 0.1 kg with friction 1 among obstacles, alone in an island; obstacles searched
-/// for at 240 Hz.
+/// A 4 cm cube of 0.1 kg with friction 1, alone in an island among obstacles. Obstacles are
+/// searched at 240 Hz.
 class ObstacleScene {
  public:
   static constexpr double kHalf = 0.02;  // [m]
@@ -45,7 +45,7 @@ class ObstacleScene {
                        Vec3(0, -0.5, 0));
   }
 
-  /// Puts the cube there and starts looking for obstacles.
+  /// Puts the cube there and starts the search for obstacles.
   void start(const Vec3& p, const Quat& q = Quat::Identity(), double restitution = 0.0) {
     btRigidBody& cube = rig.addCube(kMass, kHalf, origin_ + p, q);
     cube.setFriction(1);
@@ -80,7 +80,7 @@ class ObstacleScene {
     run(duration, dt, force, [] {});
   }
 
-  /// The cube as the only body of an island, which moves by `dt` in one inner step.
+  /// An island with the cube as its only body, which moves by `dt` in one inner step.
   [[nodiscard]] Island makeIsland(double dt) {
     IslandSettings settings;
     settings.haptic_period = settings.inner_step = dt;

@@ -23,7 +23,7 @@ TEST(ObstacleSearch, KnowsWhatIsNearAndWhatIsNot) {
   EXPECT_TRUE(isNear(scene.obstacles, 0, scene.state, 0.011));
   EXPECT_FALSE(isNear(scene.obstacles, 0, scene.state, 0.009));
   EXPECT_FALSE(isNear(scene.obstacles, 1, scene.state, 1.0)) << "a body it was not told of";
-  // A plane's box is all of space; its surface is not.
+  // A plane's bounding box is all of space, its surface is not.
   EXPECT_FALSE(isNear(scene.obstacles, 0, at(Vec3(0, 1, 0)), 0.5));
 }
 
@@ -32,7 +32,7 @@ TEST(ObstacleSearch, FollowsTheBodyAndForgetsWhatIsFar) {
   scene.addObstacle(scene.rig.makeShape<btSphereShape>(btScalar(0.05)), 0.5, Vec3(1, 0, 0));
   scene.start(Vec3(0, 0, 0));
   const RigidState beside = at(Vec3(1, 0.08, 0));
-  EXPECT_FALSE(isNear(scene.obstacles, 0, beside, 0.05));  // not searched for there yet
+  EXPECT_FALSE(isNear(scene.obstacles, 0, beside, 0.05));  // the search has not covered this place
   scene.obstacles.update({beside}, 0.04);
   EXPECT_TRUE(isNear(scene.obstacles, 0, beside, 0.05));
   scene.obstacles.update({at(Vec3(0, 0, 0))}, 0.04);
@@ -131,7 +131,7 @@ TEST(ObstacleSearch, SurvivesObjectsAndBodiesThatTheHostDeletes) {
   const std::vector<RigidState> states = {at(Vec3(0, 1.02, 0)), at(Vec3(0, 2, 0))};
   obstacles.update(states, 0.04);
   EXPECT_TRUE(isNear(obstacles, 0, states[0], 0.01));
-  // The sanitizer would see any access.
+  // The sanitizer detects any access to the removed body.
   rig.world.removeRigidBody(gone.get());
   gone.reset();
   obstacles.update(states, 0.04);
@@ -153,7 +153,7 @@ TEST(ObstacleSearch, RefusesBodiesThatItCannotHold) {
   EXPECT_THROW(obstacles.addBody(-1, rig.addCube(0.1)), Error);
 }
 
-/// The obstacles near a ball of 1 cm at the origin.
+/// Obstacles near a ball of 1 cm at the origin.
 std::vector<Obstacle> findNearBall(BulletRig& rig, double margin = 0.04) {
   Obstacles obstacles(rig.world);
   obstacles.addSphere(0, 0.01);
@@ -175,7 +175,7 @@ TEST(NearSpheres, GivesShapesWithTheirPoses) {
   const double rounding = byWidth(1e-15, 1e-7);
   EXPECT_EQ(std::get<Sphere>(found[0].shape).radius, 0.25);
   EXPECT_NEAR(found[0].p_WB.y(), 0.28, rounding);
-  // Half extents as Bullet collides them: with margin.
+  // Half extents include the margin, as Bullet collides them.
   EXPECT_LT((std::get<Box>(found[1].shape).half_extents - Vec3(0.25, 0.5, 1)).norm(), rounding);
   EXPECT_LT(found[1].q_WB.angularDistance(turned), byWidth(1e-7, 1e-3));
   EXPECT_EQ(std::get<Capsule>(found[2].shape).radius, 0.125);
@@ -226,7 +226,7 @@ TEST(NearSpheres, LooksAsFarAsTheMarginAndSkipsShapesTheIslandDoesNotKnow) {
   rig.addBody(rig.makeShape<btSphereShape>(btScalar(0.25)), 0,
               Vec3(0, 0.31, 0));  // 5 cm from the ball
   rig.addBody(rig.makeShape<btConeShape>(btScalar(1), btScalar(1)), 0);
-  // An oval.
+  // An elliptic cylinder.
   rig.addBody(rig.makeShape<btCylinderShape>(btVector3(1, 1, 2)), 0);
   EXPECT_TRUE(findNearBall(rig, 0.04).empty());
   EXPECT_EQ(findNearBall(rig, 0.06).size(), 1u);

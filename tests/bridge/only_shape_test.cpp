@@ -1,4 +1,4 @@
-// A compound of one child at its origin, in which some hosts wrap every shape, is that child.
+// Some hosts wrap every shape in a compound of one child at its origin. It counts as that child.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(OnlyShape, IsWhatTheIslandKnowsOfACompound) {
   EXPECT_FALSE(convertShape(two));
 }
 
-/// A box pushed over a floor for half a second, shared, with a neighbour in its way.
+/// Pushes a shared box over a floor for half a second, with a neighbour in its way.
 std::vector<btVector3> runOver(bool is_wrapped) {
   BulletRig rig(Vec3(0, 0, -9.81));
   const auto shapeOf = [&](btCollisionShape& shape) -> btCollisionShape& {
@@ -42,7 +42,7 @@ std::vector<btVector3> runOver(bool is_wrapped) {
   auto& floor = rig.makeShape<btStaticPlaneShape>(btVector3(0, 0, 1), btScalar(0));
   auto& box = rig.makeShape<btBoxShape>(toBullet(Vec3(0.05, 0.05, 0.025)));
   rig.addBody(shapeOf(floor), 0);
-  // A compound's own inertia is that of its bounding box, which has a margin.
+  // A compound's own inertia is that of its bounding box, which includes a margin.
   const auto add = [&](const Vec3& p_W) -> btRigidBody& {
     btRigidBody& body = rig.addBody(shapeOf(box), 0.2, p_W);
     btVector3 inertia;

@@ -29,7 +29,7 @@ void fill(btTriangleMesh& triangles, const std::vector<Vec3>& corners) {
     triangles.addTriangle(toBullet(corners[i]), toBullet(corners[i + 1]), toBullet(corners[i + 2]));
 }
 
-// As Bullet collides it: a hull and its margin around it.
+// A hull is rounded by its margin, as Bullet collides it.
 TEST(ConvertShape, RoundsAHullByItsMargin) {
   BulletRig rig;
   auto& hull = rig.makeShape<btConvexHullShape>();
@@ -83,7 +83,7 @@ TEST(ConvertMesh, TakesMeshesAsTheyAreScaled) {
 
 TEST(ConvertMesh, HeightFieldsAreFreeAbove) {
   constexpr int kPoints = 5;
-  // Bullet reads its own width.
+  // Bullet reads heights in its own width.
   std::vector<btScalar> heights(kPoints * kPoints, 0);
   heights[12] = btScalar(0.5);  // the middle
   for (const int up : {1, 2}) {

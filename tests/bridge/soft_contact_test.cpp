@@ -19,8 +19,8 @@ const CouplerGains kGains{2000.0, 10.0};            // [N/m, N s/m]
 const double kSink = kWeight / kGains.stiffness;    // 0.4905 mm
 const double kSinkTolerance = byWidth(1e-7, 2e-6);  // [m]; float: 0.1 % of a step's fall
 
-/// One host step in which the hand moves. In the pre-tick: earlier, stepSimulation() overwrites the
-/// velocity of what is kinematic.
+/// Steps the host once while the hand moves. The hand moves in the pre-tick: before that,
+/// stepSimulation() overwrites the velocity of kinematic bodies.
 void moveInPreTick(BulletRig& rig, KinematicSphere& hand, const Vec3& end_W) {
   test::Listener listener([&](double dt) { hand.moveTo(end_W, dt); },
                           [&](double) { hand.arrive(); });
@@ -28,7 +28,7 @@ void moveInPreTick(BulletRig& rig, KinematicSphere& hand, const Vec3& end_W) {
   rig.step(kStep);
 }
 
-/// How deep a body comes to rest in a static box whose top is at z = 0.
+/// Depth at which a body rests in a static box whose top is at z = 0.
 struct Rest : ::testing::Test {
   BulletRig rig{Vec3(0, 0, -9.81)};
   btRigidBody& ground = rig.addCube(0.0, 0.5, Vec3(0, 0, -0.5));
@@ -62,7 +62,8 @@ TEST_F(Rest, ContactForceIsTheWeight) {
 TEST_F(Rest, BoxOnFourPointsSinksAsMuchWithItsGainsShared) {
   btRigidBody& box = rig.addCube(kMass, kHalf, Vec3(0, 0, kHalf));
   setSoftContact(box, kGains, 4);
-  EXPECT_NEAR(sinkOf(box, kHalf), kSink, 10 * kSinkTolerance);  // four points share unevenly
+  EXPECT_NEAR(sinkOf(box, kHalf), kSink,
+              10 * kSinkTolerance);  // the four points share the load unevenly
 }
 
 TEST_F(Rest, GainsAreOfEachContactPoint) {
@@ -79,8 +80,8 @@ TEST_F(Rest, TwoCarriersAreInSeries) {
 }
 
 // One step of a kinematic sphere into a heavy body. Implicit Euler's force is K (overlap + v dt) +
-// B v with the speed at the step's end, which the body's giving way lowers. Bullet's own damping of
-// 0.1 N s/m would add 0.05 N.
+// B v, with the speed at the step's end. The body's recoil lowers that speed. Bullet's own damping
+// of 0.1 N s/m would add 0.05 N.
 TEST(SoftContact, PushesByOverlapAndSpeedAndNothingElse) {
   BulletRig rig;
   const double mass = 1e3;  // [kg]
