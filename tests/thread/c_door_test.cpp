@@ -1,4 +1,4 @@
-// The C door from several threads, as its header allows.
+// Calls the C door from several threads, as its header allows.
 
 #include <atomic>
 #include <thread>
@@ -22,8 +22,7 @@ void runHost(int steps, const LinkedSite& site, Work work) {
   }
 }
 
-// Two sites of two worlds, set up, stepped and destroyed in two threads at once, each with its own
-// errors.
+// Two threads set up, step and destroy a site and a world each. Each has its own errors.
 TEST(CDoor, SitesOfTwoThreadsShareNothing) {
   const auto run = [](const double* gravity, std::uint64_t& hash) {
     for (int round = 0; round < 20; ++round) {
@@ -92,12 +91,12 @@ TEST(CDoor, ALoopRunsBesideTheHost) {
     EXPECT_GT(popped, 0u);
     ok(tandem_site_stop_loop(site.site));
     ok(tandem_site_stop_loop(site.site));
-    // It is the caller's again, and may have another loop.
+    // The site belongs to the caller again, and may get another loop.
     const std::uint64_t ticks = site.read().ticks;
     ok(tandem_site_tick(site.site, 100.0, nullptr));
     EXPECT_EQ(site.read().ticks, ticks + 1);
     ok(tandem_site_start_loop(site.site, 0));
-    // Destroying the site ends it.
+    // Destroying the site ends the loop.
   }
   ok(tandem_link_destroy(link));
 }
@@ -115,7 +114,7 @@ TEST(CDoor, ASimulatedLinkIsNotForLoops) {
   ok(tandem_link_destroy(second));
 }
 
-// Two looped sites over sockets: this thread steps both worlds, another polls both meshes.
+// Two looped sites use sockets: this thread steps both worlds, another polls both meshes.
 TEST(CDoor, LoopsMeetOverAMesh) {
   const TwoMeshes meshes;
   ASSERT_TRUE(meshes.pollUntil([&] { return meshes.areBoth(TANDEM_PEER_LIVE); }));

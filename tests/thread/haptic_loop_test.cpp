@@ -14,9 +14,9 @@ namespace {
 using test::LiveSite;
 using test::Wire;
 
-/// As the tests may be run by anybody on a busy machine.
+/// Settings that need no privileges and tolerate a busy machine.
 constexpr HapticLoopSettings kModest{.priority = 0, .locks_memory = false, .begin = {}};
-/// Of the force, as the watched device asks for: 2 N in a tick, and rounding.
+/// Limits of the force: 2 N per tick, 8 N in all, plus rounding.
 constexpr double kMostStep = 2.0 + 1e-9, kMostForce = 8.0 + 1e-9;
 
 void expectSafe(const test::WatchedDevice& device) {
@@ -26,7 +26,7 @@ void expectSafe(const test::WatchedDevice& device) {
   EXPECT_EQ(device.last_W, Vec3(Vec3::Zero())) << "the hand was let go with a force on it";
 }
 
-/// How far the cube in Bullet is from where it is in the island [m].
+/// Distance between the cube in Bullet and in the island [m].
 double distanceToBullet(const LiveSite& live) {
   return (live.site->object(0).p_W - fromBullet(live.cube->getCenterOfMassPosition())).norm();
 }
@@ -49,7 +49,7 @@ TEST(HapticLoop, TwoSitesPushACubeAmongBoxesWhileTheirHostsStep) {
     EXPECT_GT(live->site->counters().packets_taken, 0u);
     EXPECT_TRUE(isFinite(live->site->object(0)));
   }
-  // Both have the cube pushed away from where it stood, to about the same place.
+  // Both cubes were pushed away from their start, to about the same place.
   EXPECT_GT(one.site->object(0).p_W.y(), 0.005);
   EXPECT_NEAR(one.site->object(0).p_W.y(), two.site->object(0).p_W.y(), 0.03);
 }
@@ -59,14 +59,14 @@ TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
   HapticLoop loop(*live.site, kModest);
   live.host(1.0);
   loop.stop();
-  // One more step of the host, without the thread: now nothing moves in between.
+  // The host makes one more step without the thread, so nothing moves in between.
   live.rig.world.stepSimulation(static_cast<btScalar>(LiveSite::kHostPeriod), 0);
   // The host is at most a step and a half behind, at less than 0.3 m/s.
   EXPECT_LT(distanceToBullet(live), 0.3 * 1.5 * LiveSite::kHostPeriod + 1e-3);
 }
 
 TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFeltAndPutsNothingWhereItNeverWas) {
-  LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);  // no boxes: the cube keeps moving
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);  // no boxes, so the cube keeps moving
   HapticLoop loop(*live.site, kModest);
   live.host(0.5);
   std::this_thread::sleep_for(std::chrono::seconds(2));
@@ -93,7 +93,7 @@ TEST(HapticLoop, AHostTwiceAsFastAsTimeGetsWhatIsNow) {
   loop.stop();
   expectSafe(live.watched);
   EXPECT_EQ(live.site->status(), kTickOk);
-  // At less than 0.3 m/s, a step behind and the last tick ahead.
+  // The host is a step behind and the last tick ahead, at less than 0.3 m/s.
   EXPECT_LT(distanceToBullet(live), 0.01);
 }
 
@@ -105,7 +105,8 @@ TEST(HapticLoop, AHostHalfAsFastAsTimeIsSetOn) {
   expectSafe(live.watched);
   EXPECT_EQ(live.site->status(), kTickOk);
   EXPECT_GT(live.site->counters().host_clock_set, 0u);
-  // It falls behind by a second in two, and is set on once a second of its own.
+  // The host falls behind by one second in two. Its clock is set forward once per second of the
+  // host.
   EXPECT_LT(distanceToBullet(live), 0.3 * 2.0);
 }
 
@@ -134,7 +135,7 @@ TEST(HapticLoop, SkipsTicksWhoseTimeHasPassedAndMovesOverThem) {
   const LoopReport report = loop.report();
   EXPECT_GT(report.skipped, 0u);
   EXPECT_GT(report.longest_gap, 4e-3);
-  // Each tick that was left out has been moved over, but for those in gaps above 0.1 s.
+  // Bodies are advanced over each skipped tick, except in gaps above 0.1 s.
   EXPECT_GT(live.site->counters().ticks_made_up, 0u);
   EXPECT_LE(live.site->counters().ticks_made_up, report.skipped);
   EXPECT_EQ(live.site->tickCount(), report.ticks);
@@ -147,7 +148,7 @@ TEST(HapticLoop, WhoIsLateAgainAndAgainMakesUpForNothing) {
   HapticLoop loop(*live.site, kModest);
   live.host(1.0);
   loop.stop();
-  // The first gap alone, and others after a tick that happened to be in time.
+  // Only the first gap is made up, and gaps after a tick that happened to be in time.
   EXPECT_GT(loop.report().skipped, 100u);
   EXPECT_LT(live.site->counters().ticks_made_up, loop.report().skipped / 4);
   expectSafe(live.watched);

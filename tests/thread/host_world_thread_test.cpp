@@ -1,4 +1,4 @@
-// Threads that share nothing of ours must not meet in what the library keeps behind their backs.
+// Threads that share none of our objects must not meet in hidden state of the library.
 
 #include <cstddef>
 #include <functional>

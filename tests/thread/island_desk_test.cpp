@@ -35,11 +35,11 @@ TEST(IslandDesk, WorkIsDoneByTheThreadThatServes) {
 TEST(IslandDesk, ManyAskersAreServedOneByOneWhileTheDeskOpensAndCloses) {
   constexpr int kAskers = 4, kOrders = 2000;
   IslandDesk desk;
-  long island = 0;  // not atomic: whoever works has it alone
+  long island = 0;  // not atomic: one thread at a time has it
   std::atomic<bool> stops{false};
   std::thread server([&] {
     while (!stops) {
-      // Closed, the island is the askers'; they are kept apart by the desk as well.
+      // While the desk is closed the askers do the work; the desk serialises these too.
       desk.open();
       for (int i = 0; i < 100; ++i) {
         desk.serve();

@@ -71,7 +71,7 @@ TEST(LinkQueue, KeepsOrderBetweenTwoThreads) {
     queue.exchange(wire, 1.0, 2.0);
   };
   while (sent < kPackets) put();
-  // What found no room is lost; the end must not be.
+  // Items may be lost when the queue is full; the last one must not be.
   for (std::uint64_t before = queue.lost();; before = queue.lost()) {
     put();
     if (queue.lost() == before) break;

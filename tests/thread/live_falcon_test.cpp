@@ -1,6 +1,6 @@
-// From bytes to newtons, live: an emulated Falcon behind a pseudo terminal, its driver's thread, a
-// haptic thread and a host's. A hand leans against a wall of the host's world while things go
-// wrong; what the hand felt is told by the emulated device.
+// The live path from bytes to newtons. An emulated Falcon sits behind a pseudo terminal, with a
+// driver thread, a haptic thread and a host thread. A hand leans against a wall of the host's world
+// while faults occur. The emulated device reports the force that the hand felt.
 
 #include <atomic>
 #include <chrono>
@@ -26,11 +26,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kLean = 3.0;  ///< of the hand against the wall [N]
-/// What is asked, and what a grip that moves on while a command is on its way makes of it.
+constexpr double kLean = 3.0;  ///< push of the hand against the wall [N]
+/// Limits of the felt force. The margin covers a grip that moves while a command is on its way.
 constexpr double kMostForce = 8.0 * 1.06, kMostChange = 2.0 * 1.1;
 constexpr double kRamp = 0.1;    ///< [s]
-constexpr auto kPatience = 20s;  ///< of a busy machine
+constexpr auto kPatience = 20s;  ///< longest wait on a busy machine
 
 FalconEmulatorSettings makeEmulated() {
   FalconEmulatorSettings settings;
@@ -42,15 +42,15 @@ FalconEmulatorSettings makeEmulated() {
 
 FalconSettings makePatient() {
   FalconSettings settings;
-  settings.reply_time = 0.3;  // so that a busy machine is no fault of the device's
+  settings.reply_time = 0.3;  // a busy machine must not count as a device fault
   settings.quiet_time = 0.3;
   settings.force.ramp_in = kRamp;
-  settings.thread_priority = 81;  // where it is granted
+  settings.thread_priority = 81;  // used if the system grants it
   settings.firmware_time = 1.0;
   return settings;
 }
 
-/// Passes everything on, and hangs where it is told to.
+/// Passes all calls on, and hangs on request.
 class HangingDevice final : public HapticDevice {
  public:
   explicit HangingDevice(HapticDevice& device) : device_(device) {}
@@ -90,7 +90,7 @@ class LiveFalcon : public ::testing::Test {
       }
     });
     EXPECT_TRUE(waitUntil([&] { return lean() > 0.8 * kLean; })) << "the wall was not felt";
-    std::this_thread::sleep_for(500ms);  // until the impact has died away
+    std::this_thread::sleep_for(500ms);  // until the impact has decayed
   }
 
   ~LiveFalcon() override {
@@ -113,7 +113,7 @@ class LiveFalcon : public ::testing::Test {
     return holds();
   }
 
-  /// What the device pushes back with [N].
+  /// Force of the device against the hand [N].
   double lean() {
     double force = 0.0;
     port.visit([&](FalconEmulator& emulator, double) { force = -emulator.plant().force().y(); });
@@ -153,7 +153,7 @@ TEST_F(LiveFalcon, AHostThatRestsForTwoSecondsIsNotFelt) {
 
 TEST_F(LiveFalcon, ACableThatIsPulledAndPluggedInAgain) {
   port.unplug();
-  EXPECT_TRUE(isForceGone());  // by the emulated device's own watchdog: nobody else can
+  EXPECT_TRUE(isForceGone());  // only the emulated device's own watchdog can do this
   port.plugIn();
   EXPECT_TRUE(isForceBack());
 }

@@ -17,7 +17,7 @@
 
 namespace tandem::test {
 
-/// A device that remembers how the force on it went. Its read() may dawdle.
+/// A device that records the force written to it. Its read() may be slow.
 class WatchedDevice final : public HapticDevice {
  public:
   explicit WatchedDevice(HapticDevice& device) : device_(device), limits_(device.capabilities()) {
@@ -42,7 +42,7 @@ class WatchedDevice final : public HapticDevice {
 
   std::atomic<bool> is_unplugged{false};
   int dawdles_every = 0;
-  // For the haptic thread, or when there is none.
+  // For the haptic thread, or for any thread when there is none.
   Vec3 last_W = Vec3::Zero();
   double largest = 0.0, largest_step = 0.0;
   bool is_finite = true;
@@ -53,7 +53,7 @@ class WatchedDevice final : public HapticDevice {
   int reads_ = 0;
 };
 
-/// A hand that pushes a cube on a floor into boxes, in a host's world.
+/// In a host's world, a hand pushes a cube on a floor into boxes.
 struct LiveSite {
   static constexpr double kHostPeriod = 1.0 / 60.0;
 
@@ -83,7 +83,7 @@ struct LiveSite {
     return settings;
   }
 
-  /// The host, in this thread: `seconds` of its steps, in real time or `speed` times as fast.
+  /// Runs the host in this thread for `seconds`, in real time or `speed` times as fast.
   void host(double seconds, double speed = 1.0) {
     auto next = std::chrono::steady_clock::now();
     for (int step = 0; step < static_cast<int>(seconds / kHostPeriod); ++step) {
@@ -102,7 +102,7 @@ struct LiveSite {
   std::unique_ptr<Site> site;
 };
 
-/// The thread that would have the sockets of two sites.
+/// Thread that takes the place of two sites' sockets.
 class Wire {
  public:
   Wire(LinkQueue& a, LinkQueue& b)

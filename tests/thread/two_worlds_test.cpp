@@ -1,4 +1,4 @@
-// Several worlds in several threads, a site each: none knows of the others.
+// Several worlds in several threads with a site each: none affects another.
 
 #include <array>
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace {
 using test::AnyHost;
 using test::WorldKind;
 
-/// A hand presses a cube into a row of boxes on a floor, `rounds` times from the start, each time
-/// with a site of its own.
+/// A hand presses a cube into a row of boxes on a floor. Repeats this `rounds` times from the
+/// start, each time with a new site.
 std::uint64_t simulate(double speed, int rounds) {
   test::BitHash hash;
   for (int round = 0; round < rounds; ++round) {
