@@ -10,41 +10,40 @@ namespace tandem {
 /// Index of a body in its island, in the order in which bodies were added.
 using BodyIndex = int;
 
-/// In place of a body: what stands and is no body of the island.
+/// Stands in for a body index: a fixed surface that is not a body of the island.
 inline constexpr BodyIndex kStanding = -1;
 
-/// A point at which two rigid bodies, or a body and something standing, touch or are about to.
+/// A point at which a rigid body touches another body or a fixed surface, or is about to.
 struct RigidContact {
   BodyIndex a = 0;
   BodyIndex b = kStanding;
-  Vec3 p_W = Vec3::Zero();        ///< where they touch
+  Vec3 p_W = Vec3::Zero();        ///< point of contact [m]
   Vec3 n_W = Vec3::UnitX();       ///< unit vector from b to a
-  Vec3 v_W = Vec3::Zero();        ///< velocity of a standing surface itself, a belt [m/s]
+  Vec3 v_W = Vec3::Zero();        ///< velocity of a fixed surface itself, such as a belt [m/s]
   double distance = 0.0;          ///< along n [m]; negative: they overlap
-  double friction = 0.0;          ///< Coulomb's coefficient of the pair
-  double restitution = 0.0;       ///< of the pair
-  double min_bounce_speed = 0.0;  ///< restitution acts from this approach speed on [m/s]
+  double friction = 0.0;          ///< Coulomb's friction coefficient of the pair
+  double restitution = 0.0;       ///< restitution coefficient of the pair
+  double min_bounce_speed = 0.0;  ///< restitution acts above this approach speed [m/s]
 };
 
-/// Who finds rigid contacts of the island's bodies, among themselves and with what stands around.
+/// Finds rigid contacts between bodies of the island, and with fixed surfaces.
 ///
-/// The island moves bodies and solves their contacts; shapes and the search for contact are
-/// somebody else's: `bullet_bridge` searches with Bullet's narrowphase on private copies. All
-/// functions run in the tick: no throw, no allocation after warm-up.
+/// The island moves bodies and solves their contacts; others own the shapes and the search.
+/// `bullet_bridge` searches with Bullet's narrowphase on private copies. All functions run in the
+/// tick: no throw, no allocation after warm-up.
 class ContactFinder {
  public:
   virtual ~ContactFinder() = default;
 
-  /// Once per tick, before its inner steps: remembers the pairs that could touch while body b moves
-  /// no further than `reach[b]` [m] from `states[b]`, and sets `near[b]` for each body of them.
-  /// Bodies of negative reach are not there. A pair of which no body has `awake[b]` set is left
-  /// out; a body that an awake one could touch is set awake.
+  /// Called once per tick, before its inner steps. Remembers the pairs that could touch while body
+  /// b moves at most `reach[b]` [m] from `states[b]`, and sets `near[b]` for their bodies. Bodies
+  /// with negative reach are ignored. Pairs without an awake body are skipped; a body that an awake
+  /// one could touch is set awake.
   virtual void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
                           std::vector<char>& awake, std::vector<char>& near) noexcept = 0;
 
-  /// Adds the contacts of those pairs at the given poses; pair by pair in an order that does not
-  /// change until the next lookAround(), as many as `contacts` has capacity for. Contacts at a
-  /// distance may be left out.
+  /// Adds the contacts of those pairs at the given poses, up to the capacity of `contacts`. The
+  /// order of pairs is fixed until the next lookAround(). Contacts at a distance may be missing.
   virtual void find(const std::vector<RigidState>& states,
                     std::vector<RigidContact>& contacts) noexcept = 0;
 };

@@ -58,7 +58,7 @@ struct Island::Impl {
   IslandCatchUp catch_up;
   bool prepared = false;
   bool asleep = false;
-  std::uint64_t obstacles_hash = 0;  ///< when it fell asleep
+  std::uint64_t obstacles_hash = 0;  ///< hash when the island fell asleep
 
   void disturb(BodyIndex body) noexcept {
     asleep = false;
@@ -66,7 +66,7 @@ struct Island::Impl {
     model.wake(body);
   }
 
-  /// A body's gains, damping or contacts have changed: it and whom it touches move on.
+  /// Wakes a body and its contact partners after its gains, damping or contacts changed.
   void refit(BodyIndex body, bool is_damping) noexcept {
     disturb(body);
     if (slot) slot->refit(model);
@@ -88,18 +88,18 @@ struct Island::Impl {
     obstacles_hash = computeHash(model.obstacles);
   }
 
-  /// Those at rest are left out if nothing is near.
+  /// Puts single bodies at rest to sleep if nothing is near.
   void letSomeSleep() noexcept {
     for (const BodyIndex b : model.present) {
       const ModelBody& body = model.bodies[b];
       if (!body.isDynamic() || body.is_slot || body.settings.feels_obstacles) continue;
       if (!spatial->isAtRest(b)) continue;
-      // No contact is counted, as letSleep() wants none near.
+      // Contact forces are left out: letSleep() refuses if a contact is near.
       if (spatial->isResting(b) || isSettled(model, b, addUp(b, {}))) spatial->letSleep(model, b);
     }
   }
 
-  /// All that acts on a body, given what contacts do.
+  /// Sum of all forces on a body; the caller passes those of contacts.
   [[nodiscard]] Wrench addUp(BodyIndex body, Wrench sum) const noexcept {
     const ModelBody& b = model.bodies[body];
     sum.f_W += b.f_external_W - b.damping() * b.state.v_W;
@@ -113,7 +113,7 @@ struct Island::Impl {
     return sum;
   }
 
-  /// Contact wrenches of the free island at this instant, into `wrenches`.
+  /// Contact wrenches of a free island at this instant, written to `wrenches`.
   void computeContactWrenches() noexcept {
     if (!model.is_listed) model.listPresent();
     for (const BodyIndex b : model.present) {
@@ -309,13 +309,13 @@ void Island::clear(BodyIndex slot) noexcept {
   cleared.is_active = false;
   impl_->model.bodies[slot] = cleared;
   wake();
-  // A body that was added since: prepare() comes, and looks at all.
+  // After an added body, prepare() comes next and rebuilds everything.
   if (impl_->prepared) impl_->spatial->refill(impl_->model, slot);
 }
 
 void Island::setObstacles(const std::vector<Obstacle>& obstacles) noexcept {
   impl_->model.obstacles = &obstacles;
-  // The vector may be the same with other contents.
+  // The same vector may have new contents.
   if (impl_->asleep && computeHash(&obstacles) != impl_->obstacles_hash) wake();
 }
 

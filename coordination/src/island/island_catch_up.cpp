@@ -9,7 +9,7 @@
 namespace tandem {
 namespace {
 
-/// Velocities that lead from one pose to another.
+/// Constant velocities that lead from one pose to another in `duration` [s].
 Aside computeSteady(const RigidState& from, const RigidState& to, double duration) noexcept {
   const Vec3 turn_W = computeTurn(from.q_WB.coeffs().data(), to.q_WB.coeffs().data()).toVec3();
   return {Vec3::Zero(), (to.p_W - from.p_W) / duration, turn_W / duration};
@@ -46,7 +46,7 @@ void IslandCatchUp::run(IslandModel& model, SpatialMotion& motion, IslandCounter
   motion.takeBack(model, slots);
 }
 
-/// What is past already: others' couplers and the touches among them.
+/// Removes couplers and smooth contacts: their effect on the other bodies is in the known path.
 void IslandCatchUp::setAside(IslandModel& model, const std::vector<BodyIndex>& slots) noexcept {
   slots_.assign(slots.begin(), slots.end());
   couplers_.clear();
@@ -67,7 +67,7 @@ void IslandCatchUp::swapPast(IslandModel& model) noexcept {
   model.is_listed = false;
 }
 
-/// Another body takes part with its mass, but with no force of its own on it.
+/// Another body takes part with its mass and steady velocity, but without its own forces.
 void IslandCatchUp::sendAlong(IslandModel& model, BodyIndex b, const Aside& steady,
                               const RigidState& from, const Aside& aside) noexcept {
   ModelBody& body = model.bodies[b];
@@ -75,7 +75,7 @@ void IslandCatchUp::sendAlong(IslandModel& model, BodyIndex b, const Aside& stea
   body.settings.damping = body.settings.angular_damping = body.extra_damping = 0.0;
   body.f_external_W.setZero();
   body.t_external_W.setZero();
-  // Round, so that it turns steadily.
+  // Equal moments of inertia keep its rotation steady.
   body.settings.inertia_B.setConstant(body.settings.inertia_B.mean());
   body.inverse_inertia_B.setConstant(body.inverse_inertia_B.mean());
   body.state = {from.p_W + aside.offset_W, from.q_WB, steady.v_W + aside.v_W,

@@ -8,9 +8,9 @@
 
 namespace tandem {
 
-/// Moves some bodies of an island on by themselves, through a time that the others have behind
-/// them; see Island::catchUp(). The others take part with their mass and their known way, so that
-/// whom the newcomers touch gets the momentum, but nothing pulls at them a second time.
+/// Moves some bodies of an island through a time that the others have behind them; see
+/// Island::catchUp(). The others take part with their mass and known path. They receive momentum
+/// from the newcomers they touch, but no force acts on them twice.
 class IslandCatchUp {
  public:
   /// May allocate.

@@ -7,7 +7,7 @@
 namespace tandem {
 namespace {
 
-/// Squares of the longest arms about the axes that a point of the surface may have [m^2].
+/// Squares of the longest lever arms of surface points about the axes [m^2].
 Vec3 computeArms(const Shape& shape, double bounding_radius) noexcept {
   if (const auto* box = std::get_if<Box>(&shape)) {
     const Vec3 h = box->half_extents.cwiseAbs2();

@@ -6,29 +6,29 @@
 #include "island/island.h"
 
 /// \file
-/// What the island's laws of motion work on. Private to coordination.
+/// Data shared by the island's laws of motion. Private to coordination.
 namespace tandem {
 
-/// A body with what is derived from its settings, its state now, and the outside forces on it.
+/// A body with values derived from its settings, its present state and its external forces.
 struct ModelBody {
   IslandBody settings;
   RigidState state;
-  double inverse_mass = 0.0;              ///< 0: not moved by forces
-  Vec3 inverse_inertia_B = Vec3::Zero();  ///< 0: does not rotate
+  double inverse_mass = 0.0;              ///< 0: forces do not move it [1/kg]
+  Vec3 inverse_inertia_B = Vec3::Zero();  ///< 0: does not rotate [1/(kg m^2)]
   double bounding_radius = 0.0;
-  double mobility = 0.0;  ///< how easily a push on the surface moves it there, at the most [1/kg]
+  double mobility = 0.0;  ///< upper bound of velocity per impulse at its surface [1/kg]
   Vec3 f_external_W = Vec3::Zero();
   Vec3 t_external_W = Vec3::Zero();
   bool is_slot = false;
-  bool is_active = true;       ///< false: a slot that is not filled
-  bool is_asleep = false;      ///< at rest, and left out: see Sleepers
-  bool disturbed = true;       ///< something from outside has changed since the last advance
-  bool is_ghost = false;       ///< stands where it is set, and meets nothing
-  double contact_share = 1.0;  ///< of the gains of its contacts
-  double extra_damping = 0.0;  ///< besides its own [N s/m]
+  bool is_active = true;       ///< false: an empty slot
+  bool is_asleep = false;      ///< at rest and left out: see Sleepers
+  bool disturbed = true;       ///< an external value has changed since the last advance
+  bool is_ghost = false;       ///< stays where it is set, and touches nothing
+  double contact_share = 1.0;  ///< share of its contacts' gains
+  double extra_damping = 0.0;  ///< added to its own damping [N s/m]
 
-  /// From checked settings: the body at its start, nothing from outside on it. A guided body does
-  /// not turn.
+  /// Makes a body at its start state without external forces. Expects checked settings. A guided
+  /// body does not rotate.
   [[nodiscard]] static ModelBody make(const IslandBody& settings, bool is_guided) noexcept;
 
   [[nodiscard]] bool isDynamic() const {
@@ -46,18 +46,18 @@ struct ModelBody {
 
 struct ModelCoupler {
   BodyIndex follower = 0;
-  CouplerSettings settings;  ///< as it was added
+  CouplerSettings settings;  ///< gains as added
   RigidState target;
   double share = 1.0;
-  CouplerSettings now = settings;  ///< the gains times the share
+  CouplerSettings now = settings;  ///< gains times the share
 };
 
 [[nodiscard]] inline CouplerGains computeShare(const CouplerGains& gains, double share) noexcept {
   return {share * gains.stiffness, share * gains.damping};
 }
 
-/// The island as it was built, and who of it takes part now. What is done at each tick goes over
-/// those who are present, and over nobody else.
+/// The island as built, and lists of the bodies that take part now. Work of each tick loops over
+/// present bodies only.
 struct IslandModel {
   IslandSettings settings;
   std::vector<ModelBody> bodies;
@@ -67,18 +67,18 @@ struct IslandModel {
   const std::vector<Obstacle>* obstacles = nullptr;
   ContactFinder* finder = nullptr;
 
-  std::vector<BodyIndex> present;               ///< active and awake, in order
-  std::vector<IslandContact> present_contacts;  ///< between two of them
-  std::vector<int> present_couplers;            ///< on one of them
+  std::vector<BodyIndex> present;               ///< active and awake bodies, in order
+  std::vector<IslandContact> present_contacts;  ///< contacts between two present bodies
+  std::vector<int> present_couplers;            ///< couplers of present bodies
   int asleep_count = 0;
-  bool is_listed = false;  ///< these lists are right
+  bool is_listed = false;  ///< the lists are up to date
 
-  /// Of the gains of a contact between two bodies, and of one's with what stands.
+  /// Share of the gains of a contact of two bodies.
   [[nodiscard]] double contactShare(BodyIndex a, BodyIndex b) const noexcept {
     return bodies[a].contact_share * bodies[b].contact_share;
   }
 
-  /// Room for all, so that listPresent() never allocates.
+  /// Reserves enough room that listPresent() never allocates.
   void reserveLists();
   void listPresent() noexcept;
   void wake(BodyIndex body) noexcept {
@@ -93,17 +93,17 @@ struct Wrench {
   Vec3 t_W = Vec3::Zero();
 };
 
-/// Linear and angular force of a coupler on its follower.
+/// Force and torque of a coupler on its follower.
 [[nodiscard]] Wrench computeCouplerWrench(const ModelCoupler& coupler,
                                           const RigidState& follower) noexcept;
 
 /// Torque of a body's angular damping, in W [N m].
 [[nodiscard]] Vec3 computeAngularDamping(const IslandBody& body, const RigidState& state) noexcept;
 
-/// Moves a pose on by its own velocities.
+/// Moves a pose along its own velocities for `dt` [s].
 void goOn(RigidState& state, double dt) noexcept;
 
-/// Where a prescribed or held body is `dt` later.
+/// State of a prescribed or held body after `dt` [s].
 [[nodiscard]] RigidState extrapolate(const ModelBody& body, double dt) noexcept;
 
 }  // namespace tandem

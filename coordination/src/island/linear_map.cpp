@@ -20,8 +20,7 @@ LinearMap::LinearMap(double period, const Eigen::VectorXd& mass, const Eigen::Ma
   generator.block(n, 2 * n, n, n) = inverse_mass;
   generator.block(2 * n, 3 * n, n, n).setIdentity();
 
-  // Gershgorin's bound on the eigenvalues of M^-1/2 S M^-1/2, which are the undamped frequencies
-  // squared.
+  // Gershgorin's bound on the eigenvalues of M^-1/2 S M^-1/2, the squared undamped frequencies.
   const Eigen::MatrixXd scale = mass.cwiseInverse().cwiseSqrt().asDiagonal();
   max_frequency_ = std::sqrt((scale * stiffness * scale).cwiseAbs().rowwise().sum().maxCoeff());
 
@@ -36,8 +35,8 @@ LinearMap::LinearMap(double period, const Eigen::VectorXd& mass, const Eigen::Ma
 
 namespace {
 
-/// Product of a 2n x 4n matrix, row by row, with (state, u, w). With `n` known to the compiler the
-/// loops unroll.
+/// Product of a 2n x 4n matrix, row by row, with (state, u, w). The loops unroll when the compiler
+/// knows `n`.
 inline void multiply(int n, const double* row, const double* state, const double* u,
                      const double* w, double* next) noexcept {
   for (int i = 0; i < 2 * n; ++i, row += 4 * n) {

@@ -6,9 +6,9 @@
 namespace tandem {
 namespace {
 
-/// Terms of the series: below 1e-18 of the first for the parts that it is used for.
+/// Terms of the series; the last is below 1e-18 of the first for the part lengths in use.
 constexpr int kTerms = 18;
-/// Parts of a step at the most.
+/// Most parts of a step.
 constexpr double kMostParts = 16384.0;
 
 }  // namespace
@@ -45,7 +45,7 @@ void LinearSeries::tie(std::size_t i, std::size_t j, double stiffness, double da
 
 void LinearSeries::step(double h, const double* state, const double* u, const double* w,
                         double* next) noexcept {
-  // Parts so short that the series falls from its first term on.
+  // The parts are so short that the terms fall from the first on.
   double decay = 0.0, square = 0.0;
   for (std::size_t i = 0; i < size_; ++i) {
     double row_decay = 0.0, row_square = 0.0;
@@ -66,7 +66,7 @@ void LinearSeries::step(double h, const double* state, const double* u, const do
 ///
 ///   d_(k+2) = M^-1 [ h^2 (U_k - S d_k) / ((k+1)(k+2)) - h C d_(k+1) / (k+2) ]
 ///
-/// where U_0 and U_1 are the forces and what they grow by.
+/// U_0 is the force and U_1 its increase over the part.
 void LinearSeries::takePart(double h, double t, const double* u, const double* w,
                             double* state) noexcept {
   for (std::size_t i = 0; i < size_; ++i) {

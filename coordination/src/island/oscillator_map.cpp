@@ -3,17 +3,18 @@
 namespace tandem {
 namespace {
 
-/// Terms of the series: below 1e-18 of the first for the step it is used for.
+/// Terms of the series; the last is below 1e-18 of the first for the step length in use.
 constexpr int kTerms = 16;
 
-/// Halvings at the most: enough for any gain that a double can hold within reason.
+/// Most halvings; enough for any sensible gain.
 constexpr int kMaxHalvings = 200;
 
 }  // namespace
 
 OscillatorMap computeOscillatorMap(double stiffness, double damping, double h) noexcept {
-  // S is the way from rest after a unit push: S'' + c S' + k S = 0, S(0) = 0, S'(0) = 1. Its power
-  // series for a step short against the fastest motion, then doubled up to h.
+  // S is the displacement from rest after a unit impulse: S'' + c S' + k S = 0, S(0) = 0, S'(0)
+  // = 1. Its series covers a step that is short against the fastest motion; doubling extends it to
+  // h.
   int halvings = 0;
   while ((damping * h > 0.5 || stiffness * h * h > 0.25) && halvings < kMaxHalvings)
     h *= 0.5, ++halvings;
@@ -36,7 +37,7 @@ OscillatorMap computeOscillatorMap(double stiffness, double damping, double h) n
   for (; halvings > 0; --halvings) {
     const double S = map.velocity_to_way, J = map.acceleration_to_way;
     const double R = map.velocity_to_velocity;
-    const double stays = 1.0 - stiffness * J;  // what is left of x after the step
+    const double stays = 1.0 - stiffness * J;  // share of x left after the step
     map.velocity_to_way = S * (stays + R);
     map.acceleration_to_way = J * (1.0 + stays) + S * S;
     map.velocity_to_velocity = R * R - stiffness * S * S;

@@ -5,7 +5,7 @@
 namespace tandem {
 namespace {
 
-/// Overlap of a pair when first seen: below, it is rounding; what is beyond is moved out [m].
+/// Bounds of a new pair's allowed overlap [m]: less is rounding, more is moved out.
 constexpr double kLeast = 1e-6, kMost = 5e-4;
 constexpr double kFar = 1.0;  // [m]
 

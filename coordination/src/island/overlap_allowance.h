@@ -7,19 +7,20 @@
 
 namespace tandem {
 
-/// Overlap that pairs may keep: what they had when they were first seen - the host's - and less
-/// from then on. Pushed out it would gain energy, and move what rested.
+/// Overlap that pairs of bodies may keep. It starts as the overlap at the first sight, which the
+/// host left, and only shrinks. Pushing it out would add energy and move bodies at rest.
 ///
-/// A step: begin(), look() at each contact, end(), then overlapOf() each.
+/// Each step calls begin(), look() at each contact and end(), then overlapOf() as needed.
 class OverlapAllowance {
  public:
   explicit OverlapAllowance(std::size_t capacity) { pairs_.reserve(capacity); }
 
   void begin() noexcept;
-  /// A contact's distance at the end of the step's smooth motion, and as it was at its start [m].
+  /// Notes a contact; it has its distance after the smooth motion, `at_start` that at the start
+  /// [m].
   void look(const RigidContact& contact, double at_start) noexcept;
   void end() noexcept;
-  /// At most 0 [m].
+  /// The overlap that the contact may keep, <= 0 [m].
   [[nodiscard]] double overlapOf(const RigidContact& contact) const noexcept;
   void forget() noexcept { pairs_.clear(); }
 
@@ -28,12 +29,12 @@ class OverlapAllowance {
     BodyIndex a, b;
     bool is_new, seen;
     double overlap;  ///< <= 0
-    double least;    ///< of this step
+    double least;    ///< least distance in this step [m]
   };
   [[nodiscard]] const Pair* find(const RigidContact& contact) const noexcept;
 
   std::vector<Pair> pairs_;
-  /// Contacts come pair by pair: where the last one was found.
+  /// Index of the last pair found; contacts come pair by pair.
   mutable std::size_t hint_ = 0;
 };
 

@@ -6,22 +6,22 @@
 namespace tandem {
 namespace {
 
-// A body at rest goes no farther than kToGo, far below what a hand or a picture shows.
+// A body at rest moves at most kToGo further, far below what a hand or a picture shows.
 constexpr double kSlow = 1e-9;    // [m/s, rad/s]
 constexpr double kSteady = 1e-6;  // [m/s^2, rad/s^2]
-constexpr double kToGo = 5e-13;   // left of the way to rest [m]
+constexpr double kToGo = 5e-13;   // distance left to the rest position [m]
 
-// A body that nothing pulls back must not drift for hours: rounding only.
+// A body without a spring must not drift for hours: it may move only by rounding.
 constexpr double kStill = 1e-15;          // [m/s, rad/s]
 constexpr double kUnaccelerated = 1e-14;  // [m/s^2, rad/s^2]
 
-/// Translation or turning of a body.
+/// One translational or rotational degree of freedom of a body.
 struct Freedom {
   double inertia, stiffness, damping, force, speed;
 };
 
-/// How far the body may still go, at the most; infinite if nothing ties it and it does not stand
-/// still.
+/// Upper bound of the distance that the body may still move; infinite for a body without a spring
+/// that does not stand still.
 double computeWayLeft(const Freedom& m) noexcept {
   if (m.stiffness > 0.0)
     return (m.force + m.damping * m.speed) / m.stiffness +
@@ -39,7 +39,7 @@ class Hash {
     value_ = (value_ ^ bits) * 0x100000001b3u;
   }
   void add(Axis axis) noexcept { add(static_cast<double>(axis)); }
-  /// Of what is shared and never changes: another is elsewhere.
+  /// The address identifies shared data, which never changes.
   void add(const void* address) noexcept {
     value_ = (value_ ^ reinterpret_cast<std::uintptr_t>(address)) * 0x100000001b3u;
   }

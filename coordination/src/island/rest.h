@@ -5,22 +5,22 @@
 #include "island/island_model.h"
 
 /// \file
-/// When an island may sleep: nothing in it moves, and nothing would. As a sleeping body stays where
-/// it is, what it would still have gone must not matter either.
+/// Conditions for an island to sleep: nothing in it moves or would start to. A sleeping body stays
+/// in place, so the distance left to its rest position must be negligible too.
 namespace tandem {
 
-/// True if the body was slower than 1e-9 m/s and 1e-9 rad/s at the end of `dt` [s], and changed
-/// that by less than 1e-6 m/s^2 and rad/s^2. A prescribed body must stand still; one that is held
-/// and an empty slot always rest.
+/// True if the body ended `dt` [s] slower than 1e-9 m/s and 1e-9 rad/s. It must also accelerate by
+/// less than 1e-6 m/s^2 and rad/s^2. A prescribed body must stand still; held bodies and empty
+/// slots are always at rest.
 [[nodiscard]] bool seemsAtRest(const ModelBody& before, const RigidState& after,
                                double dt) noexcept;
 
-/// True if the body would stay: on couplers it has less than 5e-13 m to go to its rest; one that
-/// nothing ties stands still to rounding. `wrench` is all that acts on it now.
+/// True if the body would stay in place. On couplers it is within 5e-13 m of its rest position;
+/// without a coupler it stands still to rounding. `wrench` is the sum of all forces on it.
 [[nodiscard]] bool isSettled(const IslandModel& model, BodyIndex body,
                              const Wrench& wrench) noexcept;
 
-/// Equal for obstacles of equal shape in equal places; null is none.
+/// Hash of the shapes and poses of obstacles; null counts as none.
 [[nodiscard]] std::uint64_t computeHash(const std::vector<Obstacle>* obstacles) noexcept;
 
 }  // namespace tandem

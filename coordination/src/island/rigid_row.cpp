@@ -3,9 +3,9 @@
 namespace tandem {
 namespace {
 
-/// Two directions across n and each other.
+/// Makes two unit vectors orthogonal to n and to each other.
 void makeTangents(const PlainVec& n, PlainVec& s, PlainVec& t) noexcept {
-  // The axis of W that leans most across n makes the first.
+  // The world axis most orthogonal to n gives the first.
   const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
   const PlainVec axis = x <= y && x <= z ? PlainVec(1, 0, 0)
                         : y <= z         ? PlainVec(0, 1, 0)
@@ -53,7 +53,7 @@ void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& a
   normal_to_t_ = mobility(2, 0);
   const double ss = mobility(1, 1), st = mobility(1, 2), tt = mobility(2, 2);
   const double determinant = ss * tt - st * st;
-  // A body that can neither slide nor turn has no mobility, and needs no friction.
+  // A body that can neither slide nor rotate needs no friction.
   if (determinant > 1e-12 * (ss * ss + tt * tt)) {
     stick_ss_ = tt / determinant;
     stick_st_ = -st / determinant;

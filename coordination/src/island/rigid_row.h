@@ -8,11 +8,12 @@
 
 namespace tandem {
 
-/// A body while its contacts are solved. What stands has no mass to move.
+/// Velocity and inertia of a body while its contacts are solved. A fixed surface has inverse mass
+/// 0.
 struct RigidMover {
   PlainVec v, w;            ///< [m/s], [rad/s], in W
-  PlainVec shift, turn;     ///< of the pose, by impulses of this step [m], [rad]
-  PlainVec v_last, w_last;  ///< when the solver looked last
+  PlainVec shift, turn;     ///< change of pose by this step's impulses [m], [rad]
+  PlainVec v_last, w_last;  ///< velocities at the last measurement
   double inverse_mass = 0.0, radius_squared = 0.0;
   PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
   bool ready = false;                        ///< set up for this step
@@ -29,16 +30,16 @@ struct RigidMover {
   }
 };
 
-/// Normal and two tangents of a contact point: what an impulse along each does to both bodies. All
-/// impulses and velocities are along these three.
+/// Normal and two tangents of a contact point, with the effect of an impulse along each on both
+/// bodies. All impulses and velocities are along these three directions.
 class RigidRow {
  public:
-  /// `n_W` from b to a; arms from the centres of mass; `surface_W` is the velocity of a standing
-  /// surface itself. b stands if it is not ready.
+  /// `n_W` points from b to a; arms start at the centres of mass. `surface_W` is the velocity of a
+  /// fixed surface itself. b is fixed if it is not ready.
   void setUp(RigidMover& a, RigidMover& b, const PlainVec& arm_a, const PlainVec& arm_b,
              const PlainVec& n_W, const PlainVec& surface_W) noexcept;
 
-  /// False if nothing can move it.
+  /// False if no impulse can move the point.
   [[nodiscard]] bool canMove() const noexcept { return inverse_normal > 0.0; }
 
   struct Local {
@@ -61,7 +62,7 @@ class RigidRow {
     return of_a - dot(axis.direction, b->v) - dot(axis.arm_b, b->w);
   }
 
-  /// One relaxation: normal velocity to `wanted`, then no slip, within Coulomb's cone.
+  /// One relaxation: sets the normal velocity to `wanted`, then removes slip within Coulomb's cone.
   void solve() noexcept {
     const double normal_before = impulse.n;
     impulse.n = std::max(0.0, normal_before + (wanted - velocityAlong(0)) * inverse_normal);
@@ -73,7 +74,7 @@ class RigidRow {
       double s = impulse.s - (stick_ss_ * us + stick_st_ * ut);
       double t = impulse.t - (stick_st_ * us + stick_tt_ * ut);
       if (s * s + t * t > limit * limit) {
-        // Sliding: along the slip, whatever the mobility in other directions is.
+        // Sliding: friction acts along the slip, whatever the mobility in other directions.
         s = impulse.s - slide_ * us;
         t = impulse.t - slide_ * ut;
         const double size_squared = s * s + t * t;
@@ -91,7 +92,7 @@ class RigidRow {
     apply(change);
   }
 
-  /// Gives both bodies an impulse.
+  /// Applies an impulse to both bodies.
   void apply(const Local& change) noexcept {
     const PlainVec linear = toWorld(change);
     a->v = a->v + a->inverse_mass * linear;
@@ -103,7 +104,7 @@ class RigidRow {
            (change.n * axis_[0].turn_b + change.s * axis_[1].turn_b + change.t * axis_[2].turn_b);
   }
 
-  /// Shifts both bodies by an impulse times a time [N s^2].
+  /// Shifts the poses of both bodies by an impulse times a time [N s^2].
   void shift(const Local& by) noexcept {
     const PlainVec linear = toWorld(by);
     a->shift = a->shift + a->inverse_mass * linear;
@@ -113,27 +114,27 @@ class RigidRow {
     b->turn = b->turn - (by.n * axis_[0].turn_b + by.s * axis_[1].turn_b + by.t * axis_[2].turn_b);
   }
 
-  /// By how much the shifts have opened the contact [m].
+  /// Distance by which the shifts have opened the contact [m].
   [[nodiscard]] double normalShift() const noexcept {
     const Axis& n = axis_[0];
     return dot(n.direction, a->shift - b->shift) + dot(n.arm_a, a->turn) - dot(n.arm_b, b->turn);
   }
 
   RigidMover *a = nullptr, *b = nullptr;
-  Local impulse;                ///< in all, of this step [N s]
-  double wanted = 0.0;          ///< normal velocity, at least [m/s]
+  Local impulse;                ///< total of this step [N s]
+  double wanted = 0.0;          ///< least normal velocity [m/s]
   double friction = 0.0;        ///< Coulomb's coefficient
-  double inverse_normal = 0.0;  ///< impulse by normal velocity [kg]
+  double inverse_normal = 0.0;  ///< impulse per normal velocity [kg]
 
  private:
   struct Axis {
     PlainVec direction;
     PlainVec arm_a, arm_b;    ///< arm x direction
-    PlainVec turn_a, turn_b;  ///< angular velocity by an impulse
-    double surface = 0.0;     ///< velocity of what stands [m/s]
+    PlainVec turn_a, turn_b;  ///< angular velocity per impulse
+    double surface = 0.0;     ///< velocity of a fixed surface [m/s]
   };
 
-  /// Velocity along i by an impulse along j.
+  /// Velocity along i per impulse along j.
   [[nodiscard]] double mobility(int i, int j) const noexcept {
     const double of_a = (i == j ? a->inverse_mass : 0.0) + dot(axis_[i].arm_a, axis_[j].turn_a);
     if (!b_moves_) return of_a;
@@ -144,7 +145,7 @@ class RigidRow {
   double normal_to_s_ = 0.0, normal_to_t_ = 0.0;
   double stick_ss_ = 0.0, stick_st_ = 0.0, stick_tt_ = 0.0;
   double slide_ = 0.0;
-  bool b_moves_ = false;  ///< is no standing object
+  bool b_moves_ = false;  ///< b is not a fixed surface
 };
 
 }  // namespace tandem

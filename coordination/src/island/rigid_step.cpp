@@ -7,26 +7,25 @@
 namespace tandem {
 namespace {
 
-/// A sweep that changes no velocity by more than a tenth of the first sweep's change is the
-/// last, within these bounds [m/s]. What is left is mended in the next step, from where this one
-/// ended.
+/// Bounds of a sweep's tolerance [m/s]. Sweeps end when no velocity changes by more than a tenth of
+/// the first sweep's change. The next step corrects the rest, starting from this one's result.
 constexpr double kLeastTolerance = 1e-9, kMostTolerance = 1e-7;
-/// After so many relaxations of points this much is enough [m/s]: a row of bodies never agrees to
-/// the last, and small groups may take their time.
+/// After this many relaxations the impatient tolerance is enough [m/s]: a row of bodies never
+/// converges fully. Small groups may take more sweeps.
 constexpr std::size_t kPatientRelaxations = 400;
 constexpr double kImpatientTolerance = 1e-6;
 constexpr int kMaxSweeps = 30;
-/// Overlap that is left alone, and a gap that counts as none [m]: corners of a face that are apart
-/// by rounding would ask for velocities that a rigid body cannot have together.
+/// Overlap that is tolerated, and gap that counts as contact [m]. Corners of a face that differ by
+/// rounding would otherwise demand velocities that a rigid body cannot have together.
 constexpr double kSlop = 1e-9;
-/// Overlap moves out at most as fast as this [m/s].
+/// Highest speed at which overlap is moved out [m/s].
 constexpr double kMaxShiftSpeed = 0.25;
 constexpr int kMaxShiftSweeps = 8;
-/// A point is the one known from the last step if it is as near as this [m].
+/// A point nearer than this to one of the last step is the same point [m].
 constexpr double kSamePoint = 1e-3;
-/// Impulses that change a velocity by no more than this were foreseen [m/s].
+/// Impulses that change a velocity by at most this count as predicted [m/s].
 constexpr double kForeseen = 5e-4;
-/// Bodies that approach faster than this at the start of a step have an impact in it [m/s].
+/// A point that opens or closes faster than this at the start of a step has an impact in it [m/s].
 constexpr double kImpactSpeed = 1e-4;
 
 }  // namespace
@@ -108,7 +107,7 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
       points_.pop_back();
       continue;
     }
-    // Whoever approaches at the start of the step has an impact in it.
+    // A point that is closing at the start of the step has an impact in it.
     const double opening = contact.n_W.dot(velocityBefore(contact.a, arm_a) -
                                            velocityBefore(contact.b, arm_b) - contact.v_W);
     point.lasts = std::abs(opening) < kImpactSpeed;
@@ -122,14 +121,14 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
   }
 }
 
-/// Which normal velocity the point may have after the step, and when its impulse acts.
+/// Chooses the wanted normal velocity of a point, and the time at which its impulse acts.
 void RigidStep::aim(double h, Point& point) noexcept {
   const double u = point.row.normalVelocity();
   point.distance = point.contact.distance - allowance_.overlapOf(point.contact);
   point.gamma = 0.5;
   if (point.distance > kSlop) {
-    // Open at the end of the smooth motion: others may close it, and no more. Overlap at the start
-    // of the step, which held forces have opened, asks for no velocity.
+    // The point is open after the smooth motion. Other impulses may close it but no more. An
+    // overlap at the start that held forces have opened asks for no velocity.
     point.row.wanted = std::min(0.0, u - point.distance / (point.gamma * h));
     return;
   }
@@ -139,7 +138,7 @@ void RigidStep::aim(double h, Point& point) noexcept {
 }
 
 void RigidStep::startFromKnown(const States& after, double h) noexcept {
-  // Contacts come in much the same order as last time: go on where the last one was found.
+  // Contacts keep much the same order, so the search starts after the last match.
   std::size_t next = 0;
   for (Point& point : points_) {
     for (std::size_t i = 0; i < known_.size(); ++i) {
@@ -155,7 +154,7 @@ void RigidStep::startFromKnown(const States& after, double h) noexcept {
       break;
     }
   }
-  // A contact that is gone has pushed for nothing.
+  // The held force of a contact that disappeared is taken back.
   for (const Known& known : known_) {
     if (known.taken) continue;
     takeBack(known.a, after, known, -h * known.f_W, h);
@@ -175,8 +174,8 @@ void RigidStep::takeBack(BodyIndex body, const States& after, const Known& known
   mover.turn = mover.turn + (0.5 * h) * dw;
 }
 
-/// Who does not touch has nothing to tell each other: one group may settle, and rest, while another
-/// is shaken.
+/// Splits the points into groups of touching bodies. One group may converge and rest while another
+/// moves.
 void RigidStep::groupPoints() noexcept {
   for (std::size_t b = 0; b < group_of_.size(); ++b) group_of_[b] = static_cast<int>(b);
   for (const Point& point : points_) {
@@ -207,8 +206,8 @@ void RigidStep::groupPoints() noexcept {
   }
   rows_.resize(row);
   members_.resize(member);
-  // First point of each pair, then the second, ...: neighbours in the list share no body, so that
-  // the processor works on several at once.
+  // First the first point of each pair, then the second, and so on. Neighbours in the list share no
+  // body, so the processor works on several at once.
   for (std::size_t left = points_.size(), round = 0; left > 0; ++round) {
     std::size_t in_pair = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -229,7 +228,7 @@ void RigidStep::groupPoints() noexcept {
   }
 }
 
-/// The lowest body of a's group.
+/// The lowest body of the group of `body`.
 int RigidStep::findGroup(BodyIndex body) noexcept {
   int group = group_of_[body];
   while (group_of_[group] != group) group = group_of_[group];
@@ -252,7 +251,7 @@ void RigidStep::solve(const Group& group) noexcept {
   const auto last = first + static_cast<std::ptrdiff_t>(group.row_count);
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     relaxation_count_ += group.row_count;
-    // There and back: what one end of a row learns reaches the other in one sweep.
+    // Alternate the direction, so that a change at one end of a row reaches the other in one sweep.
     if (sweep % 2 == 0) {
       for (auto row = first; row != last; ++row) (*row)->solve();
     } else {
@@ -264,8 +263,8 @@ void RigidStep::solve(const Group& group) noexcept {
   }
 }
 
-/// By how much bodies move otherwise than when asked last [m/s]. Points may go on sharing a load
-/// in another way - four corners can in many - without that.
+/// Largest change of a body's velocity since the last call [m/s]. Points may still share a load
+/// differently without it: four corners can do so in many ways.
 double RigidStep::measureChange(const Group& group) noexcept {
   double change = 0.0;
   for (std::size_t i = 0; i < group.member_count; ++i) {
@@ -323,7 +322,7 @@ void RigidStep::writeBack(States& after) noexcept {
   }
 }
 
-/// Contacts that last gave what they were held by, and none of those held is gone.
+/// True if every lasting contact kept its predicted impulse and none disappeared.
 bool RigidStep::wasForeseen() const noexcept {
   for (const Known& known : known_)
     if (!known.taken) return false;

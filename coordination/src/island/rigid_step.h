@@ -10,41 +10,41 @@
 
 namespace tandem {
 
-/// Keeps rigid bodies out of each other over one inner step: sequential impulses with Coulomb
-/// friction at the contacts found at the end of the step's smooth motion.
+/// Keeps rigid bodies apart over one inner step. It applies sequential impulses with Coulomb
+/// friction at the contacts found after the step's smooth motion.
 ///
-/// What a contact gave in one step acts as a force in the smooth motion of the next, and only the
-/// change is solved for: a cube pressed against a wall stands still also for the damper that
-/// presses it. The change P acts at the moment at which the contact closes, a share gamma of the
-/// step h before its end:
+/// A contact's impulse in one step acts as a force in the smooth motion of the next; only the
+/// change is solved. A cube pressed against a wall thus stands still also for the damper that
+/// presses it. The change P acts when the contact closes, a share gamma of the step h before its
+/// end:
 ///
 ///   gamma = d / (h u)     d: distance, u: normal velocity, both at the end of the smooth motion
 ///   v += P / m,   p += gamma h P / m
 ///
-/// For an impact gamma h is the time since the moment itself; in a contact that lasts gamma is 1/2,
-/// as for any change of a force. So a body at rest under a steady force neither sinks nor creeps
-/// nor bounces. Overlap that rounding leaves is moved out of positions only, at a limited speed;
-/// see OverlapAllowance for the host's.
+/// For an impact, gamma h is the time since the impact. In a lasting contact gamma is 1/2, as for
+/// any change of a force. A body at rest under a steady force thus neither sinks nor creeps nor
+/// bounces. Overlap from rounding is moved out of positions only, at a limited speed.
+/// OverlapAllowance handles the host's overlap.
 class RigidStep {
  public:
   /// Allocates.
   RigidStep(std::size_t body_count, std::size_t contact_capacity);
 
-  /// Start of a step: what contacts gave in the last one, as forces on the bodies.
+  /// Starts a step: turns the contact impulses of the last step into forces on the bodies.
   void holdForces(const States& before) noexcept;
-  /// The forces held during this step, by body, in W.
+  /// Forces held during this step, by body, in W.
   [[nodiscard]] const std::vector<Wrench>& heldForces() const noexcept { return held_; }
 
-  /// Corrects `after`, where smooth motion under the held forces leads in `h` [s] from `before`.
-  /// Returns false if the held forces were far from what the step came out with: done again from
-  /// `before`, it is held by what was learnt, and better. Real-time safe.
+  /// Corrects `after`, the result of smooth motion under the held forces from `before` over `h`
+  /// [s]. Returns false if the held forces were far from the solution. Repeating the step from
+  /// `before` then holds the new forces and is more accurate. Real-time safe.
   bool correct(const IslandModel& model, ContactFinder& finder, const States& before, double h,
                States& after) noexcept;
 
-  /// The next step does not follow the last one.
+  /// Forgets the last step: the next one does not follow it.
   void forget() noexcept;
 
-  /// Contact points solved so far, and how often each was relaxed, in all.
+  /// Number of contact points solved so far, and of their relaxations.
   [[nodiscard]] std::uint64_t points() const noexcept { return point_count_; }
   [[nodiscard]] std::uint64_t relaxations() const noexcept { return relaxation_count_; }
 
@@ -53,20 +53,20 @@ class RigidStep {
     RigidContact contact;
     RigidRow row;
     double gamma = 0.5;
-    double distance = 0.0;      ///< above the overlap that the pair may keep
-    double aim_distance = 0.0;  ///< to which overlap moves out in this step
-    double shift = 0.0;         ///< impulse times time, out of overlap
-    bool lasts = false;         ///< no impact: the next step's impulse will be much the same
-    RigidRow::Local held;       ///< impulse which the smooth motion has had
+    double distance = 0.0;      ///< distance above the overlap that the pair may keep [m]
+    double aim_distance = 0.0;  ///< distance to which overlap moves out in this step [m]
+    double shift = 0.0;         ///< impulse times time that moves out of overlap [N s^2]
+    bool lasts = false;         ///< no impact: the next step's impulse will be similar
+    RigidRow::Local held;       ///< impulse already applied in the smooth motion
   };
-  /// What a point leaves to its successor in the next step.
+  /// Data of a point kept for the next step.
   struct Known {
     BodyIndex a, b;
     Vec3 p_W, f_W;
     bool taken;
   };
 
-  /// Bodies that touch each other, and the points between them.
+  /// A set of touching bodies, and the points between them.
   struct Group {
     std::size_t first_row = 0, row_count = 0, first_member = 0, member_count = 0;
   };
@@ -96,9 +96,9 @@ class RigidStep {
   std::vector<RigidContact> contacts_;
   std::vector<Point> points_;
   std::vector<Group> groups_;
-  std::vector<int> group_of_;          ///< by body: another of its group, or itself
-  std::vector<std::size_t> place_of_;  ///< by body that stands for a group: its place in groups_
-  std::vector<RigidRow*> rows_;        ///< group by group
+  std::vector<int> group_of_;          ///< by body: another body of its group, or itself
+  std::vector<std::size_t> place_of_;  ///< by lowest body of a group: index in groups_
+  std::vector<RigidRow*> rows_;        ///< rows, group by group
   std::vector<BodyIndex> members_;     ///< bodies, group by group
   std::vector<Known> known_;
   std::vector<Wrench> held_;  ///< by body

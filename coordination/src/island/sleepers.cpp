@@ -6,11 +6,11 @@
 namespace tandem {
 namespace {
 
-/// A sleeper is woken while a sphere is still this far away, so that the sphere need not look at
+/// A sleeper wakes while a sphere is still this far away, so that the sphere need not search at
 /// every tick [m].
 constexpr double kRoom = 1e-3;
 
-/// Distance between the surfaces of a sphere and another body [m], or less.
+/// Lower bound of the distance between a sphere and another body [m]; exact within `of_interest`.
 double computeGap(const IslandModel& model, const States& states, BodyIndex sphere, BodyIndex other,
                   double of_interest) noexcept {
   const double way = (states[sphere].p_W - states[other].p_W).norm();

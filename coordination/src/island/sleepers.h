@@ -6,15 +6,15 @@
 
 namespace tandem {
 
-/// Bodies of an island that are at rest with nothing near them: left out of everything until
-/// something comes. They cost nothing, however many they are.
+/// Bodies of an island at rest with nothing near. They are skipped until something comes, and cost
+/// nothing, however many there are.
 ///
 ///   a call changes one             -> Island wakes it
-///   a sphere comes near            -> wakeNear(): each sphere knows how far it may go before it
-///                                     must look again
-///   something rigid comes near     -> the ContactFinder's lookAround(), as for all that rests
+///   a sphere comes near            -> wakeNear(): each sphere knows how far it may move before it
+///                                     must search again
+///   a rigid body comes near        -> the ContactFinder's lookAround(), as for all bodies at rest
 ///
-/// Spheres that touch others and bodies in slots never sleep alone: they are few.
+/// Spheres with contacts and bodies in slots never sleep alone: there are few of them.
 class Sleepers {
  public:
   /// Allocates.
@@ -24,18 +24,18 @@ class Sleepers {
   void letSleep(IslandModel& model, const States& states, const std::vector<double>& allowance,
                 BodyIndex body) noexcept;
 
-  /// Wakes those that a sphere may reach if no part of a body goes farther than its allowance [m];
-  /// true if there were any.
+  /// Wakes the bodies that a sphere may reach while no body moves farther than its allowance [m].
+  /// True if there were any.
   bool wakeNear(IslandModel& model, const States& states,
                 const std::vector<double>& allowance) noexcept;
 
  private:
-  /// A sphere, and what it might touch.
+  /// A sphere and the bodies it might touch.
   struct Watcher {
     BodyIndex sphere;
     std::vector<BodyIndex> partners;
-    Vec3 p_W = Vec3::Zero();  ///< where it looked last
-    double free_way = 0.0;    ///< from there, without meeting a sleeper [m]
+    Vec3 p_W = Vec3::Zero();  ///< position at the last search
+    double free_way = 0.0;    ///< distance from there without a sleeper [m]
   };
   void look(IslandModel& model, const States& states, double reach, Watcher& watcher) noexcept;
 

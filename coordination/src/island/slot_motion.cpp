@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-/// How far a body at its start reaches along a direction of W, for the clearance at set-up [m].
+/// Extent of a body at its start along a direction of W, for the clearance at set-up [m].
 double computeExtent(const IslandBody& body, const Vec3& direction_W) {
   if (std::holds_alternative<Plane>(body.shape))
     throw std::invalid_argument(
@@ -16,12 +16,12 @@ double computeExtent(const IslandBody& body, const Vec3& direction_W) {
   return computeReach(body.shape, body.start.q_WB.conjugate() * direction_W);
 }
 
-/// Gaps below this at set-up are rounding of the scene's placement: "just in contact" is exactly
-/// zero.
+/// Smaller gaps at set-up are rounding: bodies placed "just in contact" have a gap of exactly zero
+/// [m].
 constexpr double kPlacementRounding = 1e-12;
 
-/// A touch that is made and broken within a step is looked for in steps down to so many levels
-/// below the coarsest: in 1/128 rad of the fastest oscillation it gives nothing.
+/// Levels below the coarsest down to which a touch made and broken within a step is searched. In
+/// 1/128 rad of the fastest oscillation such a touch transfers nothing.
 constexpr int kLevelsOfHiddenTouch = 6;
 
 }  // namespace
@@ -29,7 +29,7 @@ constexpr int kLevelsOfHiddenTouch = 6;
 SlotMotion::SlotMotion(const IslandModel& model)
     : axis_(*model.settings.guide), period_(model.settings.haptic_period) {
   for (const ModelBody& body : model.bodies) {
-    // A ghost may come back.
+    // A ghost may become dynamic again.
     const bool moves = body.settings.motion == Motion::kDynamic;
     freedom_.push_back(moves ? static_cast<int>(movers_.size()) : -1);
     if (moves) movers_.push_back(static_cast<BodyIndex>(origins_.size()));
@@ -39,7 +39,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
   const auto place = [&](BodyIndex b) { return axis_.dot(origins_[b]); };
   for (const IslandContact& pair : model.contacts) {
     const double sphere = place(pair.sphere), other = place(pair.other);
-    // Bodies keep their order in the slot: a pair with a third body between it never meets.
+    // Bodies keep their order along the guide: a pair with a third body between never meets.
     const auto is_between = [&](BodyIndex b) {
       const double p = place(b);
       return b != pair.sphere && b != pair.other &&
@@ -66,7 +66,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
                                 " contacts, at most " + std::to_string(kMaxContacts) +
                                 " are possible; leave the guide off or share fewer objects");
 
-  // One map per mode: springs and dampers of all couplers, and of the contacts that push.
+  // One map per mode: springs and dampers of all couplers and of the contacts that push.
   const auto n = static_cast<Eigen::Index>(movers_.size());
   Eigen::VectorXd mass(n);
   Eigen::MatrixXd base_damping = Eigen::MatrixXd::Zero(n, n), base_stiffness = base_damping;
@@ -100,7 +100,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
     maps_.emplace_back(period_, mass, damping, stiffness);
     max_frequency = std::max(max_frequency, maps_.back().maxFrequency());
   }
-  // A contact needs about half an oscillation to be made and broken; look several times in each.
+  // A contact lasts about half an oscillation; check several times in each.
   while (coarsest_level_ < 16 && std::ldexp(period_, -coarsest_level_) * max_frequency > 0.5)
     ++coarsest_level_;
 
@@ -248,8 +248,7 @@ void SlotMotion::computeInputs(const IslandModel& model, unsigned mode) noexcept
     if (!(mode >> c & 1u)) continue;
     const Contact& contact = contacts_[c];
     const double offset = contact.side * contact.gains.stiffness * contact.clearance;
-    // The part of the push that the degrees of freedom do not carry: clearance, and a driven
-    // partner.
+    // Input part of the push: the clearance, and a partner without a degree of freedom.
     const auto drive = [&](BodyIndex pushed, BodyIndex partner, double sign) {
       const int i = freedom_[pushed];
       if (i < 0) return;
@@ -264,15 +263,15 @@ void SlotMotion::computeInputs(const IslandModel& model, unsigned mode) noexcept
   }
 }
 
-/// A contact made and broken between two states a step `h` apart, or the other way round: its
-/// overlap turns in between, on the other side. Its way is the cubic that fits both ends.
+/// True if a contact is made and broken (or the reverse) between two states a step `h` apart. Its
+/// overlap then has an extremum on the other side. The overlap is the cubic that fits both ends.
 bool SlotMotion::hidesTouch(unsigned mode, double h) const noexcept {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const double side = (mode >> c & 1u) != 0 ? -1.0 : 1.0;
     const Overlap from = overlapAhead(contacts_[c], state_.data(), 0.0);
     const Overlap to = overlapAhead(contacts_[c], next_.data(), h);
     if (!(side * from.rate > 0.0 && side * to.rate < 0.0)) continue;
-    // Where a straight line between the rates is zero.
+    // Time at which the linearly interpolated rate is zero.
     const double s = from.rate / (from.rate - to.rate), t = 1.0 - s;
     const double top = t * t * ((1.0 + 2.0 * s) * from.depth + s * h * from.rate) +
                        s * s * ((1.0 + 2.0 * t) * to.depth - t * h * to.rate);
@@ -302,13 +301,12 @@ SlotMotion::Step SlotMotion::tryStep(unsigned& mode, int level, bool may_change)
 
 void SlotMotion::advanceMovers(const IslandModel& model, double dt) noexcept {
   constexpr int kFinest = LinearMap::kLevels - 1;
-  // Contacts that chatter are not followed for ever: after this many events a step may hide one.
+  // Chattering contacts are not followed forever: after this many events a step may hide one.
   int events_left = 64;
   enum class Search {
     kNone,        // no event in sight
-    kDescending,  // one is in the next T/2^(level-1): half steps up to it
-    kCrossing,    // it is so near that the finest step leaves the state as it is, by rounding:
-                  // growing steps over it
+    kDescending,  // an event is in the next T/2^(level-1): half steps up to it
+    kCrossing,    // the event is within rounding of the state: growing steps across it
   } search = Search::kNone;
   int level = coarsest_level_;
 

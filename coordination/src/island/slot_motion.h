@@ -8,28 +8,28 @@
 
 namespace tandem {
 
-/// Motion of a guided island: everything on one line, linear between events, therefore exact.
+/// Motion of a guided island: everything is on one line and linear between events, therefore exact.
 ///
-/// Coordinates are displacements along the guide from where bodies were at set-up. A contact's side
-/// is fixed there, too: bodies in a slot keep their order. Which contacts push is the island's
-/// mode; one LinearMap per mode. A step that changes the mode is descended into by halves until the
-/// event stands within T/2^31. While some share is below 1, a body is a ghost or has extra damping,
-/// a LinearSeries takes the place of the maps.
+/// Coordinates are displacements along the guide from the positions at set-up. A contact's side is
+/// fixed at set-up, because bodies keep their order. The set of contacts that push is the island's
+/// mode; each mode has one LinearMap. A step that changes the mode is halved until the event is
+/// located within T/2^31. While a share is below 1, or a body is a ghost or has extra damping, a
+/// LinearSeries replaces the maps.
 class SlotMotion {
  public:
-  /// More contacts than this make too many modes (2^n maps).
+  /// Most contacts of a guided island; n contacts make 2^n maps.
   static constexpr int kMaxContacts = 4;
 
   /// Allocates. Throws std::invalid_argument beyond kMaxContacts.
   explicit SlotMotion(const IslandModel& model);
 
-  /// Looks again at shares, ghosts and extra damping. Real-time safe.
+  /// Updates for changed shares, ghosts and extra damping. Real-time safe.
   void refit(const IslandModel& model) noexcept;
 
   /// Real-time safe.
   void advance(IslandModel& model, double dt) noexcept;
 
-  /// How deep a body is in what it could touch, ghosts apart [m]; 0 or less: in nothing.
+  /// Deepest overlap of a body with its contact partners except ghosts [m]; <= 0 if none.
   [[nodiscard]] double computeOverlap(const IslandModel& model, BodyIndex body) const noexcept;
 
   /// Contact force on a body along the guide at this instant [N].
@@ -38,7 +38,7 @@ class SlotMotion {
  private:
   struct Contact {
     BodyIndex sphere, other;
-    CouplerGains gains;    ///< times the share
+    CouplerGains gains;    ///< gains times the share
     double side = 1.0;     ///< +1: the sphere pushes `other` along +guide
     double clearance = 0;  ///< gap at zero displacements [m]
     CouplerGains full_gains;
@@ -46,7 +46,7 @@ class SlotMotion {
   struct Overlap {
     double depth, rate;
   };
-  /// What came of trying a step; all but the first left the state as it was.
+  /// Result of trying a step; all but the first leave the state unchanged.
   enum class Step { kTaken, kCrossesEvent, kHidesTouch };
 
   [[nodiscard]] double displacement(const ModelBody& body, BodyIndex index) const noexcept;
@@ -69,9 +69,9 @@ class SlotMotion {
   std::vector<BodyIndex> movers_;  ///< per degree of freedom: its body
   std::vector<Contact> contacts_;
   std::vector<LinearMap> maps_;  ///< per mode
-  LinearSeries series_;          ///< in place of them
-  bool is_altered_ = false;      ///< something is not as it was built
-  int coarsest_level_ = 0;  ///< steps never longer than T/2^this: no contact made and broken unseen
+  LinearSeries series_;          ///< replaces the maps while is_altered_
+  bool is_altered_ = false;      ///< a share, ghost or extra damping is in effect
+  int coarsest_level_ = 0;       ///< steps are at most T/2^level, so no contact is missed
 
   // Working memory of a step.
   std::vector<double> state_, next_, u_, w_;

@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-// Values of a mover in the state vector.
+// Numbers of values of a mover in the state vector.
 constexpr int kWay = 6, kWayAndTurn = SmoothForces::kMaxSize;
 
 }  // namespace
@@ -62,8 +62,8 @@ void SmoothForces::addMover(const IslandModel& model, BodyIndex b, bool is_alone
   size_ += mover.turns ? kWayAndTurn : kWay;
 }
 
-/// A damper that stops its body faster than the shortest step can follow (0.3 us at 1 kHz) would
-/// make it explode; a weaker one that stops it in that time differs by nothing anybody can feel.
+/// Limits a damper to the shortest step (0.3 us at 1 kHz), since a faster stop would diverge.
+/// Nobody can feel the difference.
 double SmoothForces::limitDamping(double damping, double mobility) const noexcept {
   const double most = kDecayPerStep * kMostStepsPerPeriod / period_;
   return damping * mobility > most ? most / mobility : damping;
@@ -77,7 +77,7 @@ void SmoothForces::tieCouplers(const IslandModel& model) noexcept {
     Mover& mover = movers_[index];
     const CouplerGains &linear = coupler.now.linear, &angular = coupler.now.angular;
     if (mover.inverse_mass > 0.0) {
-      // Several springs are one, at rest between their targets.
+      // Several springs act as one, at rest between their targets.
       const PlainVec p_target(coupler.target.p_W);
       mover.stiffness += linear.stiffness;
       if (linear.stiffness > 0.0)
@@ -250,8 +250,8 @@ void SmoothForces::push(Contact& contact, Look look) noexcept {
     contact.guard =
         contact.guard_scale > 0.0 ? std::min(overlap, force / contact.guard_scale) : -1.0;
     if (contact.piece >= 0 && contact.face < 0 && (found.aside > 0.0 || look == Look::kAll)) {
-      // Beside what pushes: nothing, however near. Coming over it is an event, so that it is seen
-      // who touches first.
+      // The sphere is beside the pushing region: no force at any gap. Entering the region is an
+      // event, so that the first touch is detected.
       contact.guard = contact.overlap = -found.aside;
       contact.rate = 0.0;
     }
@@ -264,7 +264,7 @@ void SmoothForces::push(Contact& contact, Look look) noexcept {
     contact.entered = leaves_by_face ? found.face : -1;
     if (contact.face >= 0) {
       const double lead = computeAnyFaceLead(c_B, *contact.shape, contact.piece, contact.face);
-      // Going over to another is an event, for a piece of a mesh before it is touched, too.
+      // A change of face is an event; for a piece of a mesh also before it is touched.
       if (contact.pushes)
         contact.guard = std::min(contact.guard, lead);
       else if (contact.piece >= 0)

@@ -3,27 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-// Runge-Kutta 5(4) of Tsitouras (2011, Computers & Mathematics with Applications 62, 770-775):
-// seven stages, the last of which is the first of the next step. The state at its end is of order
-// 5; an embedded one of order 4 gives the error. For an oscillation its error is a sixth of that of
-// Dormand and Prince's at the same cost.
+// Runge-Kutta 5(4) of Tsitouras (2011, Computers & Mathematics with Applications 62, 770-775). It
+// has seven stages; the last is the first of the next step. The result is of order 5, and an
+// embedded one of order 4 gives the error. For an oscillation the error is a sixth of Dormand and
+// Prince's at the same cost.
 
 namespace tandem {
 namespace {
 
-/// Contacts that chatter are not followed for ever: after this many events in one go the rest may
-/// be hidden in steps.
+/// Chattering contacts are not followed forever: after this many events in one advance, steps may
+/// hide the rest.
 constexpr int kMaxEvents = 32;
 
 constexpr double kMaxStepsPerPeriod = SmoothForces::kMostStepsPerPeriod;
 
-/// What hands feel answers in no less time than this [s]. A spring that answers n times as fast
-/// makes n^2 times as much energy of an error in its length, in n times as many steps: there the
-/// tolerance is n^3 times as small.
+/// Response time of the stiffest springs that hands feel [s]. A spring n times faster turns a
+/// length error into n^2 times the energy, in n times as many steps. Its tolerance is n^3 times
+/// smaller.
 constexpr double kAnswerOfHands = 5e-4;
 
-/// An error that does not shrink with the step comes from a kink of the geometry, not from its
-/// length: steps get no shorter than this part of what the gains ask for.
+/// Shortest step as a share of what the gains require. An error that does not shrink with the step
+/// comes from a kink of the geometry.
 constexpr double kShortest = 1.0 / 1024.0;
 
 }  // namespace
@@ -40,9 +40,9 @@ SmoothMotion::SmoothMotion(const IslandModel& model, std::size_t max_touches)
   chooseLimits(model);
 }
 
-/// Largest step that resolves the stiffest contact or coupler: 0.36 rad of the fastest oscillation,
-/// after which an elastic bounce keeps its energy to 1e-6 however small it is against the
-/// tolerance, and 0.8 of the time of the fastest decay.
+/// Largest step that resolves the stiffest contact or coupler. 0.36 rad of the fastest oscillation
+/// keeps the energy of an elastic bounce to 1e-6, however small the bounce. 0.8 time constants of
+/// the fastest decay keep it stable.
 void SmoothMotion::chooseLimits(const IslandModel& model) noexcept {
   double fastest = 0.36 / period_, step = period_;
   const auto limit = [&](double stiffness, double damping, double inverse_mass) {
@@ -72,7 +72,7 @@ void SmoothMotion::chooseLimits(const IslandModel& model) noexcept {
               body.inverse_mass + model.bodies[slot].mobility);
   }
   const double shortest = period_ / kMaxStepsPerPeriod;
-  // A damper answers nothing: what it leaves of a speed goes on.
+  // Dampers do not count: they do not answer an error of velocity.
   answer_ = 0.9 / fastest;
   max_step_ = std::max({std::min(step, 0.36 / fastest), shortest});
   min_step_ = std::max(kShortest * max_step_, shortest);
@@ -96,7 +96,7 @@ void SmoothMotion::advance(States& states, double dt, IslandCounters& counters) 
     double h = takeStep(done, dt - done, counters);
     bool changed = hasChanged();
     if (!changed && events_left > 0) {
-      // A touch made and broken within the step, or the other way round?
+      // Check for a touch made and broken within the step, or the reverse.
       if (const double t = findHiddenTouch(h); t < h) {
         h = t;
         tryStep(done, h);
@@ -132,7 +132,7 @@ double SmoothMotion::takeStep(double from, double rest, IslandCounters& counters
       if (error < allowed_error_ / 64.0) step_ = std::min(std::max(step_, 2.0 * h), max_step_);
       return h;
     }
-    // Not less by rounding: the rest is divided evenly.
+    // The margin allows for rounding: the rest is divided evenly.
     if (h <= min_step_ * (1.0 + 1e-6)) return h;
     ++counters.rejected_steps;
     step_ = std::max(min_step_, (error < 32.0 * allowed_error_ ? 0.5 : 0.25) * h);
@@ -171,14 +171,14 @@ void SmoothMotion::tryStep(double from, double h) noexcept {
 
 double SmoothMotion::estimateError(double h) noexcept {
   const Eigen::Index n = forces_.size();
-  // The next stage is not needed any more: its place takes the error.
+  // The second stage is no longer needed; its memory takes the error.
   auto e = k_[1].head(n);
   e = (h * 0.015151515151515152) * k_[6].head(n) - (h * 0.45808210592918697) * k_[5].head(n) +
       (h * 0.5823571654525552) * k_[4].head(n) - (h * 0.1447110071732629) * k_[3].head(n) +
       (h * 0.007880878010261995) * k_[2].head(n) - (h * 0.0008164344596567469) * k_[1].head(n) -
       (h * 0.001780011052225777) * k_[0].head(n);
-  // All in metres: an error of velocity counts for about the time in which springs answer it (a
-  // radian), an error of orientation on the surface.
+  // All errors are in metres. An error of velocity counts for the springs' response time (a
+  // radian), an error of orientation at the surface.
   double worst = 0.0;
   const auto look = [&](const double* values, int count, double scale) {
     for (int i = 0; i < count; ++i) {
@@ -215,25 +215,25 @@ double SmoothMotion::findHiddenTouch(double h) const noexcept {
   double earliest = h;
   for (const SmoothForces::Contact& contact : forces_.contacts()) {
     const Start& start = starts_[i++];
-    // The overlap turns within the step, towards the side where it was not at either end.
+    // The overlap has an extremum within the step, on the side where neither end is.
     const double side = contact.pushes ? -1.0 : 1.0;
     if (!(side * start.rate > 0.0 && side * contact.rate < 0.0)) continue;
     const double t = h * start.rate / (start.rate - contact.rate);
     const double top = start.overlap + 0.5 * t * start.rate;
-    // Too near to an end there is nothing to gain.
+    // Near an end there is nothing to gain.
     if (side * top > 0.0 && t > 0.05 * h && t < 0.95 * h) earliest = std::min(earliest, t);
   }
   return earliest;
 }
 
 double SmoothMotion::locateChange(double from, double h) noexcept {
-  // The state at `from` is y_, at from + h next_. Find the earliest change by false position
-  // (Illinois) on the guard of the touch that seems to change first; another that turns out to be
-  // earlier takes over. Ends just behind it.
+  // y_ is the state at `from`, next_ that at from + h. False position (Illinois) on the guard of a
+  // touch finds the earliest change. It starts with the touch that seems first; an earlier one
+  // takes over. The step ends just behind the change.
   const std::vector<SmoothForces::Contact>& contacts = forces_.contacts();
   double late = h;
   for (std::size_t round = 0; round < contacts.size(); ++round) {
-    // Which of the touches that have changed by `late` changes first, on a straight line?
+    // Find the touch that changes first by linear interpolation, among those changed by `late`.
     int first = -1;
     double first_time = late;
     for (std::size_t i = 0; i < contacts.size(); ++i) {

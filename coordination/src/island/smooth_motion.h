@@ -8,35 +8,34 @@
 
 namespace tandem {
 
-/// Moves bodies in touch: Runge-Kutta 5(4), with a bound on the error of each step and contacts
-/// made and broken located inside it.
+/// Moves bodies in contact by Runge-Kutta 5(4), with an error bound per step. Contacts made and
+/// broken are located inside the step.
 ///
-/// A step is taken as long as its error allows (IslandSettings::tolerance), in a soft scene a whole
-/// haptic period. It ends just behind the first change of a contact, so that no step looks across
-/// one.
+/// A step is as long as its error allows (IslandSettings::tolerance): a whole haptic period in a
+/// soft scene. It ends just behind the first change of a contact, so that no step spans one.
 class SmoothMotion {
  public:
   /// Allocates.
   SmoothMotion(const IslandModel& model, std::size_t max_touches);
 
-  /// Looks again at gains and masses after a slot was filled or cleared.
+  /// Recomputes the limits from gains and masses, after a slot was filled or cleared.
   void chooseLimits(const IslandModel& model) noexcept;
 
-  /// Longest step that resolves the fastest oscillation and decay there may be [s].
+  /// Longest step that resolves the fastest possible oscillation and decay [s].
   [[nodiscard]] double maxStep() const noexcept { return max_step_; }
 
-  /// Who moves from now on, see SmoothForces::choose.
+  /// Selects the bodies that move from now on, see SmoothForces::choose.
   void choose(const IslandModel& model, const std::vector<char>& together,
               const std::vector<char>& alone, const std::vector<Touch>& touches) noexcept;
 
-  /// Forces on top, by body, over the coming advance(): SmoothForces::hold.
+  /// Sets extra forces, by body, for the coming advance(): SmoothForces::hold.
   void hold(const std::vector<Wrench>& held) noexcept { forces_.hold(held); }
 
   /// Moves the chosen bodies by `dt` [s]. Real-time safe; the number of steps is bounded.
   void advance(States& states, double dt, IslandCounters& counters) noexcept;
 
  private:
-  /// How a touch stood at the start of a step.
+  /// Values of a touch at the start of a step.
   struct Start {
     double overlap, rate, guard;
   };
@@ -51,11 +50,11 @@ class SmoothMotion {
 
   SmoothForces forces_;
   double period_, tolerance_;
-  double allowed_error_ = 0.0;  ///< of a step [m]
-  double answer_ = 0.0;         ///< time in which springs answer an error of velocity [s]
+  double allowed_error_ = 0.0;  ///< of one step [m]
+  double answer_ = 0.0;         ///< response time of springs to an error of velocity [s]
   double max_step_ = 0.0;       ///< stable, and resolves the fastest oscillation [s]
-  double min_step_ = 0.0;       ///< error is not looked at below [s]
-  double step_ = 0.0;           ///< length that was good last [s]
+  double min_step_ = 0.0;       ///< shorter steps are accepted whatever their error [s]
+  double step_ = 0.0;           ///< last good length [s]
   Eigen::ArrayXd y_, next_, k_[7];
   std::vector<Start> starts_;  ///< by touch
 };

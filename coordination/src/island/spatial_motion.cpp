@@ -8,25 +8,24 @@
 namespace tandem {
 namespace {
 
-/// The same for rigid contact, where bodies start from rest under any force [m].
+/// Rigid counterpart of `kWatchDistance` (touch.h) [m]; bodies at rest may start under any force.
 constexpr double kRigidWatchDistance = 5e-4;
 
-/// Slower than this for so long, a body that something rigid holds is at rest [m/s], [s].
+/// A body held by a rigid contact is at rest after this time below this speed [m/s], [s].
 constexpr double kStillSpeed = 1e-6;
 constexpr double kTimeToRest = 0.05;
 
-/// Part of the inner step to which stiff springs may shorten it, and the part of SmoothMotion's
-/// longest step to which they do: RigidStep is of first order.
+/// Stiff springs shorten the inner step to this part of SmoothMotion's longest step, because
+/// RigidStep is of first order. The inner step never gets shorter than this share of its setting.
 constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 0.5;
 
-/// Points of rigid contact that are solved together, at the most.
+/// Most rigid contact points solved together.
 constexpr std::size_t kMaxRigidContacts = 512;
 
-/// Capacity for spheres on obstacles; nearest ones count, and more than these never touch one
-/// fingertip.
+/// Most touches of spheres on obstacles; one fingertip never touches more.
 constexpr std::size_t kMaxObstacleTouches = 64;
 
-/// The same for each slot: HIP and proxies are few.
+/// Most touches per slot; HIP and proxies are few.
 constexpr std::size_t kMaxSlotTouches = 4;
 
 std::size_t countMostTouches(const IslandModel& model) {
@@ -71,7 +70,7 @@ void SpatialMotion::refill(const IslandModel& model, BodyIndex slot) noexcept {
 
 void SpatialMotion::refit(const IslandModel& model, BodyIndex b, bool is_damping) noexcept {
   prepareAlone(model, b);
-  // Of shares it need not know: full gains are the fastest there are.
+  // A change of shares does not matter: full gains are the fastest.
   if (is_damping) smooth_.chooseLimits(model);
 }
 
@@ -174,7 +173,7 @@ void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& co
     const ModelBody& body = model.bodies[b];
     counters.resting_bodies += resting_[b] != 0;
     const bool turning = body.rotates() && !resting_[b] && needsTurning(model, b);
-    // A round body that nothing turns keeps its axis: exact. All other turning is integrated.
+    // A round body without torque keeps its axis: exact. All other rotation is integrated.
     turns_[b] = turning && alone_[b] && body.isRound() && !alone_motion_[b].is_tied_to_turn &&
                 body.t_external_W == Vec3::Zero();
     together_[b] = body.isDynamic() && !resting_[b] && (!alone_[b] || (turning && !turns_[b]));
@@ -224,7 +223,7 @@ bool SpatialMotion::needsTurning(const IslandModel& model, BodyIndex b) const no
 void SpatialMotion::advanceAlone(const IslandModel& model, double dt) noexcept {
   for (const BodyIndex b : model.present)
     if (alone_[b]) f_W_[b] = model.bodies[b].f_external_W;
-  // All forces but the dampers' on a body's own velocity.
+  // Sum of all forces except those of dampers on a body's own velocity.
   for (const int c : model.present_couplers) {
     const ModelCoupler& coupler = model.couplers[c];
     const BodyIndex b = coupler.follower;
@@ -252,7 +251,7 @@ void SpatialMotion::advanceAlone(const IslandModel& model, double dt) noexcept {
 void SpatialMotion::letSleep(IslandModel& model, BodyIndex b) noexcept {
   sleepers_.letSleep(model, states_, allowance_, b);
   if (!model.bodies[b].is_asleep) return;
-  // Until something wakes it, it counts as one that rests.
+  // Until it wakes, a sleeping body counts as resting.
   alone_[b] = turns_[b] = together_[b] = awake_[b] = 0;
   resting_[b] = model.bodies[b].settings.is_rigid;
 }
@@ -267,7 +266,7 @@ void SpatialMotion::turnAlone(const ModelBody& body, double dt, RigidState& stat
 }
 
 bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
-  // If none went further than thought, none met another.
+  // If no body moved farther than its allowance, none met another.
   bool far = false;
   for (const BodyIndex b : model.present) {
     const RigidState &from = model.bodies[b].state, &to = states_[b];
@@ -279,7 +278,7 @@ bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
   if (!far) return true;
   if (sleepers_.wakeNear(model, states_, allowance_)) return false;
 
-  // Also two that each were in touch with something else.
+  // Includes pairs in which each body already touched something else.
   bool met = false;
   std::size_t known = 0;
   forEachTouch(model, [&](const Touch& touch) {
@@ -311,8 +310,8 @@ void SpatialMotion::advanceTogether(const IslandModel& model, double dt,
     smooth_.hold(rigid_step_.heldForces());
     return smooth_.advance(states_, dt, counters);
   }
-  // Springs that shake a body faster than the inner step can follow would push it against what is
-  // rigid for a whole step before that answers.
+  // Springs faster than the inner step would push a body against a rigid one for a whole step
+  // before that one responds.
   const double inner_step = model.settings.inner_step;
   const double step =
       std::clamp(kRigidPartOfStep * smooth_.maxStep(), kShortestInnerStep * inner_step, inner_step);
@@ -320,8 +319,7 @@ void SpatialMotion::advanceTogether(const IslandModel& model, double dt,
   for (double i = 0; i < count; ++i) advanceWithRigid(model, dt / count, counters);
 }
 
-/// One inner step with rigid contact. Where contact comes or goes, what it gives is learnt by a
-/// first try.
+/// One inner step with rigid contact. If contacts come or go, a first try finds their forces.
 void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
                                      IslandCounters& counters) noexcept {
   for (const BodyIndex b : model.present) before_rigid_[b] = states_[b];
@@ -331,7 +329,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
     rigid_step_.holdForces(states_);
     smooth_.hold(rigid_step_.heldForces());
     smooth_.advance(states_, h, counters);
-    // What forces do not move goes on with the others.
+    // Prescribed bodies move on with the others.
     for (const BodyIndex b : model.present)
       if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
     const bool foreseen = rigid_step_.correct(model, *model.finder, before_rigid_, h, states_);
@@ -341,7 +339,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
   }
 }
 
-/// Which bodies may touch something rigid, and which of those at rest are woken by it.
+/// Finds the bodies that may touch something rigid, and wakes those at rest that are touched.
 void SpatialMotion::lookAround(IslandModel& model) noexcept {
   std::fill(rigid_near_.begin(), rigid_near_.end(), char{0});
   if (!model.finder) return;
@@ -367,8 +365,7 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
   if (!model.is_listed) model.listPresent();
 }
 
-/// A body that something rigid holds and that stands still for a while is not moved until it is
-/// touched or disturbed.
+/// Freezes a body that a rigid contact holds still for a while, until it is touched or disturbed.
 void SpatialMotion::letRest(const IslandModel& model, double dt) noexcept {
   for (const BodyIndex b : model.present) {
     if (resting_[b]) continue;
@@ -376,7 +373,7 @@ void SpatialMotion::letRest(const IslandModel& model, double dt) noexcept {
     const ModelBody& body = model.bodies[b];
     if (!body.isDynamic()) continue;
     const double speed = state.v_W.norm() + state.w_W.norm() * body.bounding_radius;
-    // Overlap moves out without a velocity.
+    // Moving out of overlap changes the position without a velocity.
     const double way = (state.p_W - body.state.p_W).norm();
     const bool is_still = rigid_near_[b] && speed < kStillSpeed && way < kStillSpeed * dt;
     still_[b] = is_still ? still_[b] + dt : 0.0;

@@ -11,52 +11,53 @@
 
 namespace tandem {
 
+// clang-format off
 /// Motion of a free island in three dimensions.
 ///
-///   alone with its couplers  -> exact map of translation (OscillatorMap); of turning, too, while
-///   no
+///   alone with its couplers  -> exact map of translation (OscillatorMap), and of rotation while no
 ///                               torque acts
-///   in reach of a contact    -> SmoothMotion, make and break located in the step
-///   near something rigid     -> the same in inner steps, each corrected by RigidStep
+///   in reach of a contact    -> SmoothMotion, which locates contacts made and broken in the step
+///   near something rigid     -> SmoothMotion in inner steps, each corrected by RigidStep
 ///
-/// A body counts as alone while nothing can reach it within the time asked for; if the end shows
-/// that something did, the time is done again as a contact.
+/// A body counts as alone while nothing can reach it within the step. If the end shows that
+/// something did, the step is repeated with contact.
+// clang-format on
 class SpatialMotion {
  public:
   /// Allocates.
   explicit SpatialMotion(const IslandModel& model);
 
-  /// A slot was filled or cleared. Real-time safe.
+  /// Updates for a slot that was filled or cleared. Real-time safe.
   void refill(const IslandModel& model, BodyIndex slot) noexcept;
 
-  /// The gains of a body's couplers have changed, or its damping. Real-time safe.
+  /// Updates for changed coupler gains of a body, or a changed damping. Real-time safe.
   void refit(const IslandModel& model, BodyIndex b, bool is_damping) noexcept;
 
-  /// Returns whether all seems at rest now. Real-time safe.
+  /// Moves the bodies by `dt` [s]. Returns true if all seem at rest now. Real-time safe.
   bool advance(IslandModel& model, double dt, IslandCounters& counters) noexcept;
 
-  /// Puts away what is known of contacts and rest, for an advance that others have no part in.
+  /// Stores the data on contacts and rest away, for an advance of some bodies only.
   void setAside() noexcept;
-  /// Takes it out again; what the slots have learnt meanwhile is forgotten.
+  /// Restores that data, and forgets that of the slots.
   void takeBack(const IslandModel& model, const std::vector<BodyIndex>& slots) noexcept;
 
-  /// True if something rigid held the body in the last advance, and it was moved there.
+  /// True if a rigid contact held the body in the last advance and it was moved.
   [[nodiscard]] bool wasHeld(BodyIndex b) const noexcept { return rigid_near_[b] && !resting_[b]; }
-  /// True if it rests on something rigid and was not moved.
+  /// True if it rests on a rigid contact and was not moved.
   [[nodiscard]] bool isResting(BodyIndex b) const noexcept { return resting_[b]; }
-  /// True if it stood still in the last advance with nothing rigid near that could move it.
+  /// True if it stood still in the last advance and nothing rigid near could move it.
   [[nodiscard]] bool isAtRest(BodyIndex b) const noexcept {
     return at_rest_[b] && (resting_[b] || !rigid_near_[b]);
   }
-  /// Leaves out a body that is at rest, if no sphere is near.
+  /// Puts a body at rest to sleep, if no sphere is near.
   void letSleep(IslandModel& model, BodyIndex b) noexcept;
 
  private:
-  /// How a body moves while it is alone.
+  /// Exact motion of a body while it is alone.
   struct Alone {
-    double stiffness = 0.0, damping = 0.0;  ///< of all its couplers, per mass
+    double stiffness = 0.0, damping = 0.0;  ///< sum over its couplers, per mass
     OscillatorMap map;                      ///< over a haptic period
-    bool is_tied_to_turn = false;           ///< some coupler turns it
+    bool is_tied_to_turn = false;           ///< some coupler rotates it
   };
 
   void prepareAlone(const IslandModel& model, BodyIndex b) noexcept;
@@ -73,20 +74,20 @@ class SpatialMotion {
   void letRest(const IslandModel& model, double dt) noexcept;
 
   std::vector<Alone> alone_motion_;  ///< per body
-  std::vector<char> alone_;          ///< per body: translation by its exact map
-  std::vector<char> turns_;          ///< per body: alone, and turned exactly
-  std::vector<char> together_;       ///< per body: integrated (also the turning of one alone)
-  std::vector<char> rigid_near_;     ///< per body
-  std::vector<char> resting_;        ///< per body: held by something rigid, and frozen
-  std::vector<char> at_rest_;        ///< per body: it seemed to be after the last advance
-  std::vector<double> still_;        ///< per body: for how long it has stood still [s]
+  std::vector<char> alone_;          ///< per body: exact map of translation
+  std::vector<char> turns_;          ///< per body: alone, and rotated exactly
+  std::vector<char> together_;       ///< per body: integrated (also the rotation of one alone)
+  std::vector<char> rigid_near_;     ///< per body: a rigid contact is near
+  std::vector<char> resting_;        ///< per body: held by a rigid contact, and frozen
+  std::vector<char> at_rest_;        ///< per body: seemed at rest after the last advance
+  std::vector<double> still_;        ///< per body: time it has stood still [s]
   std::vector<char> awake_;          ///< per body: rigid and not resting
-  std::vector<double> reach_;        ///< per body, for the ContactFinder [m]
+  std::vector<double> reach_;        ///< per body: reach for the ContactFinder [m]
   RigidStep rigid_step_, rigid_step_aside_;
   std::vector<char> resting_aside_;
   std::vector<double> still_aside_;
-  std::vector<double> allowance_;  ///< per body: no part of it should go further this time [m]
-  std::vector<Touch> touches_;     ///< in reach
+  std::vector<double> allowance_;  ///< per body: expected longest motion of a part [m]
+  std::vector<Touch> touches_;     ///< touches in reach
   SmoothMotion smooth_;
   Sleepers sleepers_;
 

@@ -8,17 +8,17 @@
 
 namespace tandem {
 
-/// One contact that may push: a sphere body and another body, or a sphere body and an obstacle.
+/// A contact that may push: a sphere body with another body or with an obstacle.
 struct Touch {
   BodyIndex sphere = 0;
-  BodyIndex other = 0;                 ///< the sphere again with an obstacle
-  const Obstacle* obstacle = nullptr;  ///< null: the other is a body
+  BodyIndex other = 0;                 ///< the sphere itself with an obstacle
+  const Obstacle* obstacle = nullptr;  ///< null: `other` is a body
   CouplerGains gains;
-  bool pushes = false;  ///< its mode over the present step
-  int piece = -1;       ///< of an obstacle that is a mesh: its triangle; -1: the whole mesh
+  bool pushes = false;  ///< pushes over the present step
+  int piece = -1;       ///< triangle of a mesh obstacle; -1: the whole mesh
 };
 
-/// How a touch stands at one instant; with a whole mesh, where that is nearest.
+/// State of a touch at one instant; for a whole mesh, at its nearest point.
 struct TouchState {
   SphereContact geometry;
   double overlap_rate = 0.0;  ///< [m/s]
@@ -29,11 +29,11 @@ struct TouchState {
 /// States of all bodies, by index.
 using States = std::vector<RigidState>;
 
-/// A body alone is still watched when something comes this close [m].
+/// A body alone is watched when something comes this close [m].
 inline constexpr double kWatchDistance = 1e-4;
 
-/// False if the two are farther apart than `reach` [m], by the balls around them: a few additions,
-/// where exact geometry needs a rotation and a root.
+/// False if the bounding spheres are farther apart than `reach` [m]. It takes a few additions;
+/// exact geometry needs a rotation and a root.
 [[nodiscard]] bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
                              double reach) noexcept;
 
@@ -47,17 +47,17 @@ inline constexpr double kWatchDistance = 1e-4;
 void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
              const States& states, std::vector<Wrench>& wrenches) noexcept;
 
-/// How deep a body is in what it has smooth contacts with, ghosts apart [m]; 0: in nothing.
+/// Deepest overlap of a body in its smooth contacts except with ghosts [m]; 0 if none.
 [[nodiscard]] double computeOverlap(const IslandModel& model, const States& states,
                                     BodyIndex body) noexcept;
 
-/// True for an obstacle that is taken apart before it is touched, by forEachPiece().
+/// True for a mesh obstacle that forEachPiece() must split first.
 [[nodiscard]] inline bool isWholeMesh(const Touch& touch) noexcept {
   return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
 }
 
-/// Calls `visit(touch, gap)` with the touch of each piece of a whole mesh that pushes at a gap
-/// below `allowance` [m], or would after a move as long.
+/// Calls `visit(touch, gap)` for each piece of a whole mesh that pushes at a gap below `allowance`
+/// [m]. Includes pieces that would push after a move of that length.
 template <typename Visit>
 void forEachPiece(const IslandModel& model, const Touch& whole, const States& states,
                   double allowance, Visit visit) noexcept {
@@ -73,8 +73,8 @@ void forEachPiece(const IslandModel& model, const Touch& whole, const States& st
                });
 }
 
-/// Calls `visit` with every touch there could be among those present, meshes as a whole: bodies in
-/// pairs, spheres on slots and obstacles.
+/// Calls `visit` with every possible touch of present bodies: pairs of bodies, and spheres with
+/// slots and obstacles. Meshes stay whole.
 template <typename Visit>
 void forEachTouch(const IslandModel& model, Visit visit) {
   for (const IslandContact& pair : model.present_contacts)

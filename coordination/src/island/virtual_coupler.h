@@ -18,13 +18,12 @@ namespace tandem {
          gains.damping * (leader.v_W - follower.v_W);
 }
 
-/// Force that a unilateral coupler pushes two overlapping bodies apart with [N]:
+/// Force with which a unilateral coupler pushes two overlapping bodies apart [N]:
 ///
 ///   f = [K overlap + B overlap_rate]+   while overlap > 0, else 0
 ///
-/// `overlap` [m] is how deep they are in each other, `overlap_rate` [m/s] how fast that grows. A
-/// contact cannot pull. Pure; real-time safe. Source: Li & Constantinescu 2009, eqs (7), (8), (11),
-/// (12).
+/// `overlap` [m] is their depth in each other, `overlap_rate` [m/s] its rate. A contact cannot
+/// pull. Pure; real-time safe. Source: Li & Constantinescu 2009, eqs (7), (8), (11), (12).
 [[nodiscard]] inline double computeContactForce(const CouplerGains& gains, double overlap,
                                                 double overlap_rate) noexcept {
   if (!(overlap > 0.0)) return 0.0;
