@@ -7,7 +7,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Where datagrams go to and come from. IPv4 is kept as IPv6 has it, ::ffff:a.b.c.d.
+/// Source or destination of a datagram. IPv4 is stored as mapped IPv6, ::ffff:a.b.c.d.
 struct Address {
   std::array<std::uint8_t, 16> ip{};
   std::uint16_t port = 0;
@@ -21,12 +21,12 @@ struct Address {
   }
 };
 
-/// "10.0.0.2:7001" or "[fe80::1%3]:7001".
+/// Text "10.0.0.2:7001" or "[fe80::1%3]:7001".
 [[nodiscard]] std::string toString(const Address& address);
 
-/// The address of "host:port", "[ipv6]:port" or ":port" (this machine; for `--bind`, every
-/// interface of it). Asks the system's resolver, so it may take seconds. Throws
-/// std::invalid_argument in one line if the text is no address or the host is not known.
+/// Resolves "host:port", "[ipv6]:port" or ":port". The latter means this machine, or all its
+/// interfaces for `--bind`. Uses the system's resolver and may take seconds. Throws
+/// std::invalid_argument in one line if the text is no address or the host is unknown.
 [[nodiscard]] Address resolveAddress(const std::string& text);
 
 }  // namespace tandem

@@ -11,9 +11,9 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Times from 100 ns to 100 s, counted in classes that are 0.05 % wide: percentiles of any number
-/// of them in a room that is known from the start. What is outside counts as the nearest class.
-/// One thread adds, real-time safe; any may read meanwhile.
+/// Histogram of durations from 100 ns to 100 s, in classes 0.05 % wide. It gives percentiles of any
+/// number of durations in fixed memory. Values outside count in the nearest class. One thread adds,
+/// real-time safe; any thread may read meanwhile.
 class DurationHistogram {
  public:
   DurationHistogram() : counts_(kClasses) {}
@@ -28,7 +28,7 @@ class DurationHistogram {
     return total_.load(std::memory_order_relaxed);
   }
 
-  /// The time that a `share` of all does not exceed [s], to 0.03 %; not a number if there is none.
+  /// Duration that a `share` of all values does not exceed [s], to 0.03 %. NaN if there are none.
   [[nodiscard]] double percentile(double share) const noexcept {
     const std::uint64_t total = count();
     if (total == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -45,7 +45,7 @@ class DurationHistogram {
  private:
   using Count = std::atomic<std::uint64_t>;
 
-  /// There is one writer: no need for the bus to be locked.
+  /// One writer needs no atomic read-modify-write.
   static void increment(Count& count) noexcept {
     count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }

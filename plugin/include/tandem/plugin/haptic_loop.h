@@ -15,65 +15,63 @@
 namespace tandem {
 
 struct HapticLoopSettings {
-  int priority = 80;         ///< SCHED_FIFO, 1 to 99; 0: as the process has it
-  bool locks_memory = true;  ///< so that no tick waits for a page
-  /// Moment of the first tick, of the monotonic clock [s]; nothing: at once.
+  int priority = 80;         ///< SCHED_FIFO, 1 to 99; 0: keeps the scheduling of the process
+  bool locks_memory = true;  ///< true: no tick waits for a page
+  /// Time of the first tick on the monotonic clock [s]; empty: at once.
   std::optional<double> begin;
-  /// After so long the thread ends by itself, as by stop() [s].
+  /// The thread ends by itself after this time, as by stop() [s].
   double duration = std::numeric_limits<double>::infinity();
 };
 
-/// How punctual a loop was. All may be read while it runs, from any thread.
+/// Punctuality of a loop. Any thread may read all of it while the loop runs.
 struct LoopReport {
   std::uint64_t ticks = 0;
-  std::uint64_t late = 0;     ///< of these, begun more than half a period after their moment
-  std::uint64_t skipped = 0;  ///< ticks left out because their time had passed before they began
-  double late_p50 = 0.0, late_p99 = 0.0,
-         late_max = 0.0;  ///< beginning of a tick after its moment [s]
-  double tick_p50 = 0.0, tick_p99 = 0.0, tick_max = 0.0;  ///< length of a tick [s]
-  double longest_gap = 0.0;  ///< between the beginnings of two ticks [s]
-  double silence = 0.0;  ///< since the latest tick began, now [s]: if it grows, the thread hangs
+  std::uint64_t late = 0;     ///< ticks begun more than half a period late
+  std::uint64_t skipped = 0;  ///< ticks left out because their time had passed
+  double late_p50 = 0.0, late_p99 = 0.0, late_max = 0.0;  ///< delay of a tick's start [s]
+  double tick_p50 = 0.0, tick_p99 = 0.0, tick_max = 0.0;  ///< duration of a tick [s]
+  double longest_gap = 0.0;  ///< longest time between the starts of two ticks [s]
+  double silence = 0.0;      ///< time since the latest tick began [s]; it grows if the thread hangs
 };
 
-/// A site's haptic thread: ticks at absolute moments of the monotonic clock, k / haptic_rate after
-/// the first.
+/// Haptic thread of a site. It ticks at absolute times of the monotonic clock: k / haptic_rate
+/// after the first tick.
 ///
-/// From start to stop the thread alone owns the site's island. The host goes on stepping its world
-/// from its own thread, at its own 60 to 240 Hz and in real time: its steps ask for the island,
-/// which is given between two ticks, and wait for that: two to four times a step, and up to
-/// eight when bodies come and go, each a period at the most. The haptic thread waits for nothing
-/// but its next moment. It takes no lock, allocates nothing and makes no system call but to sleep,
-/// besides what the device and the links do. Everything else about the site is asked for by
-/// Site::betweenTicks().
+/// From start to stop this thread alone owns the site's island. The host steps its world from its
+/// own thread in real time, at its own 60 to 240 Hz. A host step requests the island and waits to
+/// get it between two ticks. It does so two to four times per step, and up to eight when bodies
+/// come and go. Each wait takes at most a period. The haptic thread waits only for its next tick.
+/// It takes no lock, allocates nothing and makes no system call but sleep, apart from the device
+/// and the links. Use Site::betweenTicks() for everything else about the site.
 ///
-/// A tick that begins late is made at once; ticks whose whole period has passed are skipped and
-/// counted, and the next one moves the island over them, 50 ms at the most and not if that tick is
-/// the next to be late. A host that stands still is not felt; when it goes on, its bodies are put
-/// where they are. A body that the host takes out of its world and deletes is left alone from the
-/// next host step on; a mesh, height field or compound of its must live until then.
+/// A late tick runs at once. Ticks whose whole period has passed are skipped and counted. The next
+/// tick advances the island over them, by at most 50 ms, unless that tick would make the following
+/// one late. The hand does not feel a host that stands still. When the host continues, its bodies
+/// are set to the island's states. A body that the host removes from its world and deletes is
+/// ignored from the next host step on. Its mesh, height field or compound must live until then.
 class HapticLoop {
  public:
   /// Starts the thread. `site` must hand off (Injection::kHandoff), be ticked by its caller
-  /// (TickSource::kCaller), and outlive this. Throws std::invalid_argument for settings out of
-  /// range, tandem::Error if there is no thread to be had.
+  /// (TickSource::kCaller) and outlive the loop. Throws std::invalid_argument for settings out of
+  /// range, tandem::Error if the system gives no thread.
   explicit HapticLoop(Site& site, const HapticLoopSettings& settings = {});
-  /// As stop().
+  /// Calls stop().
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
-  /// The force fades to zero, the thread ends, and the site is its caller's again. Not from the
+  /// Fades the force to zero, ends the thread and returns the site to its caller. Not from the
   /// thread itself.
   void stop() noexcept;
 
-  /// False once the thread has let go of the force and the site.
+  /// False once the thread has released the force and the site.
   [[nodiscard]] bool isRunning() const noexcept;
 
-  /// What the system did not grant, one line each with the remedy.
+  /// Rights that the system did not grant, one line each with the remedy.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept;
 
   [[nodiscard]] LoopReport report() const noexcept;
-  /// Of the beginnings of ticks after their moments, and of the lengths of ticks.
+  /// Histograms of the ticks' delays and of their durations.
   [[nodiscard]] const DurationHistogram& lateness() const noexcept;
   [[nodiscard]] const DurationHistogram& tickTimes() const noexcept;
 

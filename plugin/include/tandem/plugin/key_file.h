@@ -5,21 +5,21 @@
 #include "tandem/plugin/secret_key.h"
 
 /// \file
-/// Files of the key that one pair of sites shares: two lines of text, the first beginning with
-/// "tandem-key-1", the second 64 hexadecimal digits. Not real-time safe; for set-up.
+/// Files with the key that a pair of sites shares. A file has two lines of text: the first begins
+/// with "tandem-key-1", the second has 64 hexadecimal digits. Not real-time safe; for set-up.
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Writes a new random key into a file that only its owner may read and write.
+/// Writes a new random key to a file that only its owner may read and write.
 ///
-/// Throws std::invalid_argument if something of this name is there already (it is left alone) or
-/// the name cannot be used, and tandem::Error if writing fails, with nothing left behind. The
-/// message is one line and names the remedy.
+/// Throws std::invalid_argument if the name exists already (the file is left alone) or cannot be
+/// used. Throws tandem::Error if writing fails, and leaves nothing behind. The message is one line
+/// with the remedy.
 void makeKeyFile(const std::filesystem::path& path);
 
-/// The key in a file; symbolic links are followed. Throws std::invalid_argument, in one line with
-/// the remedy, unless it is a regular file that group and others have no right to, of exactly the
-/// form above.
+/// Reads the key in a file; follows symbolic links. The file must be regular, closed to group and
+/// others, and of exactly the form above. Throws std::invalid_argument otherwise, in one line with
+/// the remedy.
 [[nodiscard]] SecretKey readKeyFile(const std::filesystem::path& path);
 
 }  // namespace tandem

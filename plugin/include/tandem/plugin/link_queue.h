@@ -8,24 +8,24 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// The way to a peer for a site with a HapticLoop: the haptic thread puts states into one queue and
-/// takes them from another; the thread that has the socket moves them on. Neither waits for the
-/// other, and neither allocates.
+/// A link for a site with a HapticLoop. The haptic thread sends to one queue and receives from
+/// another; the thread with the socket forwards them. Neither thread waits for the other, and
+/// neither allocates.
 class LinkQueue final : public Link {
  public:
   LinkQueue();
   ~LinkQueue() override;
 
-  /// The haptic thread's side. What finds no room is lost, as on the way.
+  /// For the haptic thread. Packets that find the queue full are lost, as on a network.
   void send(const StatePacket& packet, double now) noexcept override;
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override;
 
-  /// The other side: sends over `link` what waits, and fetches what it will have brought before
-  /// `until`, both in the site's time [s]. Twice a period is enough, with `until` two periods
-  /// ahead: then everything is there at its moment.
+  /// For the network thread. Sends the queued packets over `link` and fetches those that arrive
+  /// before `until`, both in the site's time [s]. Call it twice a period with `until` two periods
+  /// ahead; then each packet is there in time.
   void exchange(Link& link, double now, double until) noexcept;
 
-  /// States that found no room, both ways.
+  /// Packets lost to a full queue, both ways.
   [[nodiscard]] std::uint64_t lost() const noexcept;
 
  private:

@@ -10,13 +10,13 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// One body at one tick: in the island, and as the btRigidBody had it after the latest host step.
+/// One body at one tick: its state in the island, and in Bullet after the latest host step.
 struct BodyRecord {
   RigidState island;
   RigidState bullet;
 };
 
-/// One site at one tick, at the tick's start.
+/// One site at the start of one tick.
 struct TickRecord {
   double time = 0.0;  ///< [s]
   DeviceSample device;
@@ -24,17 +24,16 @@ struct TickRecord {
   bool contact = false;     ///< the local device's contact force is above 0
 };
 
-/// A packet that was taken in, for replay.
+/// A packet that a site received, for replay.
 struct ArrivalRecord {
   int remote = 0;
   Arrival arrival;
 };
 
-/// All ticks of one site, in memory of a size chosen beforehand: recording never allocates in a
-/// tick.
+/// All ticks of one site. The memory has a fixed size, so recording never allocates in a tick.
 class Recording {
  public:
-  /// Room for `ticks` ticks and `arrivals` packets; what is beyond is counted and left out.
+  /// Reserves `ticks` ticks and `arrivals` packets. More are left out and counted.
   Recording(std::size_t ticks, std::size_t arrivals, int objects, int proxies);
 
   void addTick(const TickRecord& record, const BodyRecord* objects,
@@ -56,9 +55,9 @@ class Recording {
   [[nodiscard]] std::uint64_t leftOut() const noexcept { return left_out_; }
 
   /// Writes one row per tick: t, device_*, force_*, object_*, proxy_*, body_object_*, body_proxy_*,
-  /// orientation and contact. Positions are displacements from the first tick, in a frame turned by
-  /// `q_WS` from W. A body that is not there has zeros. Numbers are the shortest that read back to
-  /// the same bits. The file appears whole or not at all. Throws tandem::Error naming the file.
+  /// orientation and contact. Positions are displacements from the first tick, in a frame rotated
+  /// by `q_WS` from W. A missing body has zeros. Numbers are the shortest that read back to the
+  /// same bits. The file is complete or absent. Throws tandem::Error with the file's name.
   void writeCsv(const std::filesystem::path& path, const Quat& q_WS = Quat::Identity()) const;
 
  private:

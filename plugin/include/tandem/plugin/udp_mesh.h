@@ -18,97 +18,98 @@ namespace tandem {
 
 class Link;
 
-/// Where the connection to a peer stands.
+/// Phase of the connection to a peer.
 enum class PeerPhase {
   kCalling,    ///< no answer yet, or none for 5 s
-  kAgreeing,   ///< there; configurations are being compared
+  kAgreeing,   ///< the peer answers; configurations are being compared
   kDifferent,  ///< configurations differ: nothing is coupled
-  kLive,       ///< states go both ways
-  kLeft,       ///< the peer has said farewell
+  kLive,       ///< states are exchanged
+  kLeft,       ///< the peer said farewell
 };
 
 [[nodiscard]] const char* name(PeerPhase phase) noexcept;
 
-/// Why a peer refuses, and what to do: "it has another key; give both sides the same key file".
+/// Reason and remedy of a refusal: "it has another key; give both sides the same key file".
 [[nodiscard]] const char* explain(RefuseCode code) noexcept;
 
-/// What a user may want to know of the connection to one peer.
+/// Status of the connection to one peer.
 struct PeerStatus {
   PeerId peer{};
   PeerPhase phase = PeerPhase::kCalling;
-  std::optional<Address> address;  ///< where it was heard from last
+  std::optional<Address> address;  ///< source of the last datagram
   double silence = 0.0;            ///< since the last authentic datagram [s]
   double round_trip = 0.0;         ///< smoothed [s]
-  double clock_offset = 0.0;       ///< peer's clock - own [s], if both ways take equally long
-  double wait = 0.0;               ///< added by playout [s]
-  double jitter = 0.0;             ///< that 99 % of the packets keep [s]
-  double loss = 0.0;               ///< of the peer's packets, 0 to 1
+  double clock_offset = 0.0;       ///< peer's clock - own [s], if both ways take equal time
+  double wait = 0.0;               ///< delay added by playout [s]
+  double jitter = 0.0;             ///< 99 % of the packets stay within it [s]
+  double loss = 0.0;               ///< lost fraction of the peer's packets, 0 to 1
   std::uint16_t key_epoch = 0;     ///< handshakes so far
   std::uint64_t states_sent = 0;
-  std::uint64_t states_unsent = 0;    ///< outside what may be sent, such as beyond 1000 m
-  std::uint64_t states_given = 0;     ///< to the site
-  std::uint64_t states_stale = 0;     ///< overtaken: not given
-  std::uint64_t states_too_late = 0;  ///< older than the rest by more than half a second
-  std::optional<RefuseCode> refused;  ///< by the peer, or somebody who says so
-  std::uint8_t refused_version = 0;   ///< that the refusing side speaks
-  std::optional<ByeReason> left;      ///< why the peer has said farewell
+  std::uint64_t states_unsent = 0;    ///< not encodable, such as beyond 1000 m
+  std::uint64_t states_given = 0;     ///< passed to the site
+  std::uint64_t states_stale = 0;     ///< overtaken by a newer one: dropped
+  std::uint64_t states_too_late = 0;  ///< more than 0.5 s older than the rest: dropped
+  std::optional<RefuseCode> refused;  ///< reason sent by the peer, or in its name: not authentic
+  std::uint8_t refused_version = 0;   ///< protocol version of the refusing side
+  std::optional<ByeReason> left;      ///< reason of the peer's farewell
   std::optional<ConfigurationDifference> difference;
 };
 
-/// A remote site and how it is reached.
+/// A remote site and its address.
 struct UdpPeer {
   PeerId id{};
-  std::optional<Address> address;  ///< nothing: it is to call us
-  SecretKey key;                   ///< that this pair shares
+  std::optional<Address> address;  ///< empty: the peer calls us
+  SecretKey key;                   ///< key shared by this pair
 };
 
 struct UdpMeshSettings {
   PeerId self{1};
-  Address bind;                 ///< port 0: any
+  Address bind;                 ///< port 0: any free port
   Configuration configuration;  ///< must be equal at all sites
   PlayoutSettings playout;
   WireProfile profile = WireProfile::kFloat32;
 };
 
-/// What came in so far, and why some of it was dropped; a name for each reason, as in
-/// coordination/STANDARD.md.
+/// Number of datagrams that were dropped for one reason. coordination/STANDARD.md lists the
+/// reasons.
 struct RefusedDatagrams {
   std::string reason;
   std::uint64_t count = 0;
 };
 
-/// The ways to all remote sites over one UDP socket: sealed, replay-proof, with constant delay.
+/// Links to all remote sites over one UDP socket: sealed, protected against replay, with constant
+/// delay.
 ///
-/// Used from the thread that ticks the site. poll() drains at most 128 datagrams and never blocks;
-/// states cost no allocation, handshakes (at the start, every two minutes and after silence) some.
+/// For the thread that ticks the site. poll() takes at most 128 datagrams and never blocks. States
+/// need no allocation. Handshakes allocate: at the start, every two minutes and after silence.
 class UdpMesh {
  public:
-  /// Throws std::invalid_argument for settings out of range or an address that cannot be bound,
-  /// tandem::Error if the system gives no socket.
+  /// Throws std::invalid_argument for settings out of range or an address that cannot be bound.
+  /// Throws tandem::Error if the system gives no socket.
   UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers);
   ~UdpMesh();
   UdpMesh(const UdpMesh&) = delete;
   UdpMesh& operator=(const UdpMesh&) = delete;
 
-  /// The way to a peer, for Site::connect(); lives as long as this. Throws std::invalid_argument
-  /// for an id that is no peer.
+  /// Link to a peer, for Site::connect(); lives as long as the mesh. Throws std::invalid_argument
+  /// if `peer` is unknown.
   [[nodiscard]] Link& link(PeerId peer);
 
-  /// Takes in what is there and says what is due. Call it before each tick. `now` [s] is the
-  /// site's clock and must not run back.
+  /// Takes the received datagrams and sends the due ones. Call it before each tick. `now` [s] is
+  /// the site's clock and must not run back.
   void poll(double now) noexcept;
 
-  /// Waits until something comes in or so many seconds have passed.
+  /// Waits for a datagram, at most `seconds`.
   void wait(double seconds) const noexcept;
 
-  /// Says farewell to all, and why: poll for another 100 ms until all have been told.
+  /// Says farewell to all peers with `reason`. Poll for another 100 ms, so that all are told.
   void leave(double now, ByeReason reason = ByeReason::kUserLeaves) noexcept;
 
   [[nodiscard]] PeerStatus status(PeerId peer, double now) const;
   [[nodiscard]] std::uint64_t received() const noexcept;
-  /// Reasons that occurred.
+  /// Reasons that occurred so far.
   [[nodiscard]] std::vector<RefusedDatagrams> refused() const;
-  /// Where the socket is bound.
+  /// Address of the socket.
   [[nodiscard]] Address bound() const noexcept;
 
  private:
