@@ -30,8 +30,8 @@ inline Bytes bytesOf(const HidReport& report) {
   return {report.bytes.begin(), report.bytes.begin() + static_cast<std::ptrdiff_t>(report.size)};
 }
 
-/// A HID device in memory: what a test sends, and what it gets. Ports opened of it may come and go.
-/// The device must outlive them. Thread safe.
+/// A HID device in memory that tests send to and read from. Ports opened on it may come and go. The
+/// device must outlive them. Thread safe.
 class FakeHidDevice {
  public:
   void send(const Bytes& report) {
@@ -45,7 +45,7 @@ class FakeHidDevice {
     if (!is_plugged_in) inputs_.clear();
     changed_.notify_all();
   }
-  /// The next so many output reports are not taken, though the device is there.
+  /// Refuses the next `count` output reports although the device is there.
   void refuseWrites(int count) {
     const std::lock_guard held(mutex_);
     refused_writes_ = count;
@@ -126,7 +126,7 @@ class FakeHidDevice {
   bool is_plugged_in_ = true;
 };
 
-/// Waits for an outcome, ten seconds at most. False: it did not come.
+/// Waits for an outcome, ten seconds at most. Returns false on timeout.
 inline bool comesTrue(const std::function<bool()>& outcome) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (!outcome()) {

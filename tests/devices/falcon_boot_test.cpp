@@ -15,7 +15,7 @@ namespace {
 
 using test::FalconRig;
 
-// Every way in which bytes of the boot loader come, and both kinds of line.
+// Boot loader bytes arrive in every possible way, on both kinds of line.
 TEST(FalconBoot, LoadsTheFirmware) {
   for (int i = 0; i < 16; ++i) {
     SCOPED_TRACE(i);
@@ -34,7 +34,7 @@ TEST(FalconBoot, LoadsTheFirmware) {
   }
 }
 
-// Divided from 3 MHz without a rest: an FTDI chip of any kind then makes the same of it.
+// The speed is an integer fraction of 3 MHz, so every FTDI chip makes exactly it.
 TEST(FalconBoot, LoadsAtASpeedThatEveryChipCanMake) {
   FalconBoot boot(makeSyntheticFirmware(1));
   const std::array<std::uint8_t, 4> answer = {0x0A, 0x44, 0x2C, 0x0D};
@@ -83,7 +83,7 @@ TEST(FalconBoot, TriesAgainUntilItWorks) {
       trouble.make(rig.emulator.mishaps, 3);
       rig.emulator.mishaps.load_byte = static_cast<std::size_t>(random.below(1000));
       ASSERT_TRUE(rig.runUntil(FalconState::kUnhomed, 60.0));
-      // What it stumbled over can be read until it is ready.
+      // The status shows the fault until the device is ready.
       EXPECT_EQ(rig.driver.status().fault, trouble.fault);
       EXPECT_EQ(rig.driver.status().faults, 0U);
     }
@@ -165,7 +165,7 @@ TEST(FirmwareImage, EachFaultIsNamed) {
   bytes = good;
   bytes.push_back(0);
   EXPECT_EQ(refusalOf(bytes), "bytes follow the end of its boot table");
-  for (const std::size_t high : {19U, 25U}) {  // of the entry, of the block's address
+  for (const std::size_t high : {19U, 25U}) {  // high byte of the entry, of the block's address
     bytes = good;
     bytes[high] = 0x10;
     EXPECT_EQ(refusalOf(bytes), "a block lies outside of the processor's memory");

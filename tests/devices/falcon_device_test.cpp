@@ -1,5 +1,5 @@
 // The whole device in real time: its thread, a real pseudo terminal, and the emulator behind it.
-// Waits are for outcomes, with deadlines that are no measurements.
+// Waits are for outcomes; their deadlines measure nothing.
 
 #include "tandem/falcon/falcon_device.h"
 
@@ -23,7 +23,7 @@
 namespace tandem {
 namespace {
 
-constexpr double kLongest = 20.0;  // for any outcome [s]
+constexpr double kLongest = 20.0;  // longest wait for any outcome [s]
 
 FalconEmulatorSettings readyDevice() {
   FalconEmulatorSettings settings;
@@ -31,7 +31,7 @@ FalconEmulatorSettings readyDevice() {
   return settings;
 }
 
-/// A busy machine may let a thread wait for long; what is tested is not how long.
+/// A busy machine may delay a thread for long; these tests do not measure time.
 FalconSettings patientSettings() {
   FalconSettings settings;
   settings.reply_time = 0.3;
@@ -56,7 +56,7 @@ class FalconOverTty : public ::testing::Test {
                                              [path = port_->path()] { return openTty(path); });
   }
 
-  /// Until `is_so`; false after kLongest.
+  /// Ticks until `is_so`; false after kLongest.
   bool tickUntil(const std::function<bool(const FalconStatus&)>& is_so) {
     for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
          sleepFor(0.001)) {
@@ -72,7 +72,7 @@ class FalconOverTty : public ::testing::Test {
   bool tickUntilFault(FalconFault fault) {
     return tickUntil([fault](const FalconStatus& status) { return status.fault == fault; });
   }
-  /// The emulated grip is pushed as was asked for.
+  /// Ticks until the emulated grip is pushed with the commanded force.
   bool tickUntilPushed() {
     return tickUntil([this](const FalconStatus&) { return (force() - push_).norm() < 0.05; });
   }
@@ -110,7 +110,7 @@ class FalconOverTty : public ::testing::Test {
     EXPECT_LT(sample_.hip.p_W.norm(), 0.01);
     expectLimits();
   }
-  /// Replies are damaged by `mishap` until the fault is stated; then the device is back.
+  /// Damages replies by `mishap` until the fault is reported; then the device recovers.
   void expectFaultAndRecovery(int FalconMishaps::*mishap, FalconFault fault) {
     visit([mishap](FalconEmulator& emulator) {
       emulator.mishaps.*mishap = FalconMishaps::kAlways;
@@ -188,7 +188,7 @@ TEST_F(FalconOverTty, NoReplies) {
   expectFaultAndRecovery(&FalconMishaps::silent_replies, FalconFault::kNoReply);
 }
 
-// A doubled byte spoils its reply only, a split one not even that: neither stops the device.
+// A doubled byte spoils only its own reply, a split reply spoils nothing. Neither stops the device.
 TEST_F(FalconOverTty, DoubledBytesAndSplitRepliesAreBorne) {
   start();
   expectWork();
@@ -227,7 +227,7 @@ TEST_F(FalconOverTty, Unplugged) {
     EXPECT_TRUE(tickUntil(FalconState::kClosed));
     EXPECT_TRUE(tickUntil([this](const FalconStatus&) { return !sample_.valid; }));
     EXPECT_TRUE(tickUntil([](const FalconStatus& s) { return s.open_error[0] != '\0'; }));
-    // The emulator keeps its force, as a device may: what comes first takes it away.
+    // The emulator keeps its last force, as a device may. The first frame removes it.
     port_->plugIn();
     ASSERT_TRUE(tickUntil(FalconState::kReady));
     ASSERT_TRUE(tickUntilPushed());
@@ -260,13 +260,13 @@ TEST_F(FalconOverTty, ClosingTakesTheForceAwayAndPutsTheLightsOut) {
     EXPECT_EQ(emulator.command().lights, 0);
     EXPECT_LT(emulator.felt().most_change, 2.0 * 1.02);
   });
-  // The line is free again, and the device still homed.
+  // The line is free again, and the device is still homed.
   device_ = std::make_unique<FalconDevice>(patientSettings(), FirmwareImage{},
                                            [path = port_->path()] { return openTty(path); });
   expectWork();
 }
 
-/// The folder of temporary files is another one while it lives.
+/// Changes the folder of temporary files while it lives.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& path) {
@@ -301,7 +301,7 @@ TEST(EmulatedFalconPort, LeavesNothingBehind) {
     EmulatedFalconPort one, other;
     EXPECT_NE(one.path(), other.path());
     EXPECT_TRUE(fs::is_symlink(one.path()));
-    // Nobody else may put a link in its place.
+    // Only the owner may put a link in its place.
     EXPECT_EQ(fs::status(fs::path(one.path()).parent_path()).permissions(), fs::perms::owner_all);
     one.unplug();
     EXPECT_FALSE(fs::is_symlink(one.path()));
@@ -332,12 +332,12 @@ TEST_F(FalconOverTty, TellsItsButtonsToAnyThread) {
   visit([](FalconEmulator& emulator) { emulator.press(kCentreButton | kPlusButton); });
   EXPECT_TRUE(tickUntil(
       [this](const FalconStatus&) { return device_->buttons() == (kCentreButton | kPlusButton); }));
-  // Who does not answer presses nothing: a clutch must not stay out for ever.
+  // A silent device reports no pressed button, so that a clutch cannot stay out for ever.
   visit([](FalconEmulator& emulator) { emulator.mishaps.silent_replies = FalconMishaps::kAlways; });
   EXPECT_TRUE(tickUntil([this](const FalconStatus&) { return device_->buttons() == 0; }));
 }
 
-/// A line that can break: reads say that the device is gone, or writes do, a number of times.
+/// A line that breaks: a number of reads or writes report that the device is gone.
 struct Breaks {
   std::atomic<int> reads{0}, writes{0};
   std::atomic<bool> may_open{true};
@@ -368,7 +368,7 @@ class BreakingLine final : public ByteTransport {
   Breaks& breaks_;
 };
 
-/// A device at an emulator in its own thread, which may be looked at once the device is gone.
+/// A device at an emulator in its own thread. The emulator may be read once the device is gone.
 class FalconAtALineThatBreaks : public ::testing::Test {
  protected:
   FalconAtALineThatBreaks() : emulator_(readyDevice(), makeHoldingHand()) {}
@@ -423,7 +423,7 @@ TEST_F(FalconAtALineThatBreaks, AWriteThatFailsOnceLeavesNoForceBehind) {
   expectRest(2.0);
 }
 
-// As long as one frame goes through, it is one without force, if only in one step.
+// If only one frame gets through, it carries zero force, even if that is a single step.
 TEST_F(FalconAtALineThatBreaks, TheLastFrameOfABadLineIsOneWithoutForce) {
   start(2000.0);
   ASSERT_TRUE(waitUntilPushed());
@@ -451,7 +451,7 @@ TEST_F(FalconAtALineThatBreaks, ASlowStopIsAWholeOne) {
   EXPECT_EQ(emulator_.command().lights, 0);
 }
 
-// Who asked for it before may not be there any more.
+// The program that asked for the force may have ended since.
 TEST_F(FalconAtALineThatBreaks, AForceAskedForWhileItWasClosedIsNotRendered) {
   breaks_.may_open = false;
   start(2000.0);
@@ -469,7 +469,7 @@ TEST_F(FalconAtALineThatBreaks, AForceAskedForWhileItWasClosedIsNotRendered) {
   EXPECT_EQ(emulator_.felt().most_force, 0.0);
 }
 
-// What is read is no newer for being read again: it loses its value in the reader's own time.
+// Reading a sample again does not make it newer: it expires by the reader's time.
 TEST(FalconDevice, AReadingThatStaysIsNotValidForLong) {
   FalconEmulator emulator(readyDevice());
   FalconDevice device(patientSettings(), {}, [&emulator] { return openEmulator(emulator); });

@@ -1,5 +1,5 @@
-// What goes wrong on the line and in the device, in virtual time: the fault is stated, the force
-// goes, stays within its limits all the while, and comes back when the device does.
+// Faults of the line and of the device, in virtual time. Each is reported; the force vanishes,
+// stays within its limits throughout, and returns when the device does.
 
 #include <cmath>
 #include <utility>
@@ -14,8 +14,8 @@ namespace {
 
 using test::FalconRig;
 
-const Vec3 kPush_D(10.0, -25.0, 15.0);  // far more than may be
-constexpr double kForce = 8.0;          // what comes of it [N]
+const Vec3 kPush_D(10.0, -25.0, 15.0);  // far above the limit
+constexpr double kForce = 8.0;          // the clamped force [N]
 
 /// A device that pushes with kPush_D, against a hand that holds it.
 class FalconFaults : public ::testing::Test {
@@ -31,7 +31,7 @@ class FalconFaults : public ::testing::Test {
     return makeMinimumJerkHand({{0.0, Vec3::Zero()}}, 1000.0, 10.0);
   }
 
-  /// Goes on asking for the force.
+  /// Keeps asking for the force.
   void press(double duration) {
     rig_.run(duration, [this](double now) { rig_.driver.command(kPush_D, now); });
   }
@@ -44,7 +44,7 @@ class FalconFaults : public ::testing::Test {
   [[nodiscard]] FalconFault fault() const { return rig_.driver.status().fault; }
   [[nodiscard]] double force() { return rig_.emulator.plant().force().norm(); }
 
-  /// The fault comes within 0.1 s, and force is gone 0.1 s after it began.
+  /// The fault is reported within 0.1 s, and the force is gone 0.1 s after it began.
   void expectFault(FalconFault wanted) {
     const double began = rig_.now();
     pressUntil(FalconState::kFault, 0.1);
@@ -74,11 +74,11 @@ class FalconFaults : public ::testing::Test {
   FalconMishaps& mishaps() { return rig_.emulator.mishaps; }
 
   FalconRig rig_;
-  double most_change_;  ///< of a frame [N]
+  double most_change_;  ///< largest change per frame [N]
 };
 
-/// One that may change its force by 0.05 N a frame only: a fault takes it away in 30 ms all the
-/// same, and is not over before.
+/// A device whose force may change by only 0.05 N a frame. A fault still removes the force in 30
+/// ms, and lasts at least that long.
 class SlowFalconFaults : public FalconFaults {
  protected:
   SlowFalconFaults() : FalconFaults(makeSettings(), kForce / 30.0) {}
@@ -168,7 +168,7 @@ TEST_F(FalconFaults, PiecesThatComeTooLate) {
   expectRecovery();
 }
 
-// A stray wrong byte is no reason to stop: the next whole reply is found.
+// A stray wrong byte does not stop the device: it finds the next whole reply.
 TEST_F(FalconFaults, OneOfManyIsBorne) {
   for (int i = 0; i < 200; ++i) {
     FalconMishaps& m = mishaps();
@@ -187,7 +187,7 @@ TEST_F(FalconFaults, OneOfManyIsBorne) {
 
 TEST_F(FalconFaults, DoubledBytes) {
   mishaps().doubled_bytes = kAlways;
-  pressUntil(FalconState::kFault, 1.0);  // doubled markers do no harm, others make it wait
+  pressUntil(FalconState::kFault, 1.0);  // doubled markers do no harm, other bytes delay the driver
   EXPECT_EQ(fault(), FalconFault::kDamagedReplies);
   mishaps().doubled_bytes = 0;
   expectRecovery();
@@ -210,7 +210,7 @@ TEST_F(FalconFaults, HomingThatIsLost) {
   expectRecovery();
 }
 
-// Turned by whole turns, some of them would be positions.
+// Reduced by whole turns, some of these counts would be valid positions.
 TEST_F(FalconFaults, CountsThatNoGripCanHave) {
   const auto reply = [](std::int16_t count) {
     return encodeReply({{count, static_cast<std::int16_t>(-count), count}, 7, 0});
@@ -237,7 +237,7 @@ TEST_F(FalconFaults, CountsThatNoGripCanHave) {
   EXPECT_EQ(driver.status().state, FalconState::kReady);
 }
 
-// The device cannot help it if the host was busy: no frame of the host, no reply to miss.
+// A busy host is no fault of the device: without a frame there is no reply to miss.
 TEST_F(FalconFaults, AHostThatStallsBlamesNobody) {
   for (const double stall : {0.03, 0.3}) {
     rig_.skip(stall);
@@ -249,7 +249,8 @@ TEST_F(FalconFaults, AHostThatStallsBlamesNobody) {
   expectLimits();
 }
 
-// Nor if it was busy between deciding on a frame and sending it, and the reply is yet to come.
+// The host may also be busy between deciding on a frame and sending it. The reply is then still to
+// come.
 TEST_F(FalconFaults, AHostThatSendsLateBlamesNobody) {
   mishaps().reply_delay = 0.001;
   for (const double stall : {0.03, 0.3}) {
@@ -263,7 +264,7 @@ TEST_F(FalconFaults, AHostThatSendsLateBlamesNobody) {
   expectLimits();
 }
 
-// Yet being late all the time is no excuse for going on without replies.
+// Even a host that is always late must notice missing replies.
 TEST_F(FalconFaults, AHostThatIsAlwaysLateNoticesSilence) {
   mishaps().silent_replies = kAlways;
   const double began = rig_.now();
@@ -298,8 +299,8 @@ TEST_F(FalconFaults, ALineThatGoesAndComes) {
   EXPECT_EQ(state(), FalconState::kClosed);
   EXPECT_EQ(fault(), FalconFault::kUnplugged);
   EXPECT_FALSE(rig_.driver.reading().is_valid);
-  // The firmware kept its last command: only its power ends that for sure.
-  // Its first frame is one without force; then it ramps in again.
+  // The firmware kept its last command; only cutting its power surely ends that. The driver's first
+  // frame carries no force; then the force ramps in again.
   rig_.emulator.plugIn(true);
   press(FalconRig::kLook);
   EXPECT_EQ(force(), 0.0);
@@ -321,7 +322,7 @@ TEST_F(FalconFaults, ALineThatGoesAndComes) {
 TEST_F(FalconFaults, AnEncoderThatIsStuckPushesNoHarder) {
   mishaps().stuck_leg = 1;
   press(0.5);
-  // The force goes by a position that is wrong: its direction, too, but no command is larger.
+  // The force is computed from a wrong position, so its direction is wrong. No command is larger.
   EXPECT_LT(rig_.emulator.felt().most_force, kForce * 1.05);
   EXPECT_EQ(rig_.emulator.refused(), 0U);
 }
@@ -339,11 +340,11 @@ TEST_F(FalconFaults, AJumpIsNoVelocity) {
     EXPECT_NEAR(rig_.driver.reading().p[2], z - 0.125, 1e-4);
   }
   EXPECT_EQ(rig_.driver.status().jumps, 3U);
-  EXPECT_LT(fastest, 0.2);  // of the grip before it was held
+  EXPECT_LT(fastest, 0.2);  // speed of the grip before it was held
   EXPECT_EQ(rig_.emulator.refused(), 0U);
 }
 
-// Whatever goes wrong together, at any time: the limits hold, and after it the device is ready.
+// Any faults together, at any time: the limits hold, and afterwards the device is ready.
 TEST(FalconFault, DrawnMishapsNeverBreakTheLimits) {
   constexpr std::uint64_t kSeed = 90;
   SCOPED_TRACE(kSeed);
@@ -383,12 +384,12 @@ TEST(FalconFault, DrawnMishapsNeverBreakTheLimits) {
       if (rig.now() - last_write > 0.1) {
         ASSERT_LT(rig.emulator.felt().pushed_at, last_write + 0.1);
       }
-      // Homed again by a pull.
+      // A pull homes it again.
       rig.pull(0.04);
     }
     rig.emulator.mishaps = {};
     ASSERT_TRUE(rig.runUntil(FalconState::kReady, 30.0));
-    // 8 N, for a position up to 20 ms old: at 0.5 m/s the legs have turned on by then.
+    // 8 N, for a position up to 20 ms old. At 0.5 m/s the legs have turned further by then.
     ASSERT_LT(rig.emulator.felt().most_force, 8.0 * 1.06);
     ASSERT_LT(rig.emulator.felt().most_change, 2.0 * 1.1);
     ASSERT_EQ(rig.emulator.refused(), 0U);

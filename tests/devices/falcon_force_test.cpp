@@ -1,4 +1,5 @@
-// Force through all bytes: asked of the driver, felt at the emulator's grip, in virtual time.
+// Force through all bytes in virtual time: commanded to the driver, measured at the emulator's
+// grip.
 
 #include <cmath>
 #include <limits>
@@ -17,7 +18,7 @@ using test::FalconRig;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 const Vec3 kCentre_D(0.0, 0.0, 0.125);
 
-/// Asks for a force at every look until it stands.
+/// Commands a force at every step until it is constant.
 void press(FalconRig& rig, const Vec3& f_D, double duration) {
   rig.run(duration, [&](double now) { rig.driver.command(f_D, now); });
 }
@@ -30,7 +31,7 @@ struct Worst {
   double angle = 0.0, size = 0.0;
 };
 
-/// Forces of 5 N over a cube of 6 cm, as the emulated hand feels them.
+/// Commands forces of 5 N over a cube of 6 cm and compares them with the emulated hand's.
 Worst findWorst(double device_motors_per_torque) {
   FalconEmulatorSettings device = test::readyDevice();
   device.plant.motors_per_torque = device_motors_per_torque;
@@ -63,8 +64,8 @@ TEST(FalconForce, IsFeltAsItIsAskedForInACubeOfSixCentimetres) {
   EXPECT_LT(worst.size, 0.005);
 }
 
-// The constant of the motors scales the force and leaves the direction: so it shows, and so it can
-// be found with a spring balance.
+// A wrong motor constant scales the force and keeps its direction. A spring balance can therefore
+// find it.
 TEST(FalconForce, AWrongMotorConstantIsFelt) {
   const Worst worst = findWorst(10000.0);
   EXPECT_LT(worst.angle, 0.1 * kDegree);
@@ -102,7 +103,7 @@ TEST(FalconForce, NeverWrapsWhateverIsAskedFor) {
 }
 
 TEST(FalconForce, ComesInAfterHomingAndShowsItsLights) {
-  constexpr double kStart = 5.0;  // of the hand: booting is over by then [s]
+  constexpr double kStart = 5.0;  // start of the hand, after booting [s]
   const Vec3 f_D(4.0, 0.0, 0.0);
   FalconRig rig({}, {}, test::makeHomingHand(kStart));
   press(rig, f_D, kStart);
@@ -155,7 +156,7 @@ TEST(FalconForce, AStopTakesItAwayAndPutsTheLightsOut) {
   EXPECT_LT(rig.emulator.felt().most_change, 2.0 * 1.02);
 }
 
-// A spring rendered at a grip in a moving hand: the whole loop, mechanism included.
+// A spring rendered at a grip in a moving hand: the whole loop, including the mechanism.
 TEST(FalconForce, PositionsAndVelocitiesAreThoseOfTheGrip) {
   auto hand = makeMinimumJerkHand(
       {{0.3, Vec3::Zero()}, {1.0, Vec3(0.03, -0.02, 0.02)}, {1.7, Vec3(-0.02, 0.03, -0.01)}},
@@ -177,9 +178,9 @@ TEST(FalconForce, PositionsAndVelocitiesAreThoseOfTheGrip) {
   });
   EXPECT_GT(readings, 7000);
   EXPECT_GT(spread, 0.03);
-  // Half a count of each encoder, and the way of a millisecond at 0.15 m/s.
+  // Half a count of each encoder, plus the way of a millisecond at 0.15 m/s.
   EXPECT_LT(worst_p, 0.0003);
-  // 0.15 m/s, and one count of difference in a millisecond is 0.04 m/s and more.
+  // 0.15 m/s; one count of difference in a millisecond is 0.04 m/s or more.
   EXPECT_LT(fastest, 0.4);
   EXPECT_EQ(rig.driver.status().jumps, 0U);
 }
@@ -203,7 +204,7 @@ TEST(FalconForceGate, NoStepIsLargerThanTheSlewLimit) {
   }
 }
 
-// However slowly force may change: what must go is gone in 30 ms, evenly.
+// Even with a slow slew limit, a force that must vanish is gone in 30 ms, evenly.
 TEST(FalconForceGate, WhatMustGoDoesNotWaitForASlowSlewLimit) {
   const Vec3 push(0.0, 8.0, 0.0), bad(0.0, std::nan(""), 0.0);
   const auto framesToZero = [&](double max_slew, const Vec3& wanted, double age, bool is_open) {
@@ -224,7 +225,7 @@ TEST(FalconForceGate, WhatMustGoDoesNotWaitForASlowSlewLimit) {
     EXPECT_NEAR(framesToZero(max_slew, push, 0.0, false), 30, 1);  // closed
     EXPECT_NEAR(framesToZero(max_slew, push, 0.1, true), 30, 1);   // not renewed
     EXPECT_NEAR(framesToZero(max_slew, bad, 0.0, true), 30, 1);
-    // A writer that asks for zero has chosen the limit.
+    // A caller that asks for zero gets the slew limit it chose.
     EXPECT_NEAR(framesToZero(max_slew, Vec3::Zero(), 0.0, true), 8000.0 / max_slew, 1);
   }
   EXPECT_NEAR(framesToZero(2000.0, push, 0.0, false), 4, 1);

@@ -11,7 +11,7 @@
 
 namespace tandem::test {
 
-/// A hand that pulls the grip out and pushes it in again: all legs pass their indices.
+/// A hand that pulls the grip out and pushes it in again, so that all legs pass their index marks.
 inline std::unique_ptr<Hand> makeHomingHand(double start) {
   return makeMinimumJerkHand({{start, Vec3::Zero()},
                               {start + 0.6, Vec3(0.0, 0.0, 0.045)},
@@ -26,7 +26,7 @@ inline FalconEmulatorSettings readyDevice() {
   return settings;
 }
 
-/// Driver and emulator back to back, in virtual time.
+/// Driver and emulator connected directly, in virtual time.
 class FalconRig {
  public:
   static constexpr double kLook = 0.00025;  ///< [s]
@@ -35,7 +35,7 @@ class FalconRig {
                      std::unique_ptr<Hand> hand = nullptr)
       : emulator(device, std::move(hand)), driver(settings, makeSyntheticFirmware(7)) {}
 
-  /// Runs on; `each` sees every look, before the driver does.
+  /// Runs for `duration`; calls `each` before the driver in every step.
   void run(double duration, const std::function<void(double)>& each = nullptr) {
     const long looks = std::lround(duration / kLook);
     for (long i = 0; i < looks; ++i) {
@@ -45,26 +45,26 @@ class FalconRig {
     }
   }
 
-  /// Runs until the driver is in `state`; false if it is not within `longest`.
+  /// Runs until the driver is in `state`. Returns false after `longest`.
   bool runUntil(FalconState state, double longest) {
     for (const double end = now() + longest; now() < end; run(0.001))
       if (driver.status().state == state) return true;
     return driver.status().state == state;
   }
 
-  /// The host does nothing for a while, from when nothing is on its way.
+  /// Pauses the host, from a moment when no byte is on its way.
   void skip(double duration) {
     run(kLook);  // takes the reply to the last frame; the next is not due
     looks_ += std::lround(duration / kLook);
   }
 
-  /// The host decides on a frame, and sends it only after so long.
+  /// The host decides on a frame, and sends it `duration` later.
   void sendLate(double duration) {
     send_late_ = std::lround(duration / kLook);
     while (send_late_ > 0) run(kLook);
   }
 
-  /// Moves the held grip there and back, slowly enough for no jump: 0.5 mm in a millisecond.
+  /// Moves the held grip out and back slowly, 0.5 mm in a millisecond, so that no jump is seen.
   void pull(double out, const std::function<void(double)>& each = nullptr) {
     const Vec3 from_D = emulator.plant().position();
     const int steps = static_cast<int>(std::ceil(out / 0.0005));

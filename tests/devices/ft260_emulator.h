@@ -7,11 +7,11 @@
 
 namespace tandem::test {
 
-/// The bytes of an FT260 with something on its serial line that answers each of a Falcon's commands
-/// with its own motors as counts. Written from the chip's documents, not with ft260_reports.h.
+/// The bytes of an FT260 whose serial line answers each Falcon command with the command's own
+/// motors as counts. Written from the chip's documents, not with ft260_reports.h.
 class Ft260Emulator {
  public:
-  /// A feature report.
+  /// Takes a feature report.
   void take(const Bytes& feature) {
     if (feature == Bytes{0xA1, 0x03, 0x04}) is_on_ = true;
     if (feature.size() == 11 && feature[0] == 0xA1 && feature[1] == 0x41)
@@ -20,7 +20,7 @@ class Ft260Emulator {
   [[nodiscard]] bool isOn() const { return is_on_; }
   [[nodiscard]] int baud() const { return baud_; }
 
-  /// The input reports that an output report brings about. `in_pieces`: bytes come one by one.
+  /// Input reports that an output report causes. With `in_pieces` bytes come one by one.
   std::vector<Bytes> answer(const Bytes& output, bool in_pieces = false) {
     std::vector<Bytes> inputs;
     if (!is_on_ || output.size() < 3 || output[0] < 0xF0 || output[0] > 0xFE) return inputs;

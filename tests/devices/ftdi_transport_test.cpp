@@ -1,4 +1,4 @@
-// What is asked of libftdi1, by functions in its place that the linker finds first.
+// Records the calls to libftdi1. The linker finds these functions first.
 
 #include <algorithm>
 #include <deque>
@@ -14,13 +14,14 @@
 namespace tandem {
 namespace {
 
-constexpr int kGone = -4, kTimedOut = -7;  // of libusb
+constexpr int kGone = -4, kTimedOut = -7;  // errors of libusb
 
-/// The chip's end, and what was asked for.
+/// State of the fake chip, and the calls it received.
 struct FakeFtdi {
   int open_result = 0;
-  int read_result = 0, write_result = 0;           ///< negative: instead of doing it
-  std::deque<std::vector<unsigned char>> packets;  ///< that transfers bring; none left: empty ones
+  int read_result = 0, write_result = 0;  ///< negative: fail with this
+  std::deque<std::vector<unsigned char>>
+      packets;  ///< delivered by transfers; empty packets after the last
   std::vector<unsigned char> buffered, sent;
   int transfers = 0;
   std::vector<std::string> asked;
@@ -65,7 +66,7 @@ int ftdi_write_data(ftdi_context*, const unsigned char* bytes, int size) {
   return size;
 }
 
-/// As the library's: transfers go on until all that was asked for is there, or one brings nothing.
+/// Like the library's: transfers continue until all requested bytes have arrived, or one is empty.
 int ftdi_read_data(ftdi_context* context, unsigned char* bytes, int size) {
   if (fake.read_result < 0) return fake.read_result;
   int count = 0;
@@ -98,7 +99,7 @@ class FtdiTransport : public ::testing::Test {
   std::array<std::uint8_t, 256> bytes_{};
 };
 
-// A second one would wait for the chip's latency time, a millisecond at least.
+// A second transfer would wait for the chip's latency time, at least a millisecond.
 TEST_F(FtdiTransport, ReadsWithOneTransfer) {
   for (const std::size_t size : {16U, 62U, 1U, 7U}) {
     std::vector<unsigned char> packet(size);
@@ -138,7 +139,7 @@ TEST_F(FtdiTransport, WritesAllOrSaysSo) {
   EXPECT_FALSE(line_->write(call.data(), call.size()));
 }
 
-// The boot loader knows by DTR what speed comes.
+// The boot loader learns the coming speed from DTR.
 TEST_F(FtdiTransport, SetsTheModemLinesBeforeTheSpeed) {
   EXPECT_TRUE(line_->setLine({142857, 16, false, false}));
   EXPECT_EQ(fake.asked, (std::vector<std::string>{"rts 0", "dtr 0", "baud 142857", "8N1", "flow",

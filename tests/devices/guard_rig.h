@@ -14,14 +14,14 @@ namespace tandem::test {
 inline constexpr double kPeriod = 1e-3;  // [s]
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// A guard over a told device, tick by tick.
+/// A guard over a scripted device, run tick by tick.
 class GuardRig {
  public:
   explicit GuardRig(const GuardSettings& settings = {}, const DeviceCapabilities& device = {})
       : script{device},
         guard(std::make_unique<GuardedDevice>(std::make_unique<ToldDevice>(script), settings)) {}
 
-  /// Reads a period later and writes; gives the device's force.
+  /// Reads one period later and writes; returns the device's force.
   Vec3 tick(const Vec3& wanted) {
     now += kPeriod;
     (void)guard->read(now);
@@ -32,7 +32,7 @@ class GuardRig {
     const int ticks = static_cast<int>(std::lround(duration / kPeriod));
     for (int i = 0; i < ticks; ++i) (void)tick(wanted);
   }
-  /// To where the ramp is over.
+  /// Ticks until the ramp is over.
   void warmUp(const Vec3& wanted) { tickFor(0.6, wanted); }
   [[nodiscard]] std::uint64_t cuts(GuardCut reason) const {
     return guard->status().cuts[static_cast<std::size_t>(reason)];

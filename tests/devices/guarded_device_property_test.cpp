@@ -13,7 +13,7 @@ namespace {
 using test::GuardRig;
 using test::kInf;
 
-/// A force that no program should ask for, now and then.
+/// Draws a force; now and then one that no program should command.
 Vec3 drawForce(test::Random& random) {
   const double odd[] = {std::nan(""), kInf, 1e300, -1e300};
   Vec3 force = random.direction() * random.logUniform(1e-3, 100.0);
@@ -21,7 +21,8 @@ Vec3 drawForce(test::Random& random) {
   return force;
 }
 
-// Anything may go wrong at any time. Held to: the clamp, the slew, and zero 100 ms after a fault.
+// Anything may fail at any time. The clamp, the slew limit, and zero force 100 ms after a fault
+// must hold.
 TEST(GuardedDevice, HoldsItsPromisesWhateverHappens) {
   constexpr std::uint64_t kSeed = 31;
   SCOPED_TRACE(kSeed);
@@ -62,7 +63,7 @@ TEST(GuardedDevice, HoldsItsPromisesWhateverHappens) {
       if (force != before) last_change = rig.now;
       if (force == Vec3::Zero()) last_zero = rig.now;
 
-      // A fault is over for this test once the force has been zero after it.
+      // Here a fault ends once the force has been zero after it.
       if (rig.guard->status().is_cut && fault == kInf) fault = rig.now;
       if (wrote < rig.now - 0.05) fault = std::min(fault, wrote + 0.05);
       if (last_zero >= fault) fault = kInf;
@@ -73,7 +74,7 @@ TEST(GuardedDevice, HoldsItsPromisesWhateverHappens) {
   }
 }
 
-// While nothing is wrong and nothing is too fast, the direction is that of the wanted force.
+// Without a fault and without clipping, the force has the direction of the wanted force.
 TEST(GuardedDevice, KeepsTheDirection) {
   constexpr std::uint64_t kSeed = 32;
   SCOPED_TRACE(kSeed);

@@ -25,7 +25,7 @@ TEST(GuardedDevice, GivesNothingBeforeAPositionAndThenRampsIn) {
   rig.script.sample.valid = false;
   rig.tickFor(1.0, kPush);
   EXPECT_EQ(rig.script.force, Vec3::Zero());
-  EXPECT_EQ(rig.cuts(GuardCut::kNotValid), 0u);  // it has been so from the start
+  EXPECT_EQ(rig.cuts(GuardCut::kNotValid), 0u);  // invalid from the start, so not a cut
 
   rig.script.sample.valid = true;
   EXPECT_EQ(rig.tick(kPush), Vec3::Zero());
@@ -52,7 +52,7 @@ TEST(GuardedDevice, ChangesNoFasterThanItsSlewCountedInTime) {
   GuardRig rig;
   rig.warmUp(Vec3::Zero());
   EXPECT_NEAR(rig.tick(kPush).norm(), 2.0, 1e-9);
-  rig.guard->write(kPush);  // again in the same tick: no time has passed
+  rig.guard->write(kPush);  // a second write in the same tick: no time has passed
   EXPECT_NEAR(rig.script.force.norm(), 2.0, 1e-9);
   rig.now += 0.02;  // a late tick counts for two periods
   EXPECT_NEAR(rig.tick(-10.0 * kPush).norm(), 2.0, 1e-9);
@@ -175,7 +175,7 @@ TEST(GuardedDevice, HearsOfItsDeadManFromAnotherThread) {
   rig.tickFor(1.0, kPush);
   other.join();
   rig.tickFor(0.01, kPush);
-  EXPECT_EQ(rig.script.force, Vec3::Zero());  // at last it was let go
+  EXPECT_EQ(rig.script.force, Vec3::Zero());  // the dead man was released last
   EXPECT_GE(rig.cuts(GuardCut::kDeadMan), 1u);
 }
 

@@ -14,7 +14,7 @@ using test::Bytes;
 using test::comesTrue;
 using test::FakeHidDevice;
 
-/// Takes reports that begin with 1, gives a count.
+/// Accepts reports that begin with 1, and sends a count.
 class Client final : public HidClient {
  public:
   [[nodiscard]] bool takeReport(const std::uint8_t* report, std::size_t size,
@@ -92,13 +92,13 @@ TEST(HidStream, WritesInItsPeriodAndSaysTheLastWords) {
   EXPECT_EQ(client.goings, 1);
 }
 
-// The device is there and its motors may be on: it hears of the end also after a bad report.
+// The device is there and its motors may be on. It gets the last report also after a bad one.
 TEST(HidStream, AWriteThatFailsIsFollowedByTheLastWords) {
   FakeHidDevice fake;
   Client client;
   HidStream stream(fake.opener(), client, makeQuick(0.001));
   ASSERT_TRUE(comesTrue([&] { return stream.counters().written >= 3; }));
-  fake.refuseWrites(2);  // the first of the last words, too
+  fake.refuseWrites(2);  // includes the first of the last reports
   ASSERT_TRUE(comesTrue([&] { return client.goings == 1; }));
   ASSERT_TRUE(comesTrue([&] { return stream.isConnected(); }));
   const std::vector<Bytes> outputs = fake.outputs();
@@ -169,7 +169,7 @@ TEST(HidStream, EndsWhileItLooksForTheDevice) {
   ASSERT_TRUE(comesTrue([&] { return client.goings == 1; }));
 }
 
-// Before its threads have run at all, and while it opens the device again.
+// The stream ends before its threads have run, and while it reopens the device.
 TEST(HidStream, EndsRightAfterItHasConnected) {
   FakeHidDevice fake;
   Client client;
@@ -180,7 +180,7 @@ TEST(HidStream, EndsRightAfterItHasConnected) {
   std::atomic<int> opened{0};
   const HidOpener open = [&] {
     std::unique_ptr<HidPort> port = fake.opener()();
-    // Long enough for the stream's end to begin; it does not matter if it is not.
+    // Long enough for the stream's end to begin. The test also holds if it has not.
     if (++opened > 1) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return port;
   };

@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-/// Whose parts must always be of one write.
+/// A value whose parts must always be of the same write.
 struct Parts {
   std::uint64_t a = 0, b = 0, c = 0;
 };

@@ -9,7 +9,7 @@
 namespace tandem {
 namespace {
 
-/// No dead zone, 0.1 m/s, 20 ms, a box of 1 m.
+/// Settings: no dead zone, 0.1 m/s, 20 ms, a box of 1 m.
 RateControlSettings makePlain() {
   RateControlSettings settings;
   settings.speed = 0.1;
@@ -39,7 +39,7 @@ TEST(RateControl, StepsOfTheCapMakeNoStepOfTheVelocity) {
     if (tick % 8 == 0) control.setDisplacement(Vec3(tick % 16 == 0 ? 1 : -1, 0, 0));
     control.advance(1e-3);
     const double v = control.point().v_W.x();
-    // At most the whole range of 0.2 m/s, decaying with the time constant.
+    // The change is at most the whole range of 0.2 m/s, decaying with the time constant.
     ASSERT_LE(std::abs(v - last), 0.2 * 1e-3 / 0.02);
     last = v;
   }

@@ -5,9 +5,9 @@
 #include "devices/raw_hid_emulator.h"
 #include "support/random.h"
 
-// Ages, fades and ramps to the microsecond, in a time that is told; raw_hid_device_test.cpp has the
+// Ages, fades and ramps to the microsecond in given time; raw_hid_device_test.cpp tests the
 // threads. The arms are 50 mm long and along the axes: 1000 of a torque are 1 N. In all tests no
-// report goes beyond 8 N or changes the force by more than 2 N.
+// report exceeds 8 N or changes the force by more than 2 N.
 
 namespace tandem {
 namespace {
@@ -53,7 +53,7 @@ class RawHidClientTest : public testing::Test {
   Given give(double now) { return take(client_.giveReport(now)); }
   Given giveLast(double now) { return take(client_.giveLastReport(now)); }
 
-  /// Each millisecond a report, a wish for the full force, a command; the last one.
+  /// Each millisecond: a report, a request for full force, a command. Returns the last command.
   Given run(double from, double to) {
     Given given{};
     for (double now = from; now < to - 1e-9; now += 1e-3) {
@@ -63,7 +63,7 @@ class RawHidClientTest : public testing::Test {
     }
     return given;
   }
-  /// After `now` nothing more comes: four reports on the way to zero, then `flags`.
+  /// After `now` no report comes: four commands on the way to zero, then `flags`.
   void expectFadeFrom(double now, int flags) {
     for (int i = 1; i <= 3; ++i) {
       const Given given = give(now + i * 1e-3);
@@ -77,14 +77,14 @@ class RawHidClientTest : public testing::Test {
 
   falcon_detail::RawHidClient client_;
   test::RawHidEmulator emulator_;
-  Vec3 f_D_ = Vec3::Zero();  ///< of the last report
+  Vec3 f_D_ = Vec3::Zero();  ///< force of the last report
 };
 
 class RawHidRampTest : public RawHidClientTest {
  protected:
   RawHidRampTest() : RawHidClientTest(0.5) {}
 
-  /// From `now` on all is well: the force is gone at once, and comes back by the ramp.
+  /// From `now` on the device is well. The force is zero at once, and returns by the ramp.
   void expectRampFrom(double now) {
     for (int i = 0; i <= 500; ++i) {
       const double f = run(now + i * 1e-3, now + (i + 1) * 1e-3).f_D.x();
@@ -103,7 +103,7 @@ TEST_F(RawHidClientTest, DrivesForTwentyMillisecondsAfterAReport) {
   expectFadeFrom(0.024002, 0);
   ASSERT_TRUE(hear(0.030));
   wish(kFull);
-  (void)give(0.030);  // it is known that there was a gap
+  (void)give(0.030);  // the client has noticed the gap
   EXPECT_GT(give(0.031).f_D.x(), 0.0);
 }
 
@@ -164,7 +164,7 @@ TEST_F(RawHidClientTest, UnpluggedItForgets) {
   EXPECT_EQ(run(0.0, 0.005).f_D, kFull);
   client_.setConnected(false);
   EXPECT_LT(give(0.005).f_D.x(), 8.0);
-  f_D_.setZero();  // who is plugged in has no force
+  f_D_.setZero();  // a device just plugged in has no force
   client_.setConnected(true);
   EXPECT_EQ(give(0.006).f_D, Vec3(Vec3::Zero()));
   ASSERT_TRUE(hear(0.006));
@@ -201,11 +201,11 @@ TEST_F(RawHidRampTest, AStartAndEachFaultBeginTheRamp) {
   wish(kFull, false);
   (void)give(1.022);
   expectRampFrom(1.023);
-  (void)give(1.575);  // the site has stood
+  (void)give(1.575);  // the site has paused
   expectRampFrom(1.576);
 }
 
-// Two reports between two commands: neither the haptic thread nor the writer sees the first.
+// Two reports between two commands: neither haptic thread nor writer sees the first.
 TEST_F(RawHidRampTest, HomingThatIsLostForOneReportBeginsTheRamp) {
   expectRampFrom(0.0);
   emulator_.setHomed(false);
@@ -226,7 +226,8 @@ TEST_F(RawHidRampTest, AWishFromBeforeAFaultIsNotRendered) {
   expectRampFrom(0.521);
 }
 
-// Whatever comes and goes: take() looks at bounds and changes, and what is wrong ends in zero.
+// In any sequence of troubles take() checks bounds and changes, and each trouble ends in zero
+// force.
 TEST_F(RawHidRampTest, NoTroubleMakesAJump) {
   constexpr std::uint64_t kSeed = 1612;
   SCOPED_TRACE(kSeed);

@@ -27,14 +27,14 @@ class RawHidDeviceTest : public testing::Test {
     return settings;
   }
 
-  /// The device's y is W's z, its z W's -y.
+  /// The device's y is W's z, its z is W's -y.
   static RawHidSettings turned() {
     RawHidSettings turned = settings();
     turned.q_WD = Quat(Eigen::AngleAxisd(std::acos(0.0), Vec3::UnitX()));
     return turned;
   }
 
-  /// Sends a state and waits until it has been taken.
+  /// Sends a state and waits until the device has taken it.
   void tell(RawHidDevice& device, const test::Bytes& report) {
     fake_.send(report);
     ++sent_;
@@ -45,8 +45,8 @@ class RawHidDeviceTest : public testing::Test {
     return RawHidEmulator::decode(fake_.outputs().back());
   }
 
-  /// Keeps the device fresh and commands `f_W`, until `outcome` of a command that goes out, which
-  /// is then in `seen_`: on a busy machine the next one may be zero.
+  /// Keeps the device fresh and commands `f_W` until a sent command meets `outcome`; stores it in
+  /// `seen_`. On a busy machine the next one may be zero.
   template <typename Outcome>
   bool driveUntil(RawHidDevice& device, const Vec3& f_W, Outcome outcome) {
     return comesTrue([&] {
@@ -68,20 +68,20 @@ class RawHidDeviceTest : public testing::Test {
 
 bool isDriven(const RawHidCommand& command) { return command.torques != Torques{}; }
 
-/// What a command's torques push with in the centre, in the device's frame [N].
+/// Force of a command's torques at the centre, in the device's frame [N].
 Vec3 forceOf(const RawHidCommand& command) {
   const auto& torques = command.torques;
   const auto pose = FalconKinematics().computePose(kCentre_D);
   return kRawHidTorque * pose->dangles_dp.transpose() * Vec3(torques[0], torques[1], torques[2]);
 }
 
-/// Whatever went out: no force beyond 8 N, no change by more than 2 N; rounding aside.
+/// No command exceeds 8 N or changes the force by more than 2 N, apart from rounding.
 void expectCalm(const FakeHidDevice& fake) {
   Vec3 last = Vec3::Zero();
   for (const test::Bytes& output : fake.outputs()) {
     const Vec3 f_D = forceOf(RawHidEmulator::decode(output));
     EXPECT_LE(f_D.norm(), 8.01);
-    EXPECT_LE((f_D - last).norm(), 2.1);  // a count of the encoder turns 8 N by less than 1 %
+    EXPECT_LE((f_D - last).norm(), 2.1);  // one encoder count turns 8 N by less than 1 %
     last = f_D;
   }
 }
@@ -93,7 +93,7 @@ TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
   tell(device, emulator_.next());
   const DeviceSample sample = device.read(0.001);
   ASSERT_TRUE(sample.valid);
-  // One count of each of the three legs is 48 um at most.
+  // One count of each of the three legs is at most 48 um.
   EXPECT_LT((sample.hip.p_W - Vec3(0.01, -0.02, 0.0)).norm(), 50e-6);
   EXPECT_EQ(sample.hip.v_W, Vec3(Vec3::Zero())) << "one position is no velocity";
 }
@@ -101,7 +101,7 @@ TEST_F(RawHidDeviceTest, TheGripIsWhereTheLegsSay) {
 TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
   RawHidDevice device(fake_.opener(), turned());
   DeviceSample sample;
-  // A busy machine may leave gaps of 20 ms, after which the velocity begins anew.
+  // A busy machine may leave gaps of 20 ms; after these the velocity estimate restarts.
   for (int round = 0, gaps = 1; gaps > 0 && round < 100; ++round) {
     gaps = round == 0 ? 1 : 0;
     for (int i = 0; i < 200; ++i) {
@@ -112,7 +112,7 @@ TEST_F(RawHidDeviceTest, TheVelocityIsByTheDevicesClock) {
     }
   }
   ASSERT_TRUE(sample.valid);
-  // A count is 48 um at most: in windows of 8 ms the usual estimator is off by some mm/s.
+  // A count is at most 48 um: in windows of 8 ms the usual estimator is off by some mm/s.
   EXPECT_LT((sample.hip.v_W - Vec3(0.0, 0.0, 0.05)).norm(), 0.02);
 }
 
@@ -124,7 +124,7 @@ TEST_F(RawHidDeviceTest, AForceArrivesAsTheTorquesThatMakeIt) {
   ASSERT_TRUE(driveUntil(device, Vec3(1.0, -2.0, 3.0), isWhole));
   const auto pose = FalconKinematics().computePose(kCentre_D);
   const Vec3 expected = *computeTorques(*pose, Vec3(1.0, 3.0, 2.0)) / kRawHidTorque;
-  for (int i = 0; i < 3; ++i)  // a count of the encoder turns the force by less than 1 %
+  for (int i = 0; i < 3; ++i)  // one encoder count turns the force by less than 1 %
     EXPECT_NEAR(seen_.torques[static_cast<std::size_t>(i)], expected[i],
                 0.01 * expected.cwiseAbs().maxCoeff());
   EXPECT_EQ(seen_.flags, kRawHidDrive);
@@ -160,7 +160,7 @@ TEST_F(RawHidDeviceTest, AnOldReplyIsNotValidInTheSitesTime) {
   }));
 }
 
-// After one that is not homed, or that comes late, though the newest one is good.
+// One sample is invalid after a report that is not homed or comes late, even if the newest is good.
 TEST_F(RawHidDeviceTest, OneSampleIsNotValidAfterAFaultThatItDoesNotShow) {
   RawHidDevice device(fake_.opener(), settings());
   tell(device, emulator_.next());
@@ -175,7 +175,7 @@ TEST_F(RawHidDeviceTest, OneSampleIsNotValidAfterAFaultThatItDoesNotShow) {
   EXPECT_EQ(sample.hip.v_W, Vec3(Vec3::Zero()));
 }
 
-// Their position would look as good.
+// A position computed from these counts would look valid.
 TEST_F(RawHidDeviceTest, ArmsAWholeTurnOffAreNoPosition) {
   for (std::size_t leg = 0; leg < 3; ++leg)
     for (const int turn : {-9880, 9880}) {
@@ -192,13 +192,13 @@ TEST_F(RawHidDeviceTest, TheWriterGoesToZeroWhenRepliesOrTicksEnd) {
   RawHidDevice device(fake_.opener(), settings());
   const auto isZero = [](const RawHidCommand& c) { return !isDriven(c) && c.flags == 0; };
   ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
-  // Ticks go on, the device is silent; nothing looks at it but the thread that writes.
+  // Ticks go on, and the device is silent. Only the writing thread watches it.
   EXPECT_TRUE(comesTrue([&] {
     device.write(Vec3(5, 0, 0));
     return isZero(last());
   }));
   ASSERT_TRUE(driveUntil(device, Vec3(5, 0, 0), &isDriven));
-  // The device goes on, the ticks have ended.
+  // The device goes on, and the ticks have ended.
   EXPECT_TRUE(comesTrue([&] {
     fake_.send(emulator_.next());
     return isZero(last());

@@ -7,7 +7,7 @@
 
 namespace tandem::test {
 
-/// The bytes of a raw HID device whose grip is held somewhere.
+/// The bytes of a raw HID device whose grip is held at a place.
 class RawHidEmulator {
  public:
   void holdAt(const Vec3& p_D) {
@@ -17,7 +17,7 @@ class RawHidEmulator {
       state_.counts[static_cast<std::size_t>(i)] =
           static_cast<std::int16_t>(std::lround(countsOfAngle((*angles)[i])));
   }
-  /// An arm's counts from now on are off by so many.
+  /// Shifts an arm's counts by `counts` from now on.
   void turn(std::size_t leg, int counts) {
     state_.counts[leg] = static_cast<std::int16_t>(state_.counts[leg] + counts);
   }
@@ -31,7 +31,7 @@ class RawHidEmulator {
     return {bytes.begin(), bytes.end()};
   }
 
-  /// What an output report, with the 0 in front, commands.
+  /// The command in an output report that begins with the report number 0.
   static RawHidCommand decode(const Bytes& output) {
     if (output.empty() || output[0] != 0) throw std::invalid_argument("no report without an id");
     const auto command = decodeRawCommand(output.data() + 1, output.size() - 1);

@@ -14,7 +14,7 @@ using Torques = std::array<std::int16_t, 3>;
 const RawHidState kState{0x1234, {100, -200, 32767}, 7, 5, 0xDEADBEEF};
 const RawHidCommand kCommand{0xFFFF, {1, -1, -32767}, kRawHidDrive};
 
-/// The bytes that are not 0 at the beginning, zeros, and the CRC; CRCs are Python's
+/// Builds a report from its leading bytes, zeros, and the CRC. CRCs are from Python's
 /// binascii.crc_hqx.
 RawHidBytes makeGolden(std::initializer_list<int> head, int crc) {
   RawHidBytes bytes{};

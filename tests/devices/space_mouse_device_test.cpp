@@ -21,7 +21,7 @@ class SpaceMouseDeviceTest : public testing::TestWithParam<SpaceMouseLayout> {
     return settings;
   }
 
-  /// Lets the emulator say what is due at `now`, and waits until it has been heard.
+  /// Sends the emulator's reports due at `now`, and waits until they arrived.
   void tell(SpaceMouseDevice& device, double now) {
     while (const auto report = emulator_.next(now)) {
       fake_.send(bytesOf(*report));
@@ -49,7 +49,7 @@ TEST_P(SpaceMouseDeviceTest, ACapHeldAsideIsAVelocityUntilItIsLetGo) {
   EXPECT_NEAR(sample.hip.v_W.x(), 0.15, 1e-4);
   EXPECT_NEAR(sample.hip.v_W.y(), 0.15, 1e-4);
   EXPECT_EQ(sample.hip.v_W.z(), 0.0);
-  // 0.399 s less the time constant that smoothing loses, from where the first report was seen.
+  // 0.399 s minus the time constant that smoothing costs, from the place at the first report.
   EXPECT_NEAR(sample.hip.p_W.x(), 0.1 + 0.15 * (0.399 - 0.03), 2e-4);
 
   emulator_.move({});
@@ -86,7 +86,7 @@ TEST_P(SpaceMouseDeviceTest, SilenceOfASecondEndsTheMotion) {
   EXPECT_NEAR(sample.hip.v_W.x(), 0.0, 1e-12);
 }
 
-// The user has not seen the point move meanwhile.
+// The user has not seen the point move in the meantime.
 TEST_P(SpaceMouseDeviceTest, AfterASiteHasStoodThePointGoesOnFromWhereItWas) {
   SpaceMouseDevice device(fake_.opener(), settings());
   emulator_.move({350, 0, 0, 0, 0, 0});

@@ -7,15 +7,15 @@
 
 namespace tandem::test {
 
-/// What a ToldDevice is told, and what it was given; outlives it.
+/// Samples that a ToldDevice returns, and the force it received. Must outlive the device.
 struct DeviceScript {
   DeviceCapabilities capabilities;
-  DeviceSample sample{{}, true};  ///< of the next reads
+  DeviceSample sample{{}, true};  ///< returned by the next reads
   Vec3 force = Vec3::Constant(99.0);
   int writes = 0;
 };
 
-/// A device that reads as its script says, and keeps the last force there.
+/// A device that reads from its script, and stores the last force there.
 class ToldDevice final : public HapticDevice {
  public:
   explicit ToldDevice(DeviceScript& script) : script_(script) {}

@@ -59,7 +59,7 @@ TYPED_TEST(VelocityEstimator, LeavesOutWhatIsNoNewReading) {
   for (int i = 0; i < 50; ++i) (void)estimator.add(i * kPeriod, Vec3(0.5 * i, 0, 0));
   TypeParam untouched = estimator;
   const double last = 49 * kPeriod, nan = std::nan("");
-  const Vec3 before = untouched.add(last, Vec3::Zero());  // not later: the last velocity again
+  const Vec3 before = untouched.add(last, Vec3::Zero());  // no later stamp: the last velocity again
   EXPECT_GT(before.x(), 100.0);
   for (const auto& [time, x] : {std::pair(last, 0.0),
                                 {0.01, 3.0},
@@ -97,7 +97,7 @@ TEST(LowPassDifference, RisesToAStepOfVelocityExponentially) {
   }
 }
 
-/// Counts of something that moves as `way` says [counts].
+/// Encoder counts of the motion `way` [counts].
 template <typename Way>
 Vec3 countAt(double t, const Way& way) {
   return {std::round(way(t)), 0.0, 0.0};
@@ -107,7 +107,7 @@ TEST(AdaptiveWindow, StandsStillOnOneCountAndTurnsOverInOneReading) {
   AdaptiveWindow estimator = makeUsualVelocityEstimator();
   for (int i = 0; i < 100; ++i)
     ASSERT_EQ(estimator.add(i * kPeriod, Vec3(17.0, 0, 0)), Vec3::Zero());
-  // Five counts a period, away and back: none of the old window is left in the first reading.
+  // Five counts a period, away and back: the first reading contains none of the old window.
   EXPECT_NEAR(estimator.add(0.100, Vec3(22.0, 0, 0)).x(), 5000.0, 1e-6);
   EXPECT_NEAR(estimator.add(0.101, Vec3(17.0, 0, 0)).x(), -5000.0, 1e-6);
 }
@@ -116,7 +116,7 @@ TEST(AdaptiveWindow, LooksBackNoFurtherThanAllowed) {
   for (const WindowFit fit : {WindowFit::kEnds, WindowFit::kBest}) {
     AdaptiveWindow estimator({0.7, 0.0, 8e-3, fit});
     for (int i = 0; i <= 20; ++i) (void)estimator.add(i * kPeriod, Vec3(0.01 * i * i, 0, 0));
-    // A parabola whose bend stays within the tolerance: 8 ms of it, slope of its middle at 16 ms.
+    // On a parabola a bend within the tolerance allows 8 ms: the slope at its middle, 16 ms.
     EXPECT_NEAR(estimator.add(21 * kPeriod, Vec3(0.01 * 21 * 21, 0, 0)).x(),
                 2 * 0.01 * 17 / kPeriod, 1e-9);
   }
@@ -133,12 +133,12 @@ TEST(AdaptiveWindow, MissesNoReadingOfALongWindowWhateverItsRoom) {
   Vec3 estimate;
   for (int i = 0; i < 1000; ++i)
     estimate = estimator.add(i * kPeriod, countAt(i * kPeriod, [](double t) { return 130.0 * t; }));
-  // A count at either end of 63 periods.
+  // The window has an error of one count over 63 periods.
   EXPECT_NEAR(estimate.x(), 130.0, 1.0 / 0.063);
 }
 
-// What docs/devices.md says of the usual one, in bounds that are not tight: calmer than the
-// difference by twice at least, even with uneven stamps, and no more than 4 ms late.
+// The promises of docs/devices.md for the usual estimator, with loose bounds. It is at least twice
+// as calm as the difference, even with uneven stamps, and at most 4 ms late.
 TEST(AdaptiveWindow, IsCalmerThanTheDifferenceAndNotMuchLater) {
   constexpr std::uint64_t kSeed = 6;
   SCOPED_TRACE(kSeed);
@@ -165,7 +165,7 @@ TEST(AdaptiveWindow, IsCalmerThanTheDifferenceAndNotMuchLater) {
     const double x = usual.add(t, countAt(t, way)).x();
     if (i < 20) continue;
     const auto velocity = [](double at) { return 600.0 * kPi * std::cos(6.0 * kPi * at); };
-    // Between the velocities of the last 8 ms, but for a count's noise.
+    // The estimate lies between the velocities of the last 8 ms, apart from a count's noise.
     double least = velocity(t), most = least;
     for (double back = 0.0; back <= 8e-3; back += kPeriod) {
       least = std::min(least, velocity(t - back));

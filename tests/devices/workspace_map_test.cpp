@@ -34,7 +34,7 @@ TEST(WorkspaceMap, IsNothingByItself) {
   EXPECT_EQ(map.toDevice(Vec3(7, 8, 9)), Vec3(7, 8, 9));
 }
 
-// A Falcon's z, towards the user, is the world's y.
+// A Falcon's z, towards the user, becomes the world's y.
 TEST(WorkspaceMap, TurnsScalesAndShifts) {
   WorkspaceSettings settings;
   settings.q_WD = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
@@ -62,7 +62,7 @@ TEST(WorkspaceMap, KeepsTheShareOfWorkAndFeelsSpringsAsItSays) {
     const double ratio = settings.force_scale / settings.scale;
     EXPECT_NEAR(at_hand, ratio * in_world, 1e-12 * (std::abs(at_hand) + f_W.norm()));
 
-    constexpr double kStiffness = 300.0;  // of a spring in the world [N/m]
+    constexpr double kStiffness = 300.0;  // stiffness of a spring in the world [N/m]
     const PointState pulled{hip_D.p_W + random.inCube(0.01), Vec3::Zero()};
     const Vec3 way_W = map.toWorld(pulled).p_W - map.toWorld(hip_D).p_W;
     const Vec3 force_D = map.toDevice(-kStiffness * way_W);
@@ -135,7 +135,7 @@ TEST(MappedDevice, StandsWithoutForceWhileTheClutchIsOutAndGoesOnFromThere) {
   }
 
   device.setEngaged(true);
-  EXPECT_FALSE(device.isEngaged());  // from the next read on, so that a tick has one answer
+  EXPECT_FALSE(device.isEngaged());  // takes effect at the next read, so a tick has one answer
   EXPECT_DOUBLE_EQ(readAt(-0.03).p_W.x(), 0.02);
   EXPECT_TRUE(device.isEngaged());
   EXPECT_DOUBLE_EQ(readAt(-0.02).p_W.x(), 0.04);
@@ -151,7 +151,7 @@ TEST(MappedDevice, IsNotValidWhereTheDeviceIsNotAndPlacesNothingThen) {
   script.sample = {{Vec3(std::nan(""), 0, 0), Vec3::Zero()}, true};
   EXPECT_FALSE(device.read(0.0).valid);
 
-  // The clutch was out before there was a position: the first one is where the map has it.
+  // The clutch was out before there was a position: the map gives the first one.
   device.setEngaged(false);
   script.sample = {{Vec3(2, 0, 0), Vec3(1, 0, 0)}, true};
   EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(2, 0, 0));
@@ -170,7 +170,7 @@ TEST(MappedDevice, GoesOnFromWhereItsPointIsPut) {
   script.sample.hip.p_W = Vec3(0.02, 0, 0);
   MappedDevice device(std::make_unique<test::ToldDevice>(script), {});
   EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(0.02, 0, 0));
-  EXPECT_FALSE(device.putPoint(Vec3(1, 2, 3)));  // it is the hand's
+  EXPECT_FALSE(device.putPoint(Vec3(1, 2, 3)));  // the hand has the point
   EXPECT_EQ(device.read(0.0).hip.p_W, Vec3(0.02, 0, 0));
 
   device.setEngaged(false);
@@ -196,7 +196,7 @@ TEST(MappedDevice, HearsOfItsClutchFromAnotherThread) {
   EXPECT_FALSE(device.isEngaged());
 }
 
-// Whatever map and clutch: the point never moves but by s R times the hand's own way.
+// For any map and clutch, the point only moves by s R times the hand's own way.
 TEST(MappedDevice, NeverJumpsAndItsVelocityIsItsPositions) {
   constexpr std::uint64_t kSeed = 22;
   SCOPED_TRACE(kSeed);
@@ -216,7 +216,7 @@ TEST(MappedDevice, NeverJumpsAndItsVelocityIsItsPositions) {
       const DeviceSample sample = device.read(i * kPeriod);
       if (!sample.valid) {
         ASSERT_EQ(sample.hip.v_W, Vec3::Zero());
-        p_D -= v_D * kPeriod;  // the hand's way is taken up with the next valid reading
+        p_D -= v_D * kPeriod;  // the next valid reading makes up for this way
         continue;
       }
       const bool moves = was_engaged && device.isEngaged();
