@@ -9,8 +9,8 @@
 
 #include "devices/raw_hid_emulator.h"
 
-// The whole program's operator new counts for its thread; not in builds with a sanitizer, which has
-// the allocator to itself.
+// This program replaces operator new and counts per thread. Not in sanitizer builds, which own the
+// allocator.
 
 namespace {
 
@@ -45,7 +45,7 @@ std::uint64_t countIn(Tick tick) {
 }
 
 TEST(HidAllocation, TheCounterSeesOne) {
-  static std::unique_ptr<double> kept;  // what nobody keeps a compiler may leave out
+  static std::unique_ptr<double> kept;  // stored, so that the compiler cannot omit it
   EXPECT_EQ(countIn([](double time) { kept = std::make_unique<double>(time); }), 10'000U);
 }
 

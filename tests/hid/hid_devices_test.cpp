@@ -10,7 +10,7 @@
 #include "falcon/src/hid/hid_uart.h"
 #include "hid/user_hidraw.h"
 
-// What tests/devices asks of each device with a port in memory, here through hidapi as it is.
+// Runs the questions of tests/devices, which use a port in memory, through the real hidapi.
 
 namespace tandem {
 namespace {
@@ -19,13 +19,13 @@ using test::Bytes;
 using test::comesTrue;
 using test::UserHidraw;
 
-/// An FT260 for as long as the test runs: its features, and an answer to each frame.
+/// Plays an FT260 while the test runs: its features, and an answer to each frame.
 class Bridge {
  public:
   explicit Bridge(UserHidraw& node) : node_(node) {
     node_.setFeatures([this](const Bytes& feature) { chip_.take(feature); }, nullptr);
   }
-  /// Answers as many output reports. How many it has answered.
+  /// Answers up to `count` output reports. Returns how many it answered.
   int answer(int count) {
     for (int i = 0; i < count; ++i) {
       const auto output = node_.receive(10.0);

@@ -22,7 +22,7 @@ std::string refusalOf(const HidAddress& address) {
   return "";
 }
 
-/// A report that shows which one it is, in a length that changes.
+/// A report that encodes its number, with varying length.
 Bytes makeNumbered(int number) {
   Bytes report(2 + static_cast<std::size_t>(number) % 63);
   for (std::size_t i = 0; i < report.size(); ++i)
@@ -36,7 +36,7 @@ class HidPortTest : public testing::Test {
   std::unique_ptr<HidPort> port_ = openHid(node_.address());
 };
 
-// Each frame goes to the device, and back by it; both ways all of its bytes count.
+// Each frame goes to the device and back. All bytes are compared both ways.
 TEST_F(HidPortTest, CarriesTwentyThousandFramesThereAndBack) {
   constexpr int kCount = 20'000;
   auto device = std::async(std::launch::async, [&] {
@@ -60,7 +60,7 @@ TEST_F(HidPortTest, CarriesTwentyThousandFramesThereAndBack) {
   EXPECT_EQ(device.get(), kCount);
 }
 
-// As HidStream does it: hidapi must bear a thread that reads and one that writes.
+// Like HidStream: hidapi must support one reading and one writing thread.
 TEST_F(HidPortTest, CarriesBothWaysAtOnce) {
   constexpr int kCount = 20'000;
   auto sender = std::async(std::launch::async, [&] {

@@ -31,7 +31,7 @@ TEST_P(SpaceMouseOverHidapi, MovesThePointSurvivesUnpluggingAndRefusesRubbish) {
     }
   };
 
-  emulator.move({0, 350, 0, 0, 0, 175});  // towards the user, and a turn
+  emulator.move({0, 350, 0, 0, 0, 175});  // towards the user, and a rotation
   run(0, 200);
   EXPECT_NEAR(sample.hip.v_W.z(), 0.15, 1e-3);
   EXPECT_EQ(sample.hip.v_W.x(), 0.0);

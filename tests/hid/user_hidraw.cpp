@@ -16,7 +16,7 @@
 namespace tandem::test {
 namespace {
 
-constexpr int kHidType = 'H';  // of hidraw's requests
+constexpr int kHidType = 'H';  // type of hidraw's requests
 
 std::mutex& nodesMutex() {
   static std::mutex mutex;
@@ -37,7 +37,7 @@ int failWith(int reason) {
 
 UserHidraw::UserHidraw(const std::string& name, Bytes descriptor)
     : path_("/dev/hidraw-" + name), descriptor_(std::move(descriptor)) {
-  // To an unplugged node the kernel answers with an error; a socket adds a signal.
+  // The kernel returns an error on writes to an unplugged node; a socket also raises a signal.
   std::signal(SIGPIPE, SIG_IGN);
   plugIn();
   const std::lock_guard held(nodesMutex());
@@ -152,8 +152,8 @@ UserHidraw* UserHidraw::find(int file) {
 
 }  // namespace tandem::test
 
-// Found by hidapi before the C library's. They ask the kernel itself, without the versions of these
-// two functions that sanitizers have: those would check the arguments, and nothing else is lost.
+// hidapi finds these before the C library's functions. They call the kernel directly, past the
+// sanitizers' versions; only the latter's argument checks are lost.
 
 extern "C" int open(const char* path, int flags, ...) {
   mode_t mode = 0;

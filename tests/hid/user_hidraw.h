@@ -10,19 +10,19 @@
 
 namespace tandem::test {
 
-/// A hidraw node that this process plays itself. This program's own open() and ioctl() know its
-/// path, everything else goes to the system; read(), write() and poll() are the system's, on a
-/// socket that keeps reports apart as a hidraw node does. So hidapi runs as it is, from end to end,
-/// but for the kernel's USB and HID drivers.
+/// A hidraw node played by this process. This program's own open() and ioctl() know its path and
+/// pass all others to the system. read(), write() and poll() are the system's, on a socket that
+/// keeps reports apart like a hidraw node. hidapi thus runs unchanged from end to end, without the
+/// kernel's USB and HID drivers.
 ///
-/// Every file opened of the node shares one queue of input reports here, where the kernel gives
-/// each its own: only one of them may be read from.
+/// All open files of the node share one queue of input reports, while the kernel gives each its
+/// own. So only one of them may be read from.
 class UserHidraw {
  public:
   using Features = std::function<void(const Bytes&)>;
   using Answers = std::function<Bytes(std::uint8_t identifier)>;
 
-  /// Plugged in. Paths are as "/dev/hidraw-NAME", which no system has.
+  /// Creates a plugged-in node. Paths are "/dev/hidraw-NAME", which no real system has.
   UserHidraw(const std::string& name, Bytes descriptor);
   ~UserHidraw();
   UserHidraw(const UserHidraw&) = delete;
@@ -31,23 +31,25 @@ class UserHidraw {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] HidAddress address() const;
 
-  /// An input report to whoever has the node open. False: unplugged, or nobody fetches them.
+  /// Sends an input report to the open file. Returns false if unplugged, or if no reader takes
+  /// reports.
   bool send(const Bytes& report);
   /// The next output report, after waiting for it up to `wait` [s].
   [[nodiscard]] std::optional<Bytes> receive(double wait);
 
   void unplug();
   void plugIn();
-  /// Opening then fails for lack of rights.
+  /// Makes opening fail for lack of rights.
   void setForbidden(bool is_forbidden);
 
-  /// What feature reports do; called by the thread that sends or asks. An empty answer: an error.
+  /// Sets the handlers of feature reports. The thread that sends or asks calls them. An empty
+  /// answer is an error.
   void setFeatures(Features take, Answers give);
 
-  /// For open() and ioctl() of this program; -1 and errno as the system has it.
+  /// Used by open() and ioctl() of this program; returns -1 and sets errno like the system.
   [[nodiscard]] int openFile();
   [[nodiscard]] int control(unsigned long request, void* argument);
-  /// The node with this path; the node that this file is of.
+  /// Finds the node with this path, or the node of this file.
   [[nodiscard]] static UserHidraw* find(const std::string& path);
   [[nodiscard]] static UserHidraw* find(int file);
 
