@@ -1,4 +1,4 @@
-// What somebody without the key can throw at a live pair: nothing comes of it.
+// An attacker without the key sends datagrams to a live pair: none has an effect.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ void expectSame(const PeerStatus& before, const PeerStatus& after) {
   EXPECT_EQ(before.difference.has_value(), after.difference.has_value());
 }
 
-/// Makes datagrams of those that were heard, as somebody in between can.
+/// Makes forgeries from overheard datagrams, as an attacker on the way can.
 class Forger {
  public:
   Forger(std::vector<Bytes> heard, std::uint64_t seed) : heard_(std::move(heard)), random_(seed) {}
@@ -42,7 +42,7 @@ class Forger {
   Bytes make() {
     Bytes bytes = heard_[below(heard_.size())];
     switch (random_.below(6)) {
-      case 0:  // again
+      case 0:  // replayed
         break;
       case 1:  // changed
         bytes[below(bytes.size())] ^= static_cast<std::uint8_t>(1 << random_.below(8));
@@ -50,10 +50,10 @@ class Forger {
       case 2:  // cut
         bytes.resize(below(bytes.size()));
         break;
-      case 3:  // far ahead
+      case 3:  // numbered far ahead
         for (std::size_t k = 12; k < kHeaderSize; ++k) bytes[k] = 0x7f;
         break;
-      case 4:  // whatever, under a header as the next datagram's
+      case 4:  // random bytes under the next datagram's header
         writeNextHeader(bytes);
         fill(bytes, kHeaderSize);
         break;
@@ -90,19 +90,19 @@ class Forger {
   test::Random random_;
 };
 
-/// HELLO gets a cookie whoever says it, and OPEN again the same answer: neither is a state.
+/// A HELLO from anyone gets a cookie, and a repeated OPEN the same answer. Neither changes state.
 bool isAnswered(const Bytes& bytes) {
   if (bytes.size() <= 3) return false;
   const auto type = static_cast<MessageType>(bytes[3]);
   return type == MessageType::kHello || type == MessageType::kOpen;
 }
 
-// Datagrams of a live pair again, changed, cut and far ahead, and random bytes with and without a
-// right header; from a stranger and from the peer's own address.
+// Replayed, changed, cut and far-ahead datagrams of a live pair, and random bytes with and without
+// a right header. They come from a stranger and from the peer's own address.
 TEST(Mesh, ForgedAndReplayedDatagramsChangeNothing) {
   constexpr std::uint64_t kSeed = 20090403;
   SCOPED_TRACE(kSeed);
-  // scripts/soak.sh throws 1e8.
+  // scripts/soak.sh sends 1e8.
   const std::uint64_t count = test::readCount("TANDEM_FORGED_DATAGRAMS", 40000);
   for (const int victim : {1, 2}) {  // the initiator, the responder
     SCOPED_TRACE(victim);
@@ -138,7 +138,7 @@ TEST(Mesh, ForgedAndReplayedDatagramsChangeNothing) {
   }
 }
 
-// OPENs that were heard, again and changed: the keys that are in use stay.
+// Replayed and changed OPENs: the keys in use stay.
 TEST(Mesh, ReplayedAndForgedOpensChangeNothing) {
   VirtualSites sites(2);
   std::vector<Bytes> opens;

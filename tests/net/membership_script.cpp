@@ -10,20 +10,20 @@ namespace {
 
 constexpr double kStep = MembershipSites::kStep;
 constexpr std::size_t kMostEvents = 500;
-constexpr double kPatience = 10.0;  ///< for all to be together again [s]
+constexpr double kPatience = 10.0;  ///< longest time until all are together again [s]
 
-// The timeouts of a session among them.
+// Steps of time; the timeouts of a session are among them.
 constexpr std::array kTimes = {kStep, 8 * kStep, 10 * kStep, 20 * kStep, 0.25, 0.5,   1.0,   2.0,
                                5.0,   8.75,      10.0,       20.0,       60.0, 118.0, 120.0, 180.0};
 
-/// The bytes of a script, one after the other; after the end zeros come.
+/// Reads a script byte by byte; after its end all bytes are zero.
 class Reader {
  public:
   explicit Reader(ByteView script) noexcept : script_(script) {}
   [[nodiscard]] bool isAtEnd() const noexcept { return next_ >= script_.size; }
   std::uint8_t byte() noexcept { return isAtEnd() ? std::uint8_t{0} : script_.data[next_++]; }
   std::size_t number() noexcept { return byte() + std::size_t{256} * byte(); }
-  /// A timeout, or a step less or more.
+  /// A timeout, or one step less or more.
   double time() noexcept {
     const std::uint8_t drawn = byte();
     const double about = kTimes[drawn % kTimes.size()];
@@ -43,7 +43,7 @@ class Reader {
 
 MembershipSites::Start readStart(Reader& script) {
   const std::uint8_t drawn = script.byte();
-  // Most are as all others.
+  // Most sites have the common key and configuration.
   MembershipSites::Start how;
   how.key = drawn % 16 == 1 ? 1 : 0;
   how.configuration = drawn % 16 == 2 ? 1 : 0;
@@ -84,7 +84,7 @@ void playEvent(MembershipSites& sites, Reader& script) {
       const std::size_t which = site();
       return sites.rebind(which, script.byte() % 4);
     }
-    case 10:  // all stand still meanwhile
+    case 10:  // all sites stand still in the meantime
       return sites.pass(script.time());
     case 11:
     case 12: {

@@ -6,9 +6,9 @@
 
 namespace tandem::test {
 
-/// Plays a script of events (membership_sites.h), one byte for each and those that it needs behind
-/// it, and then lets the network be perfect: all must be together within ten seconds. Any bytes are
-/// a script. Gives what did not hold first; empty: all did.
+/// Plays a script of events (membership_sites.h), one byte for each plus its parameters. Then the
+/// network is perfect: all must be together within ten seconds. Any bytes are a valid script.
+/// Returns the first property that failed, or an empty string.
 [[nodiscard]] std::string playMembershipScript(ByteView script);
 
 }  // namespace tandem::test

@@ -9,7 +9,7 @@ namespace tandem::test {
 namespace {
 
 constexpr std::uint16_t kPort = 7000;
-constexpr std::size_t kRemembered = 64;  ///< datagrams that may be replayed
+constexpr std::size_t kRemembered = 64;  ///< datagrams kept for replays
 
 PeerId idOf(std::size_t site) { return PeerId{static_cast<std::uint32_t>(site + 1)}; }
 
@@ -17,7 +17,7 @@ MessageType typeOf(const std::vector<std::uint8_t>& bytes) {
   return static_cast<MessageType>(bytes[3]);
 }
 
-/// Session, sender, epoch and sequence: what a nonce is made of, and the key that it is for.
+/// Session, sender, epoch and sequence. These form the nonce, and identify its key.
 std::vector<std::uint8_t> nonceOf(const std::vector<std::uint8_t>& bytes) {
   return {bytes.begin() + 4, bytes.begin() + kHeaderSize};
 }
@@ -51,7 +51,7 @@ Address MembershipSites::addressOf(std::size_t site) {
   return address;
 }
 
-/// A state that says who sent it and how that one was started.
+/// A state that encodes its sender and that sender's start.
 StatePacket MembershipSites::makeState(std::size_t site, const Start& how, std::uint64_t number) {
   StatePacket packet;
   packet.sender = idOf(site);
@@ -208,7 +208,7 @@ void MembershipSites::cut(std::size_t which, std::size_t size) {
   handOverChanged(std::move(datagram), as_it_was);
 }
 
-/// HELLO, COOKIE and REFUSE are authentic in nothing; of the others each bit is.
+/// HELLO, COOKIE and REFUSE have no authenticated bit; in all others each bit is authenticated.
 void MembershipSites::handOverChanged(Datagram datagram,
                                       const std::vector<std::uint8_t>& as_it_was) {
   const bool is_covered = isSealed(typeOf(as_it_was)) || typeOf(as_it_was) == MessageType::kOpen ||
@@ -248,7 +248,7 @@ void MembershipSites::mend() {
     if (!self.mesh || self.has_left || !self.how.mayMeet({})) start(i, {});
     self.is_given_since_mended = {};
   }
-  // What was held up on its way comes first.
+  // Delayed datagrams arrive first.
   std::stable_sort(flying_.begin(), flying_.end(),
                    [](const Datagram& a, const Datagram& b) { return a.sent < b.sent; });
 }

@@ -12,26 +12,26 @@
 
 namespace tandem::test {
 
-/// Two or three sites, a network that does what it is told, and what must hold whatever that is:
+/// Two or three sites on a scripted network, and the properties that must hold in any script:
 ///
-/// - nothing is sealed twice under one number and key, and nothing that was sealed is taken twice;
-/// - nothing that was changed on its way is taken, as far as seal and handshake cover it;
-/// - a site is given states as they were sent, in rising order, by peers with its key and
-///   configuration only;
-/// - each datagram that came in is counted once.
+/// - no number and key seal twice, and nothing sealed is accepted twice;
+/// - no changed datagram is accepted, as far as seal and handshake cover it;
+/// - a site gets states as they were sent, in rising order, only from peers with its key and
+///   configuration;
+/// - each incoming datagram is counted once.
 ///
-/// Times are multiples of 1/1024 s, so that sums are exact and a timeout can be met to the bit.
+/// Times are multiples of 1/1024 s, so sums are exact and a timeout can be hit exactly.
 class MembershipSites {
  public:
   static constexpr double kStep = 1.0 / 1024;         // [s]
-  static constexpr double kDelay = 20 * kStep;        ///< of the network when it is perfect [s]
+  static constexpr double kDelay = 20 * kStep;        ///< delay of the perfect network [s]
   static constexpr double kStatePeriod = 8 * kStep;   // [s]
-  static constexpr std::size_t kMostInFlight = 1000;  ///< beyond, the oldest are lost
+  static constexpr std::size_t kMostInFlight = 1000;  ///< the oldest beyond this are lost
 
-  /// How a site is started. Sites with unequal keys or configurations must not meet.
+  /// Start parameters of a site. Sites with unequal keys or configurations must not connect.
   struct Start {
     std::uint8_t key = 0, configuration = 0;
-    double clock = 0.0;  ///< what its clock shows [s]
+    double clock = 0.0;  ///< start time of its clock [s]
     friend bool operator==(const Start&, const Start&) = default;
     [[nodiscard]] bool mayMeet(const Start& other) const noexcept {
       return key == other.key && configuration == other.configuration;
@@ -43,35 +43,35 @@ class MembershipSites {
   void start(std::size_t site, const Start& how);
   void stop(std::size_t site);
   void leave(std::size_t site, ByeReason reason);
-  /// As a NAT does; 0: back to where the others were told that it is.
+  /// Changes a site's port, as a NAT does; 0 restores the address that the others were given.
   void rebind(std::size_t site, std::uint16_t shift);
 
-  /// Time passes, and nobody notices until act().
+  /// Lets time pass; no site runs until act().
   void pass(double seconds) { now_ += seconds; }
-  /// The sites of this bit mask say what is due, send a state, and take what was given to them.
+  /// Runs the sites in this bit mask: each sends due datagrams and a state, and takes its arrivals.
   void act(unsigned mask);
-  /// What would happen with a network without faults.
+  /// Runs with a network without faults.
   void runPerfectly(double seconds);
 
-  // One of the datagrams in flight.
+  // Delivers one of the datagrams in flight.
   void deliver(std::size_t which);
   void drop(std::size_t which);
   void repeat(std::size_t which);
-  /// Some byte of it is changed (`turn` is not 0), and that is delivered.
+  /// Changes a byte of a datagram (`turn` is not 0), and delivers that.
   void change(std::size_t which, std::size_t at, std::uint8_t turn);
   void cut(std::size_t which, std::size_t size);
-  /// Delivers one that was delivered before; from elsewhere if asked.
+  /// Delivers an earlier datagram again, from a stranger's address if asked.
   void replay(std::size_t which, bool is_from_stranger);
-  /// Some bytes, from nowhere.
+  /// Delivers made-up bytes from an unknown address.
   void forge(std::size_t site, std::vector<std::uint8_t> bytes);
 
-  /// Stops and starts whatever would not be live by itself.
+  /// Restarts each site that would not become live by itself.
   void mend();
-  /// All are live, and each was given a state of each other since mend().
+  /// True if all are live, and each got a state of each other since mend().
   [[nodiscard]] bool areTogether() const;
 
   [[nodiscard]] std::size_t count() const noexcept { return sites_.size(); }
-  /// What did not hold first; empty: nothing.
+  /// The first property that failed; empty if none.
   [[nodiscard]] const std::string& broken() const noexcept { return broken_; }
 
  private:
@@ -89,10 +89,10 @@ class MembershipSites {
     std::unique_ptr<Port> port;
     std::unique_ptr<net::Mesh> mesh;
     Start how;
-    double ahead = 0.0;  ///< its clock - now [s]
+    double ahead = 0.0;  ///< its clock minus now [s]
     bool has_left = false;
     std::uint64_t states = 0;
-    std::array<std::optional<std::uint64_t>, 4> newest;  ///< given, by peer id
+    std::array<std::optional<std::uint64_t>, 4> newest;  ///< newest state received, by peer id
     std::array<std::uint64_t, 4> given{};
     std::array<bool, 4> is_given_since_mended{};
   };
@@ -101,7 +101,7 @@ class MembershipSites {
   static StatePacket makeState(std::size_t site, const Start& how, std::uint64_t number);
 
   void carry(std::size_t from, ByteView bytes, const Address& to);
-  /// Whether it was taken.
+  /// Hands a datagram over; returns true if it was accepted.
   bool handOver(const Datagram& datagram);
   void handOverChanged(Datagram datagram, const std::vector<std::uint8_t>& as_it_was);
   Datagram takeOut(std::size_t which);

@@ -1,5 +1,5 @@
-// Whatever happens to sites and datagrams: tests/fuzz/membership_fuzzer.cpp looks for scripts that
-// break something; these are drawn.
+// Random scripts of events on sites and datagrams. tests/fuzz/membership_fuzzer.cpp searches for
+// scripts that break a property.
 
 #include <string>
 
@@ -33,7 +33,7 @@ TEST(Membership, DrawnScriptsEndTogether) {
   }
 }
 
-// OPEN is answered, the responder begins anew, and a minute later that answer comes.
+// OPEN is answered, the responder restarts, and the answer arrives a minute later.
 TEST(Membership, AnswerOfAPeerThatHasBegunAnewIsGotOver) {
   EXPECT_EQ(play({0, 11, 0, 3, 1, 1, 11, 0, 3, 1, 7, 1, 0, 10, 12, 1}), "");
 }

@@ -1,4 +1,4 @@
-// Two and more sites over a virtual network, from the first datagram to the farewell.
+// Two and more sites over a virtual network, from the first datagram to BYE.
 
 #include <cmath>
 #include <set>
@@ -40,7 +40,7 @@ TEST(Mesh, StatesComeWholeAndInOrder) {
     EXPECT_GT(arrival.packet.time, last);
     last = arrival.packet.time;
     EXPECT_EQ(arrival.packet.sender, PeerId{1});
-    // float32 on the wire.
+    // The wire carries float32.
     const Vec3 sent = VirtualSites::positionAt(arrival.packet.time, 1);
     EXPECT_LT((arrival.packet.user.p_W - sent).norm(), 1e-6 * arrival.packet.time);
     ++counted;
@@ -134,14 +134,14 @@ TEST(Mesh, OtherConfigurationsAreComparedByName) {
     EXPECT_TRUE(sites.at(id).given[static_cast<std::size_t>(3 - id)].empty());
     EXPECT_GT(sites.at(id).mesh->counts().of(Refusal::kNotAgreed), 0u);
   }
-  // Whoever leaves says why, and the other still knows what it was.
+  // A leaving site gives its reason, and the other still knows it.
   sites.at(1).mesh->leave(ByeReason::kConfigurationsDiffer, sites.clock());
   sites.run(0.3);
   EXPECT_EQ(sites.status(2, 1).phase, PeerPhase::kLeft);
   EXPECT_EQ(sites.status(2, 1).left, ByeReason::kConfigurationsDiffer);
   ASSERT_TRUE(sites.status(2, 1).difference);
   EXPECT_EQ(sites.status(2, 1).difference->key, "coordination.stiffness");
-  // Mended, and begun anew.
+  // The cause is mended, and the site restarts.
   sites.start(1);
   sites.start(2);
   EXPECT_TRUE(sites.goLive(3.0));
@@ -238,7 +238,7 @@ TEST(Mesh, KeysAreRenewedWithoutAGap) {
   EXPECT_GT(last, sites.clock() - 0.05);
 }
 
-// The old keys open until the responder has gone over to the new ones, however long that takes.
+// The old keys open datagrams until the responder switches to the new ones, however late.
 TEST(Mesh, KeysAreRenewedWithoutAGapOnALongWay) {
   for (const double delay : {0.5, 1.5, 3.0}) {
     SCOPED_TRACE(delay);
@@ -262,7 +262,7 @@ TEST(Mesh, KeysAreRenewedWithoutAGapOnALongWay) {
   }
 }
 
-// Under new keys nothing can have come before a round trip is over: that is no silence.
+// New keys carry nothing before one round trip is over. That is not silence.
 TEST(Mesh, KeysAreNotRenewedBeforeTheyAreDue) {
   for (const double delay : {0.02, 0.6, 1.0, 2.5}) {
     SCOPED_TRACE(delay);
@@ -298,7 +298,7 @@ TEST(Mesh, KeysAreRenewedThroughLoss) {
 TEST(Mesh, FollowsAPeerToAnotherAddress) {
   VirtualSites sites(2);
   ASSERT_TRUE(sites.goLive(1.0));
-  sites.at(2).port->address.port = 7999;  // as a NAT does
+  sites.at(2).port->address.port = 7999;  // as a NAT changes it
   sites.run(1.0);
   EXPECT_EQ(sites.status(1, 2).address->port, 7999);
   EXPECT_TRUE(sites.areLive());
@@ -359,7 +359,7 @@ TEST(Mesh, RefusesIdsThatCannotBe) {
   EXPECT_THROW(make(1, {9}), std::invalid_argument);
   EXPECT_THROW(make(1, {1}), std::invalid_argument);
   EXPECT_THROW(make(1, {2, 2}), std::invalid_argument);
-  EXPECT_THROW(make(1, {2}), std::invalid_argument);  // nobody would call
+  EXPECT_THROW(make(1, {2}), std::invalid_argument);  // no site would call
   EXPECT_NO_THROW(make(3, {1, 2}));
 }
 

@@ -1,4 +1,4 @@
-// Long and bad: scripts/soak.sh lets these run for hours of virtual time.
+// Long runs on bad networks: scripts/soak.sh lets these run for hours of virtual time.
 
 #include <algorithm>
 #include <array>
@@ -25,14 +25,14 @@ TEST(Soak, FourPeersOnABadNetwork) {
     sites.forgetGiven();
     const std::uint16_t epoch = sites.status(1, 2).key_epoch;
     sites.run(60.0);
-    // New keys every 120 s and no oftener, also where the count wraps round.
+    // Keys are renewed every 120 s and not more often, also where the count wraps round.
     ASSERT_LE(static_cast<std::uint16_t>(sites.status(1, 2).key_epoch - epoch), 2);
     for (int id = 1; id <= 4; ++id) {
       for (int other = 1; other <= 4; ++other) {
         if (id == other) continue;
         const auto& given = sites.at(id).given[static_cast<std::size_t>(other)];
-        // 7500 a minute; three quarters come, and of those most are not overtaken in 100 ms of
-        // jitter.
+        // 7500 are sent a minute and three quarters arrive. Most of these are not overtaken in 100
+        // ms of jitter.
         ASSERT_GT(given.size(), 3500u) << id << " of " << other;
         double last = 0.0;
         for (const Arrival& arrival : given) {
@@ -47,14 +47,14 @@ TEST(Soak, FourPeersOnABadNetwork) {
   }
 }
 
-// Sites come, go, are killed and change their addresses; no nonce is ever used twice under one key,
-// and after all of it they are live within seconds.
+// Sites come, go, are killed and change their addresses. No nonce is ever used twice under one key,
+// and within seconds after it all are live.
 TEST(Soak, SitesComeAndGo) {
   constexpr std::uint64_t kSeed = 20090405;
   SCOPED_TRACE(kSeed);
   test::Random random(kSeed);
   VirtualSites sites(2, {0.02, 0.01, 0.05, 0.05, 0.0}, kSeed);
-  // Session, epoch and sequence, and who sends: a session's number is drawn anew with its keys.
+  // Session, epoch, sequence and sender: a session's number is drawn anew with its keys.
   std::set<std::array<std::uint8_t, 16>> nonces;
   sites.net.tap = [&](const auto& bytes, const auto&, const auto&) {
     if (bytes[3] < static_cast<std::uint8_t>(MessageType::kState)) return;
@@ -67,7 +67,7 @@ TEST(Soak, SitesComeAndGo) {
     SCOPED_TRACE(cycle);
     const int who = 1 + random.below(2);
     switch (random.below(4)) {
-      case 0:  // leaves and joins
+      case 0:  // leaves and joins again
         sites.at(who).mesh->leave(ByeReason::kUserLeaves, sites.clock());
         sites.run(random.uniform(0.0, 0.3));
         sites.start(who);

@@ -7,7 +7,7 @@
 namespace tandem::net {
 namespace {
 
-/// States from one stream to another, over keys that are renewed when the test says so.
+/// States from one stream to another. The test decides when keys are renewed.
 struct Way {
   StateStream receiver{PlayoutSettings{}, WireProfile::kFloat64, 7};
   StateStream sender{PlayoutSettings{}, WireProfile::kFloat64, 7};
@@ -28,12 +28,12 @@ struct Way {
     now += 0.01;
     return bytes;
   }
-  /// `number`: of the datagram under the present keys; nothing: under those before.
+  /// `number` is the datagram's under the present keys; empty means the previous keys.
   Refusal receive(const std::vector<std::uint8_t>& bytes, std::optional<std::uint64_t> number) {
     if (number) receiver.note(*number, now);
     return receiver.read({bytes.data(), bytes.size()}, PeerId{2}, number, true, now).refusal;
   }
-  /// All of what came.
+  /// All states that arrived.
   [[nodiscard]] std::vector<StatePacket> take() {
     std::vector<StatePacket> packets;
     while (const auto arrival = receiver.pop(0.0, now + 1.0)) packets.push_back(arrival->packet);
@@ -53,7 +53,7 @@ TEST(StateStream, EnergyArrivesOrThatThereIsNone) {
   EXPECT_FALSE(got[2].port_energy);
 }
 
-// Its account starts from nothing, and what it put in before has been put in.
+// The restarted peer's account begins at zero. The energy reported before still counts.
 TEST(StateStream, EnergyOfAPeerThatBeginsAnewGoesOn) {
   Way way;
   way.send(0, 0.25);
@@ -70,7 +70,7 @@ TEST(StateStream, EnergyOfAPeerThatBeginsAnewGoesOn) {
   EXPECT_EQ(got[1].port_energy, 3.5);
 }
 
-// New keys alone change nothing.
+// New keys alone do not change the energy.
 TEST(StateStream, EnergyGoesOnOverNewKeys) {
   Way way;
   way.send(0, 1.0);
@@ -82,7 +82,7 @@ TEST(StateStream, EnergyGoesOnOverNewKeys) {
   EXPECT_EQ(got[1].port_energy, 2.0);
 }
 
-// One that overtakes with the new keys must not cost what is on its way under the old ones.
+// A datagram with the new keys that overtakes must not invalidate those under the old keys.
 TEST(StateStream, StatesUnderTheOldKeysStillCount) {
   Way way;
   way.send(0, 1.0);

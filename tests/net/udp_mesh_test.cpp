@@ -1,5 +1,5 @@
-// The same over real sockets on loopback. Nothing here asserts how long it took; what waits, waits
-// for as long as a loaded machine may need.
+// The mesh over real sockets on loopback. No test asserts times; each waits as long as a loaded
+// machine may need.
 
 #include "tandem/plugin/udp_mesh.h"
 
@@ -29,7 +29,7 @@ double clockNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Two meshes of this process; site 1 knows where site 2 is, and site 2 waits for the call.
+/// Two meshes of this process. Site 1 knows the address of site 2, which waits for the call.
 struct Two {
   Two() {
     std::vector<UdpPeer> known;

@@ -13,19 +13,19 @@
 
 namespace tandem::test {
 
-/// How much a test does: the number in this environment variable, or else `usual`.
+/// Amount of work of a test: the number in this environment variable, or else `usual`.
 inline std::uint64_t readCount(const char* variable, std::uint64_t usual) {
   const char* text = std::getenv(variable);
   return text ? std::strtoull(text, nullptr, 10) : usual;
 }
 
-/// What a virtual network does to datagrams.
+/// Conditions that a virtual network applies to datagrams.
 struct NetConditions {
   double delay = 0.02, jitter = 0.0;  // [s]
   double loss = 0.0, duplicate = 0.0, corrupt = 0.0;
 };
 
-/// Sites with a mesh each, and a network between them in virtual time.
+/// Sites with a mesh each, and the network between them in virtual time.
 class VirtualNet {
  public:
   struct Datagram {
@@ -78,7 +78,7 @@ class VirtualNet {
     }
   }
 
-  /// Delivers all that is due until `time`, through `take`.
+  /// Delivers all datagrams due until `time`, through `take`.
   template <typename Take>
   void deliverUntil(double time, Take take) {
     while (!flying_.empty() && flying_.front().due <= time) {
@@ -106,14 +106,14 @@ class VirtualNet {
   std::uint64_t number_ = 0;
 };
 
-/// The key of a pair in tests: all bytes alike.
+/// A pair's key in tests: all bytes equal.
 inline SecretKey makeKey(std::uint8_t byte) {
   std::array<std::uint8_t, SecretKey::kSize> bytes;
   bytes.fill(byte);
   return SecretKey::take(bytes);
 }
 
-/// Several sites that send states at 128 Hz as soon as they can.
+/// Several sites that send states at 128 Hz from when they can.
 class VirtualSites {
  public:
   struct Site {
@@ -134,7 +134,7 @@ class VirtualSites {
     for (int i = 1; i <= count; ++i) start(i);
   }
 
-  /// (Re)starts a site's program, with nothing known of before.
+  /// (Re)starts a site's program without any memory of earlier runs.
   void start(int id, std::uint8_t key = 0x42, const Configuration& configuration = usual()) {
     Site& site = at(id);
     std::vector<net::Mesh::Peer> peers;
@@ -151,7 +151,7 @@ class VirtualSites {
   }
   void stop(int id) { at(id).mesh.reset(); }
 
-  /// Where a site's user is. It stays where a state may be sent from, however long a test takes.
+  /// Position of a site's user. It stays within the wire's range in tests of any length.
   static Vec3 positionAt(double time, int id) { return Vec3(std::fmod(time, 500.0), id, 0.0); }
 
   static Configuration usual() { return makeConfiguration({{"object.mass", "0.2"}}); }
@@ -161,7 +161,7 @@ class VirtualSites {
     while (net.now < end - 1e-9) step();
   }
 
-  /// One millisecond.
+  /// Advances by one millisecond.
   void step() {
     net.deliverUntil(net.now + 1e-3, [&](VirtualNet::Datagram& datagram) {
       for (Site& site : sites_)
@@ -191,7 +191,7 @@ class VirtualSites {
     for (Site& site : sites_)
       for (auto& given : site.given) given.clear();
   }
-  /// Until all are live; false after `seconds`.
+  /// Runs until all are live; false after `seconds`.
   [[nodiscard]] bool goLive(double seconds) {
     const double end = net.now + seconds;
     while (net.now < end && !areLive()) step();
