@@ -11,7 +11,7 @@
 namespace tandem::c_door {
 namespace {
 
-/// Says that the settings come from tandem_default_body_settings().
+/// Marks settings made by tandem_default_body_settings().
 constexpr int kCookie = 0x54624f44;
 
 [[nodiscard]] Shape makeHull(const TandemBodySettings& settings) {

@@ -11,10 +11,10 @@
 
 namespace tandem::c_door {
 
-/// Of plain numbers, to go from one thread to another.
+/// Plain numbers that threads can exchange.
 using Triple = std::array<double, 3>;
 
-/// A device that is told where the hand is. move() and read() may be of two threads.
+/// A device that the caller moves. move() and read() may be called by two threads.
 class MovedDevice final : public HapticDevice {
  public:
   MovedDevice(const Vec3& start_W, const DeviceCapabilities& limits);
@@ -31,10 +31,10 @@ class MovedDevice final : public HapticDevice {
   };
   DeviceCapabilities limits_;
   LatestValue<Motion> told_;
-  double since_ = 0.0;  ///< when it was heard of that
+  double since_ = 0.0;  ///< time at which the motion was first read [s]
 };
 
-/// The hand of a simulated device: a force that may be changed by another thread.
+/// Hand of a simulated device: a force that another thread may change.
 class SteeredHand final : public Hand {
  public:
   void setForce(const Vec3& f_W) noexcept { force_W_.write({f_W.x(), f_W.y(), f_W.z()}); }
@@ -44,7 +44,7 @@ class SteeredHand final : public Hand {
   mutable LatestValue<Triple> force_W_;
 };
 
-/// Remembers the force that was written last, for another thread.
+/// Shows the last written force to another thread.
 class ShownForce final : public HapticDevice {
  public:
   explicit ShownForce(std::unique_ptr<HapticDevice> device) : device_(std::move(device)) {}
@@ -72,8 +72,8 @@ struct Device {
   explicit Device(std::unique_ptr<HapticDevice> device) : haptic(std::move(device)) {}
 
   ShownForce haptic;
-  MovedDevice* moved = nullptr;  ///< null: of another kind
-  SteeredHand* hand = nullptr;   ///< null: of another kind
+  MovedDevice* moved = nullptr;  ///< null: a device of another kind
+  SteeredHand* hand = nullptr;   ///< null: a device of another kind
 };
 
 }  // namespace tandem::c_door

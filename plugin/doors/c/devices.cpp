@@ -10,7 +10,7 @@
 namespace tandem::c_door {
 namespace {
 
-/// A hand that is not heard of goes on for so long [s].
+/// Time for which a hand continues after its last move [s].
 constexpr double kGoesOn = 0.05;
 
 [[nodiscard]] DeviceCapabilities readLimits(const char* name, const TandemDeviceLimits& limits) {
@@ -25,7 +25,7 @@ constexpr double kGoesOn = 0.05;
   return capabilities;
 }
 
-/// A device of functions of the caller.
+/// A device made of the caller's functions.
 class CalledDevice final : public HapticDevice {
  public:
   CalledDevice(const TandemDeviceFunctions& functions, const DeviceCapabilities& limits)

@@ -8,7 +8,7 @@
 
 namespace tandem::c_door {
 
-/// A refusal with a result of its own.
+/// An error with its own TandemResult.
 class Refusal final : public std::runtime_error {
  public:
   Refusal(TandemResult result, const std::string& message)
@@ -19,10 +19,10 @@ class Refusal final : public std::runtime_error {
   TandemResult result_;
 };
 
-/// The result of the exception that is being handled; its text becomes this thread's last error.
+/// Result of the exception being handled; its text becomes this thread's last error.
 TandemResult takeException() noexcept;
 
-/// What every function of the C door does its work in: no exception leaves it.
+/// Runs the work of a C function; no exception leaves it.
 template <typename Work>
 TandemResult guarded(Work&& work) noexcept {
   try {

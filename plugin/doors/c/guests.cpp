@@ -19,7 +19,7 @@ void checkOnce(World& in, std::size_t count, const TandemBody* bodies) {
   }
 }
 
-/// Nothing is changed before all of it is known to be good.
+/// Checks everything before anything is changed.
 void checkBegin(World& in, double dt, std::size_t count, const TandemBody* bodies,
                 const TandemState* now, const TandemState* handoff) {
   (void)in.own("tandem_world_begin_step()");
@@ -56,7 +56,7 @@ void begin(World& in, double dt, const Vec3& gravity_W, std::size_t count, const
   in.guests.count = count;
 }
 
-/// A step ends with the bodies that it began with; their order is free.
+/// Checks that a step ends with the bodies that it began with; their order is free.
 void checkEnd(World& in, std::size_t count, const TandemBody* bodies, const TandemState* now,
               const TandemState* after) {
   if (!in.guests.is_open)

@@ -11,27 +11,26 @@
 
 #include "c/guard.h"
 
-// What a caller holds is a small shell around the thing. Shells are not freed but used again, the
-// one that was given back longest ago first: a handle that has been destroyed is known as such for
-// a while, without reading freed memory.
+// A handle is a small shell around the object. Shells are reused and never freed, the longest
+// unused first. A destroyed handle is thus recognised for a while, without reading freed memory.
 
 namespace tandem::c_door {
 
-/// First of all, so that one kind of handle can be told from another.
+/// First member of every handle; tells the kinds apart.
 struct HandleHead {
-  std::uint32_t kind = 0;  ///< 0: nothing in it
-  int users = 0;           ///< handles that need this one
+  std::uint32_t kind = 0;  ///< 0: empty
+  int users = 0;           ///< number of handles that need this one
 };
 
-/// `Thing` names itself: kKind, a word found in no other kind; kName, "world"; kUser, "a site".
+/// `Thing` names itself: kKind, a number of its own; kName, "world"; kUser, "a site".
 template <typename Thing>
 struct Handle {
   HandleHead head;
   std::unique_ptr<Thing> thing;
-  Handle* next = nullptr;  ///< given back after this one
+  Handle* next = nullptr;  ///< shell that was discarded after this one
 };
 
-/// Throws std::invalid_argument unless it is a live handle of this kind.
+/// Throws std::invalid_argument unless `handle` is a live handle of this kind.
 template <typename Thing>
 [[nodiscard]] Thing& open(const Handle<Thing>* handle) {
   if (!handle)
@@ -48,7 +47,7 @@ class Shells {
  public:
   using Thing = typename decltype(Shell::thing)::element_type;
 
-  /// Never destroyed: handles may be left open when the process ends.
+  /// Never destroyed, because handles may be open when the process ends.
   static Shells& all() {
     static Shells& shells = *new Shells;
     return shells;
@@ -63,7 +62,7 @@ class Shells {
     return shell;
   }
 
-  /// Null: nothing. Throws as open(), and TANDEM_IN_USE.
+  /// Ignores null. Throws as open(), and TANDEM_IN_USE.
   void destroy(Shell* shell) {
     if (!shell) return;
     (void)open(shell);
@@ -73,7 +72,7 @@ class Shells {
     discard(*shell);
   }
 
-  /// Whoever uses it.
+  /// Destroys the object even if it is in use.
   void discard(Shell& shell) noexcept {
     shell.head = {};
     shell.thing.reset();
@@ -87,7 +86,7 @@ class Shells {
  private:
   static constexpr std::size_t kKnownAsGone = 256;
 
-  /// Null if too few wait.
+  /// Returns the oldest discarded shell, or null if too few are discarded.
   Shell* takeBack() noexcept {
     if (free_ <= kKnownAsGone) return nullptr;
     auto* shell = static_cast<Shell*>(first_);
@@ -98,11 +97,11 @@ class Shells {
 
   std::mutex mutex_;
   std::deque<Shell> shells_;
-  Handle<Thing>*first_ = nullptr, *last_ = nullptr;  ///< of those that were given back
+  Handle<Thing>*first_ = nullptr, *last_ = nullptr;  ///< list of discarded shells
   std::size_t free_ = 0;
 };
 
-/// One more that needs a handle, for as long as this lives.
+/// Counts as a user of a handle during its lifetime.
 class Use {
  public:
   Use() = default;

@@ -9,18 +9,18 @@
 
 namespace tandem::c_door {
 
-/// A way whose packets the caller carries, from a thread of its own if need be.
+/// A link whose packets the caller carries, from any one thread.
 class ManualLink final : public Link {
  public:
   static constexpr std::size_t kRoom = 256;  ///< packets each way
 
-  // The caller's side.
-  /// False: there is no room.
+  // For the caller.
+  /// Returns false if the queue is full.
   bool push(const StatePacket& packet) noexcept { return arrivals_.push(packet); }
   [[nodiscard]] const StatePacket* peek() const noexcept { return departures_.peek(); }
   void drop() noexcept { departures_.drop(); }
 
-  // The site's side.
+  // For the site.
   void send(const StatePacket& packet, double) noexcept override { (void)departures_.push(packet); }
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override;
 
@@ -35,12 +35,12 @@ struct LinkEnd {
   static constexpr const char* kName = "link";
   static constexpr const char* kUser = "a site";
 
-  std::unique_ptr<Link> own;  ///< null: the mesh's
+  std::unique_ptr<Link> own;  ///< null: the mesh owns the link
   Link* link = nullptr;
   bool is_simulated = false;
-  ManualLink* manual = nullptr;   ///< null: of another kind
-  MeshLink* mesh_link = nullptr;  ///< null: of another kind
-  HandleHead* mesh = nullptr;     ///< that it belongs to
+  ManualLink* manual = nullptr;   ///< null: a link of another kind
+  MeshLink* mesh_link = nullptr;  ///< null: a link of another kind
+  HandleHead* mesh = nullptr;     ///< mesh that owns the link
 };
 
 }  // namespace tandem::c_door

@@ -28,7 +28,7 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
   return *manual;
 }
 
-/// As it is, even if it is not sane: the site drops and counts that.
+/// Copies without checks: the site drops and counts invalid states.
 [[nodiscard]] RigidState fromPacket(const TandemState& state) noexcept {
   RigidState read;
   const double *p = state.position, *q = state.orientation, *v = state.velocity,

@@ -23,7 +23,7 @@ class MeshEnd {
   MeshEnd(const MeshEnd&) = delete;
   MeshEnd& operator=(const MeshEnd&) = delete;
 
-  /// The same handle each time. `own` is this one's.
+  /// Returns the same handle each time. `own` is the handle of this mesh.
   [[nodiscard]] TandemLink* link(std::uint32_t peer, HandleHead& own);
   [[nodiscard]] std::uint16_t port() const noexcept { return mesh_.bound().port; }
   void poll(double now);

@@ -6,14 +6,14 @@
 namespace tandem::c_door {
 namespace {
 
-/// Both clocks are read when it suits, so their difference jitters by a host step or a tick; of
-/// what it seems to have changed by, so much is taken at a time.
+/// Fraction of a change that the clock offset follows per update. The two clocks are read at
+/// different moments, so their difference jitters by a host step or a tick.
 constexpr double kFollow = 0.05;
-/// More than this is no jitter: a clock was set, or time was lost [s].
+/// A larger difference is no jitter: a clock was set, or time was lost [s].
 constexpr double kJump = 0.1;
 
-/// Arrivals are given to a live site so long before their moment, by a caller that polls at 50 Hz
-/// or more [s].
+/// A live site gets arrivals this long before their time, from a caller that polls at 50 Hz or more
+/// [s].
 constexpr double kAhead = 0.02;
 
 }  // namespace

@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::size_t kLongestText = 512;
 
-/// Of fixed size, so that running out of memory can be told, too.
+/// Fixed size, so that "out of memory" can be reported, too.
 thread_local std::array<char, kLongestText + 1> last_error{};
 
 [[nodiscard]] bool continuesCharacter(char byte) noexcept {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
-/// One line of whole characters.
+/// Keeps one line of complete UTF-8 characters.
 void keepText(const char* text) noexcept {
   std::size_t length = std::strlen(text);
   if (length > kLongestText) {
@@ -68,7 +68,7 @@ TandemResult takeException() noexcept {
 extern "C" {
 
 const char* tandem_result_name(TandemResult result) {
-  // By number: what comes from another language may be none of them.
+  // By number: another language may pass a value outside the enumeration.
   constexpr std::array<const char*, 8> kNames{
       "TANDEM_OK",     "TANDEM_INVALID_ARGUMENT", "TANDEM_CANNOT",    "TANDEM_WRONG_BULLET",
       "TANDEM_IN_USE", "TANDEM_WORLD_GONE",       "TANDEM_NO_MEMORY", "TANDEM_INTERNAL"};

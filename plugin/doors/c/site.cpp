@@ -38,7 +38,7 @@ ObjectId SiteEnd::share(TandemBody body, double damping) {
   requireNotNegative("damping", damping);
   if (known.is_shared)
     throw Error("body " + std::to_string(body) + " is shared already, or a proxy; share it once");
-  // Site would take a note of a static one before it refuses it.
+  // Site would record a static body before it refuses it.
   if (!isDynamic(*known.rigid))
     throw Error("body " + std::to_string(body) + " is static; give a shared object a mass");
   shared_.reserve(shared_.size() + 1);

@@ -14,8 +14,8 @@
 
 namespace tandem::c_door {
 
-/// Throws std::invalid_argument for settings that are not from tandem_default_site_settings() or
-/// out of range.
+/// Throws std::invalid_argument if a value is out of range or the settings are not from
+/// tandem_default_site_settings().
 [[nodiscard]] SiteSettings fromC(const TandemSiteSettings& settings);
 
 class SiteEnd {
@@ -39,7 +39,7 @@ class SiteEnd {
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
-  /// Said before Site itself would begin with it.
+  /// Throws while a loop runs, before Site starts any work.
   void checkSetUp(const char* what) const;
 
   World& world_;
@@ -52,7 +52,7 @@ class SiteEnd {
   bool ticks_itself_;
   double last_tick_ = -std::numeric_limits<double>::infinity();
   Site site_;
-  std::unique_ptr<HapticLoop> loop_;  ///< null: none runs
+  std::unique_ptr<HapticLoop> loop_;  ///< null: no loop runs
 };
 
 }  // namespace tandem::c_door

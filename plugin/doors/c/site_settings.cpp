@@ -8,7 +8,7 @@
 namespace tandem::c_door {
 namespace {
 
-/// Says that the settings come from tandem_default_site_settings().
+/// Marks settings made by tandem_default_site_settings().
 constexpr int kCookie = 0x54735345;
 
 [[nodiscard]] TandemGains writeGains(const CouplerGains& gains) noexcept {

@@ -36,7 +36,7 @@ static_assert(TANDEM_LINK_REJOINING == static_cast<int>(LinkState::kRejoining));
   return reading;
 }
 
-/// Of a remote for whom there is no proxy.
+/// State of a remote without proxy: NAN.
 [[nodiscard]] TandemState makeNoState() noexcept {
   TandemState state;
   for (double& value : state.position) value = std::nan("");

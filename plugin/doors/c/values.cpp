@@ -8,7 +8,7 @@
 namespace tandem::c_door {
 namespace {
 
-/// As a host that keeps its states in float has it.
+/// Tolerance of a unit length, wide enough for a host with float states.
 constexpr double kUnit = 1e-6;
 
 [[noreturn]] void refuse(const Name& name, const char* part, const Eigen::VectorXd& values,

@@ -22,11 +22,11 @@ namespace tandem::c_door {
 
 struct WorldBody {
   btRigidBody* rigid = nullptr;
-  int place = -1;          ///< in the world's list, when it was looked up last
-  bool is_shared = false;  ///< by the site, or its proxy
+  int place = -1;          ///< index in the world's list at the last lookup
+  bool is_shared = false;  ///< shared by the site, or its proxy
   std::optional<GuestBody> guest;
-  std::uint64_t step = 0;  ///< of guests that it was in last
-  std::uint64_t seen = 0;  ///< list of bodies that it was in last
+  std::uint64_t step = 0;  ///< number of its last step as a guest
+  std::uint64_t seen = 0;  ///< number of the last list of bodies that named it
 };
 
 class World {
@@ -38,43 +38,43 @@ class World {
   World();
   World(btDiscreteDynamicsWorld& host, BulletAbi abi);
 
-  /// Throws TANDEM_WORLD_GONE once the host has destroyed it, as far as a site has noticed.
+  /// Throws TANDEM_WORLD_GONE once a site has noticed that the host destroyed the world.
   [[nodiscard]] btDiscreteDynamicsWorld& bullet() const;
   [[nodiscard]] BulletAbi abi() const noexcept { return abi_; }
-  /// Throws std::invalid_argument for a host's world: `what` is for those of Tandem's.
+  /// Throws std::invalid_argument for a host's world. `what` names the refused function.
   [[nodiscard]] OwnWorld& own(const char* what) const;
 
-  /// The number of a body that is in the world; a known one keeps it.
+  /// Number of a body in the world; a known body keeps its number.
   TandemBody number(btRigidBody& rigid);
-  /// So that the next number() has room.
+  /// Reserves memory for the next number().
   void reserveNumber();
   void forget(TandemBody body) noexcept;
-  /// A site shares it no more.
+  /// Ends the sharing of a body.
   void release(TandemBody body) noexcept { bodies_[body - 1]->is_shared = false; }
 
-  /// Throws std::invalid_argument for a number never given or given up, tandem::Error for a body
-  /// that the host has taken out of its world.
+  /// Throws std::invalid_argument for an unknown or forgotten number. Throws tandem::Error for a
+  /// body that the host removed from its world.
   [[nodiscard]] WorldBody& body(TandemBody body) const;
 
-  /// The site that is on it, which notices its end; null: none.
+  /// Sets the site that notices the world's end; null: no site.
   void watch(const Site* site) noexcept;
 
   /// The latest step of guests.
   struct GuestStep {
     std::uint64_t number = 0;
-    std::uint64_t lists = 0;  ///< of bodies, looked through so far
+    std::uint64_t lists = 0;  ///< lists of bodies checked so far
     bool is_open = false;
     std::size_t count = 0;
   };
   GuestStep guests;
 
  private:
-  std::unique_ptr<OwnWorld> own_;  ///< null: the host's
+  std::unique_ptr<OwnWorld> own_;  ///< null: the host's world
   btDiscreteDynamicsWorld* bullet_;
   BulletAbi abi_;
   const Site* site_ = nullptr;
-  bool was_gone_ = false;                           ///< when the site before ended
-  std::vector<std::unique_ptr<WorldBody>> bodies_;  ///< by number - 1; null: given up
+  bool was_gone_ = false;                           ///< an earlier site noticed the world's end
+  std::vector<std::unique_ptr<WorldBody>> bodies_;  ///< by number - 1; null: forgotten
 };
 
 }  // namespace tandem::c_door
