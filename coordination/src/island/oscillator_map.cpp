@@ -12,9 +12,9 @@ constexpr int kMaxHalvings = 200;
 }  // namespace
 
 OscillatorMap computeOscillatorMap(double stiffness, double damping, double h) noexcept {
-  // S is the displacement from rest after a unit impulse: S'' + c S' + k S = 0, S(0) = 0, S'(0)
-  // = 1. Its series covers a step that is short against the fastest motion; doubling extends it to
-  // h.
+  // S is the displacement from rest after a unit impulse: S'' + c S' + k S = 0 with S(0) = 0 and
+  // S'(0) = 1. Its series covers a step that is short against the fastest motion; doubling extends
+  // it.
   int halvings = 0;
   while ((damping * h > 0.5 || stiffness * h * h > 0.25) && halvings < kMaxHalvings)
     h *= 0.5, ++halvings;
