@@ -7,8 +7,7 @@
 
 #include "tandem/coordination/types.h"
 
-// The width that the linked library was compiled for, as its CMake target and its pkg-config file
-// say it.
+// Scalar width of the linked library, set by its CMake target and its pkg-config file.
 #ifdef TANDEM_BULLET_SCALAR_BYTES
 #if TANDEM_BULLET_SCALAR_BYTES == 4
 static_assert(
@@ -30,39 +29,38 @@ static_assert(
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Which Bullet a piece of code was compiled for.
+/// The Bullet build that a piece of code was compiled for.
 struct BulletAbi {
   std::size_t scalar_bytes = 0;  ///< 4: float, 8: double (BT_USE_DOUBLE_PRECISION)
   int version = 0;               ///< BT_BULLET_VERSION, e.g. 324
 };
 
-/// The Bullet of the code that includes this header. `static`: each side compiles its own.
+/// The Bullet build of the code that includes this header. `static`: each side compiles its own.
 [[nodiscard]] static inline BulletAbi bulletAbiOfThisCode() {
   return {sizeof(btScalar), BT_BULLET_VERSION};
 }
 
-/// The host's Bullet is not the one that this library was compiled for.
+/// The host's Bullet differs from the one that this library was compiled for.
 class WrongBulletError final : public Error {
  public:
   using Error::Error;
 };
 
-/// Width of btScalar in the Bullet that this library is bound to [bytes], read from the size of one
-/// of its symbols; 0 if that cannot be told (Bullet linked statically into a program that exports
-/// nothing).
+/// Width of btScalar in the Bullet that this library is bound to [bytes], from the size of one of
+/// its symbols. 0 if unknown (Bullet linked statically into a program that exports nothing).
 [[nodiscard]] std::size_t loadedBulletScalarBytes() noexcept;
 
-/// A library of this process that brings a Bullet of another width than `scalar_bytes`, however it
-/// came in; empty if there is none. For set-up: looks through all that is loaded, allocates.
+/// File of a loaded library that brings a Bullet of another width than `scalar_bytes`; empty if
+/// there is none. For set-up: searches all loaded libraries and allocates.
 [[nodiscard]] std::string findOtherBulletWidth(std::size_t scalar_bytes);
 
-/// Refuses a host that was compiled for another Bullet than this library, or a process in which
-/// another width of Bullet is loaded: both link and load without a word and give wrong results. Two
-/// widths harm each other even where each was loaded for itself (RTLD_LOCAL): the linker makes
-/// constants such as btTransform::getIdentity()'s one for the whole process.
+/// Refuses a host compiled for another Bullet than this library, or a process with another width of
+/// Bullet. Both would link and load silently and give wrong results. Two widths harm each other
+/// even if each is loaded with RTLD_LOCAL. The linker merges constants such as that of
+/// btTransform::getIdentity() for the whole process.
 ///
-/// Called with bulletAbiOfThisCode() from headers, so that `host` is what the host's compiler saw.
-/// Throws WrongBulletError naming both widths (or versions) and the library to link instead.
+/// Headers call this with bulletAbiOfThisCode(), so that `host` is the host compiler's view. Throws
+/// WrongBulletError with both widths (or versions) and the library to link instead.
 void checkBulletAbi(const BulletAbi& host);
 
 }  // namespace tandem

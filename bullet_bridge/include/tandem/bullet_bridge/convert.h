@@ -7,7 +7,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Between Bullet's btScalar and our double; to Bullet it rounds to btScalar's width.
+/// Conversion between Bullet's btScalar and double; values for Bullet are rounded to btScalar.
 [[nodiscard]] inline btVector3 toBullet(const Vec3& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }

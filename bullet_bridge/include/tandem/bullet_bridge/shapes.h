@@ -10,25 +10,23 @@ class btRigidBody;
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// The island's own form of a Bullet shape: box, sphere, capsule, cylinder, convex hull, static
-/// plane, each with Bullet's margin where it counts: hulls are rounded by it. A compound of one
-/// child at its origin is that child, as some hosts wrap every shape so. Nothing for a shape that
-/// the island does not know: cylinders scaled to ovals, hulls without a volume, concave shapes,
-/// other compounds and others. Allocates, and for a hull takes time that grows with the square of
-/// its points.
+/// Converts a Bullet shape to the island's form: box, sphere, capsule, cylinder, convex hull or
+/// static plane. A hull's rounding is Bullet's margin. A compound of one child at its origin counts
+/// as the child, because some hosts wrap every shape. Nothing for other shapes: oval cylinders,
+/// hulls without a volume, concave shapes, other compounds. Allocates; the time for a hull grows
+/// with the square of its points.
 [[nodiscard]] std::optional<Shape> convertShape(const btCollisionShape& shape);
 
-/// The surface of a shape made of triangles (mesh, scaled mesh, height field), its skin Bullet's
-/// margin. Nothing for another shape, or a mesh without an area. Not in the tick: some microseconds
-/// for each triangle.
+/// Converts a triangle shape (mesh, scaled mesh, height field) to a surface whose skin is Bullet's
+/// margin. Nothing for another shape or a mesh without an area. Not in the tick: it takes some
+/// microseconds per triangle.
 ///
-/// The island's triangles are one-sided, as those of a closed mesh: their corners run
-/// counter-clockwise seen from the free side. A height field is free above, on the positive side of
-/// its up axis.
+/// The island's triangles are one-sided: their corners run counter-clockwise seen from the free
+/// side. A height field is free above, on the positive side of its up axis.
 [[nodiscard]] std::optional<Shape> convertMesh(const btCollisionShape& shape);
 
-/// The shape of a body that can be shared: box, sphere, capsule, cylinder or convex hull, or a
-/// compound of one of them at its origin. Throws tandem::Error naming any other.
+/// Shape of a body that can be shared: box, sphere, capsule, cylinder or convex hull, or a compound
+/// of one of them at its origin. Throws tandem::Error that names any other shape.
 [[nodiscard]] Shape getShareableShape(const btRigidBody& body);
 
 }  // namespace tandem
