@@ -7,12 +7,11 @@
 namespace tandem {
 namespace {
 
-/// Above this part of a shape's smallest half extent, a margin shows: a body rests that much too
+/// A margin above this share of the smallest half extent is visible: the body rests that much too
 /// high.
 constexpr btScalar kLargeMargin = btScalar(0.1);
 
-/// Shapes around which Bullet lays the margin as an extra skin; it takes the others' margin from
-/// inside.
+/// True for shapes that Bullet surrounds with the margin; others include it in their size.
 bool hasMarginOutside(const btCollisionShape& shape) {
   switch (shape.getShapeType()) {
     case CONVEX_HULL_SHAPE_PROXYTYPE:

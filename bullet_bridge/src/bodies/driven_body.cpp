@@ -13,11 +13,11 @@
 namespace tandem {
 namespace {
 
-/// Slower than this it stands [m/s, rad/s].
+/// A slower body stands still [m/s, rad/s].
 constexpr double kStanding = 1e-9;
-/// Differences of time below this are the rounding of a velocity [s].
+/// Smaller differences of time are rounding of a velocity [s].
 constexpr double kSameTime = 1e-6;
-/// One call of stepSimulation() is no longer than this [s].
+/// Longest duration of one stepSimulation() call [s].
 constexpr double kLongestCall = 0.5;
 constexpr double kJump = 0.05, kJumpTurn = 0.5;  // [m], [rad]
 constexpr double kNear = 1e-7;                   // [m, rad]
@@ -28,7 +28,7 @@ bool isSamePose(const RigidState& a, const RigidState& b) {
 
 bool stands(const RigidState& s) { return s.v_W.norm() < kStanding && s.w_W.norm() < kStanding; }
 
-/// How long it takes from one pose to another at the velocities of the latter; 0 for a jump.
+/// Time from one pose to another at the velocities of the latter [s]; 0 for a jump.
 double computeWayTime(const RigidState& from, const RigidState& to) {
   if (to.v_W.norm() >= kStanding) return (to.p_W - from.p_W).norm() / to.v_W.norm();
   if (to.w_W.norm() >= kStanding)
@@ -66,7 +66,7 @@ void DrivenBody::look(double time) noexcept {
     return;
   }
   is_belt_ = false;
-  // The first sub-step of several has the pose of the last.
+  // The first of several sub-steps already has the pose of the last.
   const double arrival = stamp_ + std::min(computeWayTime(before, now), kLongestCall);
   stamp_ = arrival > time + kSameTime ? arrival : time;
 }

@@ -12,23 +12,22 @@
 namespace tandem {
 namespace {
 
-/// Less than this is no doing of the host [m, rad, m/s, rad/s].
+/// Smaller differences do not count as a change by the host [m, rad, m/s, rad/s].
 constexpr double kNothing = 1e-9;
-/// And so much of a value it may lose when it keeps it in float, and a quaternion's length in
-/// order.
+/// Share of a value that the host may lose by storing it as float, or by normalising a quaternion.
 constexpr double kRounding = 0x1p-22;
 
 bool isNothing(const Vec3& difference, double size) noexcept {
   return difference.norm() <= std::max(kNothing, kRounding * size);
 }
 
-/// An angle is twice what its quaternion is off by.
+/// A rotation angle is twice the error of its quaternion.
 bool isSamePose(const RigidState& a, const RigidState& b) noexcept {
   return isNothing(a.p_W - b.p_W, b.p_W.norm()) &&
          isNothing(computeRotationVector(a.q_WB, b.q_WB), 2.0);
 }
 
-/// Change of a velocity; none if it is nothing.
+/// Change of a velocity; zero if it is negligible.
 Vec3 computeChange(const Vec3& now, const Vec3& before, double size) noexcept {
   const Vec3 change = now - before;
   return isNothing(change, size) ? Vec3(Vec3::Zero()) : change;
@@ -75,8 +74,8 @@ RigidState GuestBody::takeBack(const RigidState& now) noexcept {
   return told_;
 }
 
-/// The change of angular velocity, where the body is now, of what changed it by dw_W at another
-/// orientation: the same angular momentum.
+/// Converts a change of angular velocity at orientation `from` to the body's present orientation,
+/// with equal angular momentum.
 Vec3 GuestBody::turnAlong(const Vec3& dw_W, const Quat& from) const noexcept {
   const Vec3 inertia = fromBullet(body_.getLocalInertia());
   const Vec3 inverse = fromBullet(body_.getInvInertiaDiagLocal());

@@ -15,19 +15,21 @@
 #include "world/world_access.h"
 #include "world/world_lookup.h"
 
+// clang-format off
 // One step of the host in hand-off mode, x over time:
 //
 //   pre-tick            Bullet's step                post-tick
 //   x0 known     ─► v_avg = (end - x0) / dt ─►   pose and velocity := end
 //
-// Bullet adds its accumulated forces to the velocity we give it before it moves the body, so they
-// are taken off beforehand. What its velocity differs by afterwards came from its solver: contact
-// with neighbours.
+// Bullet adds its accumulated forces to the given velocity before it moves the body, so they are
+// subtracted first. A difference of the velocity afterwards comes from its solver: contact with
+// neighbours.
+// clang-format on
 
 namespace tandem {
 namespace {
 
-/// What counts as standing: a thousandth of what hand-off promises [m, rad], [m/s, rad/s].
+/// Limits for standing still: a thousandth of hand-off's accuracy [m, rad], [m/s, rad/s].
 constexpr double kSamePlace = 1e-12;
 constexpr double kSlow = 1e-9;
 
@@ -47,7 +49,7 @@ bool equalBits(const btTransform& a, const btTransform& b) {
 
 bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
 
-/// Without a branch for each number.
+/// True if all are zero; has no branch per number.
 template <typename... Vectors>
 bool areZero(const Vectors&... vectors) {
   btScalar sum = 0;
@@ -55,15 +57,15 @@ bool areZero(const Vectors&... vectors) {
   return sum == 0;
 }
 
-/// All bytes of it: quick, and never true of different ones. Minus zero differs from zero.
+/// Compares all bytes: fast and strict. Minus zero differs from zero.
 template <typename Value>
 bool isSame(const Value& a, const Value& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// A body that sleeps in Bullet is not woken for less than this [m], at its middle and its surface.
+/// A body asleep in Bullet is not woken for a smaller move of its centre or surface [m].
 constexpr double kTooLittleToWake = 5e-5;
-/// One that moves faster than this is not tired [m/s].
+/// Above this speed Bullet's sleep timer is reset [m/s, rad/s].
 constexpr double kTiredSpeed = 1e-4;
 
 bool isFinite(const HostChange& change) {
@@ -108,8 +110,8 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   if (mass_share != 1.0) scaleMass(mass_share);
   inverse_mass_ = body.getInvMass();
   inverse_inertia_ = body.getInvInertiaDiagLocal();
-  // Weight computed in one known way, so that takeHostChanges() can tell it from the host's forces
-  // to the bit.
+  // Sets the weight by a known computation, so that takeHostChanges() can separate it from the
+  // host's forces to the bit.
   body.setGravity(body.getGravity());
   remember();
 }
@@ -129,7 +131,7 @@ bool HapticBody::hasItsMass() const noexcept {
          equalBits(body_.getInvInertiaDiagLocal(), inverse_inertia_);
 }
 
-/// The host may set another damping while we have it off.
+/// Reads a damping that the host set while ours is off.
 void HapticBody::takeDamping() noexcept {
   if (body_.getLinearDamping() != 0) original_.linear_damping = body_.getLinearDamping();
   if (body_.getAngularDamping() != 0) original_.angular_damping = body_.getAngularDamping();
@@ -153,7 +155,7 @@ void HapticBody::restoreActivation() {
   const bool slept = original_.activation_state == ISLAND_SLEEPING ||
                      original_.activation_state == WANTS_DEACTIVATION;
   const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
-  // A body put back to sleep in mid-air would hang there.
+  // Asleep in mid-air, a body would hang there.
   body_.forceActivationState(slept && !untouched ? ACTIVE_TAG : original_.activation_state);
   body_.setDeactivationTime(slept && !untouched ? 0 : original_.deactivation_time);
 }
@@ -183,8 +185,8 @@ bool HapticBody::hasLeftItsRest(const RigidState& at) const noexcept {
          static_cast<double>(radius) * turn_W.norm() > kTooLittleToWake;
 }
 
-/// Bullet gives awake bodies their weight at the start of stepSimulation(). One that woke between
-/// its sub-steps has none yet.
+/// Bullet gives awake bodies their weight at the start of stepSimulation(). A body that woke
+/// between its sub-steps lacks it.
 void HapticBody::replaceMissingWeight() noexcept {
   const bool woke = slept_ && !isAsleep();
   if (isAsleep() && !slept_) rest_ = state();
@@ -244,7 +246,7 @@ void HapticBody::handOff(const RigidState& end, double dt) noexcept {
   }
   body_.setFlags(handed_.flags & ~kGyroscopicFlags);
 
-  // In Bullet's own arithmetic, so that a free body comes out without a trace of an impulse.
+  // Bullet's own arithmetic gives a free body exactly zero impulse.
   const auto step = static_cast<btScalar>(dt);
   const btVector3 by_force = body_.getTotalForce() * body_.getInvMass() * step;
   const btVector3 by_torque = body_.getTotalTorque() * body_.getInvInertiaTensorWorld() * step;
@@ -269,13 +271,13 @@ HostChange HapticBody::restore() noexcept {
     known_pose_ = body_.getWorldTransform();
     return change;
   }
-  // That Bullet took the velocity of a body that it has put to sleep was no force.
+  // Bullet zeroes the velocity of a body that it puts to sleep; that is no force.
   if (!isAsleep()) {
     change.impulse_W = fromBullet(body_.getLinearVelocity() - handed_.expected_v) * mass();
     change.angular_impulse_W = computeAngularMomentum(
         handed_.q_WB_start, fromBullet(body_.getAngularVelocity() - handed_.expected_w));
   }
-  // Bullet calls a body slow, and soon tired, that a hand would not.
+  // Bullet's limits would let a body fall asleep that a hand still feels moving.
   const double speed = handed_.end.v_W.norm() + fromBullet(handed_.expected_v).norm();
   const double turning = handed_.end.w_W.norm() + fromBullet(handed_.expected_w).norm();
   if (speed > kTiredSpeed || turning > kTiredSpeed) body_.setDeactivationTime(0);
@@ -293,7 +295,7 @@ bool HapticBody::standsAt(const RigidState& state) const noexcept {
 
 void HapticBody::park() noexcept {
   if (parked_ || !isInWorld()) return;
-  // Whether it may sleep there is Bullet's to say, for all that it touches.
+  // Bullet decides about sleep, together with all bodies that it touches.
   if (sleep_ == Sleep::kAsHost && body_.isActive()) return;
   parked_ = slept_ = true;
   rest_ = handed_.end;
@@ -304,7 +306,7 @@ void HapticBody::park() noexcept {
 }
 
 bool HapticBody::isUndisturbed() const noexcept {
-  // A sleeping body has no weight among its forces.
+  // The forces of a sleeping body do not include its weight.
   return body_.getActivationState() == ISLAND_SLEEPING &&
          areZero(body_.getTotalForce(), body_.getTotalTorque(), body_.getLinearVelocity(),
                  body_.getAngularVelocity()) &&
@@ -330,9 +332,9 @@ void HapticBody::standStill() noexcept {
 void HapticBody::unpark() noexcept {
   parked_ = false;
   if (!isInWorld()) return;
-  // The world's new gravity goes to those that are awake then.
+  // The world's new gravity reaches only awake bodies.
   if (hasMissedWorldGravity()) body_.setGravity(world_.getGravity());
-  // Bullet gives weight to those that are awake when a stepSimulation() begins.
+  // Bullet gives weight only to bodies awake when a stepSimulation() begins.
   if (!body_.isActive()) body_.applyGravity();
   keepAwake();
 }
@@ -345,7 +347,7 @@ void HapticBody::keepAwake() noexcept {
 
 bool HapticBody::sleepsOn() noexcept {
   if (!body_.isActive()) return true;
-  // Bullet wakes whatever has something awake near it; that alone moves nothing.
+  // Bullet wakes every body near an awake one; that alone moves nothing.
   if (!isZero(body_.getLinearVelocity()) || !isZero(body_.getAngularVelocity())) return false;
   standStill();
   body_.forceActivationState(ISLAND_SLEEPING);
@@ -361,7 +363,7 @@ bool HapticBody::wakeIfHit(HostChange& change) noexcept {
       computeAngularMomentum(handed_.end.q_WB, fromBullet(body_.getAngularVelocity()));
   standStill();
   keepAwake();
-  // For the sub-steps that may follow in this stepSimulation(), which forgets it at its end.
+  // Weight for later sub-steps of this stepSimulation(), which clears it at its end.
   body_.applyGravity();
   if (!isFinite(change)) change = {};
   return true;
@@ -385,7 +387,7 @@ void HapticBody::setState(const RigidState& state) noexcept {
 }
 
 void HapticBody::setPoseAndVelocity(const RigidState& state) noexcept {
-  // Velocities first: setting the pose copies them to where the motion state is interpolated from.
+  // Velocities first: setting the pose copies them for the interpolation of the motion state.
   body_.setLinearVelocity(toBullet(state.v_W));
   body_.setAngularVelocity(toBullet(state.w_W));
   body_.setCenterOfMassTransform(toBullet(state.p_W, state.q_WB));

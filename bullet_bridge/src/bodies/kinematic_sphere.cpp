@@ -36,7 +36,7 @@ struct KinematicSphere::Impl {
   btDiscreteDynamicsWorld& world;
   btSphereShape shape;
   OwnBody own;
-  btTransform end;  // of moveTo()
+  btTransform end;  // target of moveTo()
 };
 
 KinematicSphere::KinematicSphere(btDiscreteDynamicsWorld& world, double radius, const Vec3& p_W)

@@ -25,9 +25,8 @@ btVector3 measureWeight(btRigidBody& body) noexcept {
 
 void restoreMass(btRigidBody& body, btScalar inverse_mass, const btVector3& inverse_inertia,
                  const btVector3& weight) noexcept {
-  // setMassProps() takes a mass and keeps 1/mass and mass g. Rounding twice does not always give x
-  // back from 1/x, and a few neighbouring masses share one inverse, but not one weight: try those
-  // around.
+  // setMassProps() takes a mass and stores 1/mass and mass g. Rounding twice may not return x from
+  // 1/x. A few neighbouring masses share one inverse but not one weight: try those nearby.
   constexpr int kNeighbours = 4;
   const btVector3 inertia = body.getLocalInertia();
   btScalar mass = btScalar(1) / inverse_mass;
@@ -42,7 +41,7 @@ void restoreMass(btRigidBody& body, btScalar inverse_mass, const btVector3& inve
     mass = std::nextafter(mass, std::numeric_limits<btScalar>::infinity());
   }
   body.setMassProps(fitting, inertia);
-  // The host set its gravity after its mass, or has set another one since.
+  // The host set its gravity after its mass, or changed it since.
   if (!has_weight) body.setGravity(body.getGravity());
   body.setInvInertiaDiagLocal(inverse_inertia);
   body.updateInertiaTensor();

@@ -4,8 +4,8 @@
 
 namespace tandem {
 
-/// A rigid body of ours in a host's world. Many hosts end by deleting whatever is in their world:
-/// that is noticed, and it is not deleted twice.
+/// A rigid body of ours in a host's world. Many hosts finally delete all bodies of their world;
+/// this class notices and does not delete the body twice.
 class OwnBody {
  public:
   explicit OwnBody(const btRigidBody::btRigidBodyConstructionInfo& info)
@@ -15,7 +15,7 @@ class OwnBody {
   OwnBody& operator=(const OwnBody&) = delete;
 
   [[nodiscard]] bool isAlive() const noexcept { return rigid_ != nullptr; }
-  /// While it is alive.
+  /// Valid only while the body is alive.
   [[nodiscard]] btRigidBody& rigid() const noexcept { return *rigid_; }
 
  private:

@@ -6,8 +6,8 @@
 
 namespace tandem {
 
-/// The rotation vector in W that turns orientation `from` into `to` by the shorter way [rad]; its
-/// length is the angle, at most pi.
+/// The rotation vector in W that rotates `from` to `to` the shorter way [rad]. Its length is the
+/// angle, at most pi.
 [[nodiscard]] inline Vec3 computeRotationVector(const Quat& from, const Quat& to) noexcept {
   Quat turn = to * from.conjugate();
   if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
@@ -18,7 +18,7 @@ namespace tandem {
   return scale * turn.vec();
 }
 
-/// The rotation about `vector` by its length; inverse of the above.
+/// The rotation about `vector` by its length [rad]; inverse of computeRotationVector().
 [[nodiscard]] inline Quat makeRotation(const Vec3& vector) noexcept {
   const double half = 0.5 * vector.norm();
   const double scale = half > 1e-9 ? 0.5 * std::sin(half) / half : 0.5;

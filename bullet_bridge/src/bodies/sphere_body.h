@@ -12,17 +12,17 @@ namespace tandem {
 
 class HapticBody;
 
-/// What a SphereBody meets natively.
+/// The bodies that a SphereBody touches natively.
 enum class SphereMeets {
-  kMovingBodies,  ///< it passes static ones: those the island keeps it out of
-  kAllBodies,     ///< static ones, too, and without friction: there is no island to do it
+  kMovingBodies,  ///< passes static bodies; the island handles those
+  kAllBodies,     ///< also static bodies, without friction, if there is no island
 };
 
-/// A sphere that is put into a host's world and taken out again: the Bullet body of a remote user.
+/// A sphere in a host's world: the Bullet body of a remote user.
 ///
-/// It has no weight. The world must outlive it. A host that takes it out of its world is noticed by
-/// haptic().isInWorld(), one that deletes it, too, as hosts do that delete all there is in their
-/// world, by isAlive().
+/// It has no weight. The world must outlive it. haptic().isInWorld() tells if the host removed it
+/// from its world. isAlive() tells if the host deleted it, as some do with all bodies of their
+/// world.
 class SphereBody {
  public:
   SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
@@ -32,11 +32,12 @@ class SphereBody {
   SphereBody& operator=(const SphereBody&) = delete;
 
   [[nodiscard]] bool isAlive() const noexcept;
-  /// While it is alive.
+  /// Valid only while the body is alive.
   [[nodiscard]] btRigidBody& rigid() const noexcept;
   [[nodiscard]] HapticBody& haptic() const noexcept;
 
-  /// A ghost passes all bodies: Bullet sees its contacts and does not act on them. Real-time safe.
+  /// A ghost passes all bodies: Bullet detects its contacts but does not resolve them. Real-time
+  /// safe.
   void setGhost(bool is_ghost) noexcept;
 
  private:
