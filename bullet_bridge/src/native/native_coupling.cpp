@@ -29,7 +29,7 @@ CouplerGains scale(const CouplerGains& gains, double share) noexcept {
   return {share * gains.stiffness, share * gains.damping};
 }
 
-/// What a constraint pulls its body to: kinematic, so that the solver counts its velocity.
+/// The target body of a constraint; kinematic, so that the solver uses its velocity.
 class Anchor {
  public:
   Anchor() : rigid_(0, nullptr, nullptr) {
@@ -47,7 +47,7 @@ class Anchor {
   btRigidBody rigid_;
 };
 
-/// Impulses F dt, computed from the state at the step's start.
+/// Applies impulses F dt, computed from the state at the start of the step.
 class ImpulseCoupler final : public NativeCoupler {
  public:
   ImpulseCoupler(btRigidBody& body, const CouplerSettings& settings)
@@ -98,7 +98,7 @@ class Spring6DofCoupler final : public NativeCoupler {
   void setShare(double share) noexcept override {
     for (int axis = 0; axis < 6; ++axis) {
       const CouplerGains gains = scale(axis < 3 ? full_.linear : full_.angular, share);
-      // By default Bullet lowers, without a word, K where w dt > 0.25 and B where B dt > m.
+      // Bullet's default silently lowers K where w dt > 0.25, and B where B dt > m.
       spring_.setStiffness(axis, static_cast<btScalar>(gains.stiffness), false);
       spring_.setDamping(axis, static_cast<btScalar>(gains.damping), false);
     }
@@ -132,7 +132,7 @@ class PointToPointCoupler final : public NativeCoupler {
   void setShare(double share) noexcept override {
     linear_ = scale(full_linear_, share);
     turn_.setShare(share);
-    // Without gains there is nothing to soften the joint: it would be rigid.
+    // Without gains the joint would be rigid, so it is disabled.
     joint_.setEnabled(linear_.stiffness > 0.0 || linear_.damping > 0.0);
   }
 

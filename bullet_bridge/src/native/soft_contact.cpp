@@ -24,7 +24,7 @@ Vec3 computeContactImpulse(btDiscreteDynamicsWorld& world, const btCollisionObje
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     const bool is_first = manifold.getBody0() == &body;
     if (!is_first && manifold.getBody1() != &body) continue;
-    // With a ghost nothing was solved: its points keep the impulse of a step long gone.
+    // Contacts of ghosts are not solved: their points keep an old impulse.
     if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse())
       continue;
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
