@@ -8,8 +8,8 @@
 
 namespace tandem {
 
-/// Bullet's form of a shape, a hull with its rounding as margin: the inverse of convertShape().
-/// Throws std::invalid_argument for a mesh. `shape` must be as checkShape() wants it.
+/// Converts a shape to Bullet's form, the inverse of convertShape(). A hull's margin is its
+/// rounding. Throws std::invalid_argument for a mesh. `shape` must satisfy checkShape().
 [[nodiscard]] std::unique_ptr<btCollisionShape> makeBulletShape(const Shape& shape);
 
 }  // namespace tandem

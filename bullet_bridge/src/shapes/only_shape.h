@@ -4,11 +4,11 @@
 
 namespace tandem {
 
-/// Entries of a child's pose may differ from none by so much [m, and parts of a unit vector].
+/// Tolerance of a child's pose against identity [m, and shares of a unit vector].
 constexpr btScalar kNoPose = btScalar(1e-6);
 
-/// What a shape is: of a compound with one child at its origin that child, else the shape itself.
-/// Some hosts wrap every shape so.
+/// The child of a compound that has one child at its origin, else the shape itself. Some hosts wrap
+/// every shape in such a compound.
 [[nodiscard]] inline const btCollisionShape& onlyShapeOf(const btCollisionShape& shape) {
   if (shape.getShapeType() != COMPOUND_SHAPE_PROXYTYPE) return shape;
   const auto& compound = static_cast<const btCompoundShape&>(shape);

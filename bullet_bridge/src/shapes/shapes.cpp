@@ -23,7 +23,7 @@
 namespace tandem {
 namespace {
 
-/// Half extents across a cylinder that differ by more than this part make it an oval.
+/// Half extents across a cylinder may differ by this share; more makes it oval.
 constexpr double kRound = 1e-6;
 
 Axis toAxis(int axis) { return axis == 0 ? Axis::kX : axis == 1 ? Axis::kY : Axis::kZ; }
@@ -54,8 +54,8 @@ class TriangleReader final : public btTriangleCallback {
     for (int i = 0; i < 3; ++i) corners_.push_back(fromBullet(corners[i]));
   }
 
-  /// Turns all triangles round if they lie with their backs upwards: which coordinate is up is the
-  /// one that their areas, put together, have the most of.
+  /// Flips all triangles if their free sides point down. The up axis is the one with the largest
+  /// component of their summed area vectors.
   void turnUp() {
     Vec3 area = Vec3::Zero();
     for (std::size_t i = 0; i + 2 < corners_.size(); i += 3)
