@@ -13,11 +13,11 @@
 namespace tandem {
 namespace {
 
-/// Points farther apart than this are of no interest to an inner step [m].
+/// Points farther apart than this do not matter to an inner step [m].
 constexpr double kFarthest = 1e-3;
 
-/// Distances below this are rounding of a float Bullet some decimetres from the private origin [m]:
-/// taken for real they would keep bodies at rest trembling.
+/// Smaller distances are rounding of a float Bullet some decimetres from the private origin [m]. If
+/// they counted, bodies at rest would tremble.
 constexpr double kRounding = sizeof(btScalar) == sizeof(double) ? 0.0 : 6e-8;
 
 constexpr int kManifolds = 512;
@@ -41,8 +41,7 @@ ContactSearch::ContactSearch(double min_bounce_speed)
     : configuration_(makePools()),
       dispatcher_(&configuration_, kManifolds),
       min_bounce_speed_(min_bounce_speed) {
-  // A body lying flat gets all its corners at once, instead of one per step while it rocks on the
-  // others.
+  // A body lying flat gets all its corners at once. Otherwise it gains one per step and rocks.
   configuration_.setPlaneConvexMultipointIterations(8, 4);
 }
 
@@ -72,7 +71,7 @@ void ContactSearch::showSurfaces() {
   for (const auto& object : standing_) show(*object);
 }
 
-/// By island index, standing ones last in the order in which they came: equal scenes, equal order.
+/// Sorts by island index, then standing objects by arrival: equal scenes give equal order.
 void ContactSearch::sortLinks() {
   const auto rank = [](const PrivateCopy& copy) {
     return copy.index == kStanding ? std::numeric_limits<BodyIndex>::max() : copy.index;
@@ -93,7 +92,7 @@ void ContactSearch::draw() {
   is_drawn_ = true;
 }
 
-/// So that a tick looks at pairs of bodies that move, and at no others.
+/// Builds the lists that let a tick visit only pairs with moving bodies.
 void ContactSearch::fillDraft() {
   draft_.pairs.clear();
   for (auto& list : draft_.pairs_of) list.clear();
@@ -197,8 +196,7 @@ void ContactSearch::lookAround(const std::vector<RigidState>& states,
     book_.awake.push_back(static_cast<BodyIndex>(body));
     placeAt(book_.awake.back());
   }
-  // Those that rest are where they were placed last. Waking is catching: those that are woken wake
-  // others.
+  // Bodies at rest keep their last place. Waking spreads: woken bodies wake others.
   for (std::size_t next = 0; next < book_.awake.size(); ++next) {
     forEachPairOf(book_.awake[next], [&](std::size_t i) {
       Pair& pair = book_.pairs[i];
@@ -266,9 +264,8 @@ void ContactSearch::search(Pair& pair, std::vector<RigidContact>& contacts) noex
   }
 }
 
-/// Bullet drops a contact whose two points have drifted apart along the surface, and for a step the
-/// body stands on fewer corners. A plane is the same everywhere: there the plane's point follows
-/// the body's.
+/// Bullet drops a contact whose two points have drifted apart along the surface. The body would
+/// then stand on fewer corners for a step. A plane is uniform, so its point follows the body's.
 void ContactSearch::slideAlong(const Pair& pair) noexcept {
   manifolds_.resize(0);
   pair.algorithm->getAllContactManifolds(manifolds_);

@@ -12,15 +12,16 @@
 
 namespace tandem {
 
-/// Bullet's narrowphase on private copies: pairs of a few bodies with each other and with what
-/// stands near them.
+/// Bullet's narrowphase on private copies: pairs of a few bodies with each other and with standing
+/// objects near them.
 ///
-/// Two sides use it, which may be two threads. The host's side says who is there: addBody ...
-/// showSurfaces, then draw(). Nothing of it acts before commit(), which is the tick's side, and
-/// neither allocates nor looks at the host's world; what it replaces is freed by the next draw().
+/// Two sides use it, possibly in two threads. The host's side changes the set of objects with
+/// addBody ... showSurfaces, then calls draw(). Changes take effect in commit(), on the tick's
+/// side. commit() neither allocates nor reads the host's world. The next draw() frees replaced
+/// data.
 class ContactSearch {
  public:
-  /// Restitution acts from this approach speed on [m/s], as in the host's world.
+  /// `min_bounce_speed`: restitution acts above this approach speed [m/s], as in the host's world.
   explicit ContactSearch(double min_bounce_speed);
   ~ContactSearch();
   ContactSearch(const ContactSearch&) = delete;
@@ -29,7 +30,7 @@ class ContactSearch {
   /// @name The host's side; may allocate.
   /// @{
   [[nodiscard]] const Vec3& origin() const noexcept { return wanted_origin_W_; }
-  /// All copies go along: bodies to `states`, standing ones by placeStanding().
+  /// Moves the origin of all copies: bodies go to `states`, standing ones by placeStanding().
   void setOrigin(const Vec3& origin_W, const std::vector<RigidState>& states);
 
   [[nodiscard]] const std::vector<std::unique_ptr<PrivateCopy>>& standing() const {
@@ -37,7 +38,7 @@ class ContactSearch {
   }
   [[nodiscard]] const std::vector<std::unique_ptr<PrivateCopy>>& bodies() const { return bodies_; }
 
-  /// Each makes pairs with all copies that `meets` says.
+  /// Adds a copy, and a pair with each copy for which `meets` is true.
   template <typename Meets>
   void addBody(BodyIndex index, btCollisionObject& original, Meets meets) {
     auto copy = std::make_unique<PrivateCopy>(original, index);
@@ -57,9 +58,9 @@ class ContactSearch {
     standing_.push_back(std::move(copy));
     is_changed_ = true;
   }
-  /// Puts a standing copy where its original is. Returns whether that moves it.
+  /// Moves a standing copy to the pose of its original. True if that changes it.
   bool placeStanding(PrivateCopy& copy);
-  /// Calls `visit` with its copy and that of each partner it was paired with.
+  /// Removes a copy. Calls `visit` with it and each partner of its pairs.
   template <typename Visit>
   void remove(const btCollisionObject* original, Visit visit) {
     for (const Link& link : links_) {
@@ -68,29 +69,29 @@ class ContactSearch {
     }
     erase(original);
   }
-  /// Friction and restitution as the originals have them now, all in the world.
+  /// Copies friction and restitution from the originals, which must all be in the world.
   void showSurfaces();
-  /// Ends a change.
+  /// Completes a change for the next commit().
   void draw();
   /// @}
 
   /// @name The tick's side; real-time safe.
   /// @{
-  /// What was drawn last is so from now on.
+  /// Applies the last draw().
   void commit() noexcept;
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
                   std::vector<char>& awake, std::vector<char>& near) noexcept;
   void find(const std::vector<RigidState>& states, std::vector<RigidContact>& contacts) noexcept;
-  /// Pairs handed to Bullet's narrowphase so far.
+  /// Number of pairs passed to Bullet's narrowphase so far.
   [[nodiscard]] std::uint64_t searches() const noexcept { return searches_; }
   /// @}
 
  private:
-  /// Two copies that may touch, as the host's side knows them.
+  /// Two copies that may touch, on the host's side.
   struct Link {
     PrivateCopy* a;     ///< a body
     PrivateCopy* b;     ///< a body or standing
-    std::size_t place;  ///< of its pair in the book of now; kNowhere: in none
+    std::size_t place;  ///< index of its pair in the present book; kNowhere: none
   };
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
@@ -100,15 +101,15 @@ class ContactSearch {
     btCollisionAlgorithm* algorithm = nullptr;
     bool near = false;
   };
-  /// What the tick goes by.
+  /// Pairs and lists that the tick uses.
   struct Book {
     std::vector<Pair> pairs;
-    std::vector<PrivateCopy*> copy_of;               ///< by body; null: not held
-    std::vector<std::vector<std::size_t>> pairs_of;  ///< by body: places in pairs
-    std::vector<std::size_t> near, were_near;        ///< the same of near pairs, ascending
+    std::vector<PrivateCopy*> copy_of;               ///< by body; null: no copy
+    std::vector<std::vector<std::size_t>> pairs_of;  ///< by body: indices in pairs
+    std::vector<std::size_t> near, were_near;        ///< indices of near pairs, ascending
     std::vector<BodyIndex> awake;                    ///< in the last lookAround()
   };
-  /// With room for all its manifolds from the start.
+  /// Dispatcher with room for all its manifolds from the start.
   struct Dispatcher final : btCollisionDispatcher {
     Dispatcher(btCollisionConfiguration* configuration, int room)
         : btCollisionDispatcher(configuration) {
@@ -144,17 +145,17 @@ class ContactSearch {
   // The host's side.
   std::vector<std::unique_ptr<PrivateCopy>> bodies_, standing_;
   std::vector<std::unique_ptr<PrivateCopy>> removed_;  ///< since the last draw()
-  std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< the book of now has them, the next not
+  std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< in the present book, not in the next
   std::vector<Link> links_;
   Vec3 wanted_origin_W_ = Vec3::Zero();
   bool is_changed_ = false;  ///< since the last draw()
 
-  // Drawn, and taken by commit().
+  // Result of draw() for commit().
   Book draft_;
   bool is_drawn_ = false;
   std::vector<Placing> placings_;
   std::vector<Surfacing> surfacings_;
-  std::vector<RigidState> moved_states_;  ///< of bodies, after a change of origin; else empty
+  std::vector<RigidState> moved_states_;  ///< states of bodies after a change of origin; else empty
 
   // The tick's side.
   Book book_;

@@ -13,15 +13,14 @@
 namespace tandem {
 namespace {
 
-/// A body joins before it can be touched. D covers the way of two bodies until the host looks
-/// again: a margin for shapes, an acceleration of twice gravity, and half as much again of their
-/// speed.
+/// A body joins before it can be touched. The distance D covers the motion of two bodies until the
+/// host's next step: a shape margin, an acceleration of twice gravity, and 1.5 times their speed.
 constexpr double kMargin = 2e-3;        // [m]
 constexpr double kAcceleration = 20.0;  // [m/s^2]
 constexpr double kSafety = 1.5;
-/// Held bodies stay up to this many D, so that they do not join and leave in turns.
+/// Held bodies stay up to this many D, so that they do not join and leave alternately.
 constexpr double kHysteresis = 1.5;
-/// A body that flies faster than this at a body at rest is seen later than D says [m/s].
+/// A faster body that approaches a body at rest is found later than D promises [m/s].
 constexpr double kFastestComer = 3.0;
 
 double computeDistance(double speed, double horizon) {
@@ -38,7 +37,7 @@ NeighbourSeed makeSeed(const btRigidBody& body) {
   return {fromBullet(box.low), fromBullet(box.high), fromBullet(body.getLinearVelocity())};
 }
 
-/// Fastest that turning moves any point of it [m/s].
+/// Highest speed of a point of the body from its rotation [m/s].
 double computeTurningSpeed(const btRigidBody& body, const NeighbourSeed& seed) {
   return fromBullet(body.getAngularVelocity()).norm() * 0.5 * (seed.high_W - seed.low_W).norm();
 }
@@ -97,7 +96,7 @@ void NeighbourSearch::findAround(const NeighbourSeed& seed, double horizon) {
                                   toBullet(Vec3(seed.high_W + skin)), visitor);
 }
 
-/// The next wave: each candidate once, nearest first, equal ones in the order in which the host
+/// Makes the next wave: each candidate once, nearest first. Ties follow the order in which the host
 /// added them.
 void NeighbourSearch::takeNearest() {
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -108,7 +107,7 @@ void NeighbourSearch::takeNearest() {
     if (found_.size() == capacity_) return;
     if (contains(found_, candidate.body)) continue;
     found_.push_back(candidate.body);
-    // What the host moves by hand passes no push on.
+    // A kinematic body passes no push on.
     if (!candidate.body->isKinematicObject()) wave_.push_back(makeSeed(*candidate.body));
   }
 }
@@ -120,7 +119,7 @@ bool NeighbourSearch::isAnythingDriven() const {
   return false;
 }
 
-/// A body counts its joints only if they keep its partner from touching it.
+/// Lists all bodies with joints: a body's own list has only joints that disable its contacts.
 void NeighbourSearch::findJointed() {
   jointed_.clear();
   for (int i = 0; i < host_.getNumConstraints(); ++i) {

@@ -12,43 +12,43 @@ class btRigidBody;
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Something of the island's that may push others: the box of space it fills, and its velocity.
+/// Bounding box and velocity of an island body that may push others.
 struct NeighbourSeed {
   Vec3 low_W = Vec3::Zero(), high_W = Vec3::Zero();
   Vec3 v_W = Vec3::Zero();
 };
 
-/// Which moving bodies of a host's world the island should hold, because they may take part in
-/// contact with the island's own before the host is asked again.
+/// Selects the moving bodies of a host's world that the island should hold. They may touch the
+/// island's bodies before the host's next step.
 ///
-/// A body is a neighbour if its box is nearer to a seed's, or to that of another neighbour, than
+/// A body is a neighbour if its box is nearer to a seed's, or to another neighbour's, than
 ///
 ///   D = 2 mm + 1/2 a T^2 + 1.5 |relative velocity| T,   a = 20 m/s^2
 ///
-/// T being the time until the host is heard again at the latest; one that is held already stays up
-/// to 1.5 D. So a whole chain of bodies is taken before any of it is touched. Nearest first, wave
-/// by wave from the seeds, and no more than the capacity: the rest stays the host's, and pushes
-/// back by the host's own contact.
+/// T is the longest time until the host's next step. A held body stays up to 1.5 D. A whole chain
+/// of bodies is thus taken before any of it is touched. The search goes in waves from the seeds,
+/// nearest first, up to the capacity. Further bodies stay the host's and push back by its own
+/// contact.
 ///
-/// Kinematic bodies are taken as well, of any shape but a plane; the chain ends at them. No
-/// neighbours: static bodies, bodies of joints, dynamic ones of shapes neither convex nor compound,
-/// bodies without contact response or with simulation disabled. For the thread that steps the
+/// Kinematic bodies of any shape but a plane are taken too; the chain ends at them. Excluded are
+/// static bodies, bodies with joints, and dynamic bodies of shapes neither convex nor compound. So
+/// are bodies without contact response or with simulation disabled. For the thread that steps the
 /// host's world.
 class NeighbourSearch {
  public:
   /// `host` must outlive this object.
   NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity);
 
-  /// Set-up: a body that is the island's anyway.
+  /// Set-up: excludes a body that the island holds anyway.
   void exclude(const btRigidBody& body) {
     excluded_.insert(std::upper_bound(excluded_.begin(), excluded_.end(), &body), &body);
   }
 
-  /// Once per host step; `horizon` is T [s]. What the host has taken out of its world is not among
-  /// them. Valid until the next call.
+  /// Once per host step; `horizon` is T [s]. Omits bodies that the host removed from its world. The
+  /// result is valid until the next call.
   const std::vector<btRigidBody*>& find(const std::vector<NeighbourSeed>& seeds, double horizon);
 
-  /// True if the host's world has a kinematic body that does not sleep. Looks at all objects.
+  /// True if the host's world has an awake kinematic body. Checks all objects.
   [[nodiscard]] bool isAnythingDriven() const;
 
  private:

@@ -29,7 +29,7 @@ class Collector final : public btBroadphaseAabbCallback {
     if (!isObstacle(*object)) return true;
     const btCollisionShape& shape = onlyShapeOf(*object->getCollisionShape());
     const btTransform& pose = object->getWorldTransform();
-    // The broadphase's boxes have a skin and may be a step old; ask the shape.
+    // Broadphase boxes have a margin and may be a step old; ask the shape.
     if (!mayReach(shape, pose, computeRegion(shape, pose), region_)) return true;
     if (std::find(found_.begin(), found_.end(), object) == found_.end()) found_.push_back(object);
     return true;

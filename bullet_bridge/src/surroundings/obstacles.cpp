@@ -16,11 +16,11 @@
 namespace tandem {
 namespace {
 
-/// Beyond this distance from the first body the private origin follows it, so that the rounding of
-/// a float Bullet stays below 6e-8 m [m].
+/// At this distance from the first body the private origin follows it [m]. The rounding of a float
+/// Bullet thus stays below 6e-8 m.
 constexpr double kOriginReach = 0.25;
 
-/// Whether the host lets the two touch, by groups, masks and ignored pairs.
+/// True if the host lets the two touch, by groups, masks and ignored pairs.
 bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btCollisionObject& a,
                    const btCollisionObject& b) {
   auto* proxy_a = const_cast<btBroadphaseProxy*>(a.getBroadphaseHandle());
@@ -30,13 +30,13 @@ bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btCollisionObject& a,
          a.checkCollideWith(&b) && b.checkCollideWith(&a);
 }
 
-/// Which of two copies' originals remembers that native contact is off: what stands, else who came
-/// later.
+/// True if the original of `copy` stores the contact filter of the pair: a standing object, else
+/// the later body.
 bool isKeeper(const PrivateCopy& copy, const PrivateCopy& other) {
   return copy.index == kStanding || (other.index != kStanding && copy.index > other.index);
 }
 
-/// Filters whose keeper left the host's world are kept for its return, the latest of them.
+/// Most filters kept for keepers that left the host's world and may return.
 constexpr std::size_t kMostOrphans = 64;
 
 }  // namespace
@@ -46,7 +46,7 @@ struct Obstacles::Impl {
     BodyIndex index;
     btScalar radius;
   };
-  /// A filter that could not be taken back: its keeper is not in the world. Addresses only.
+  /// A filter that could not be removed because its keeper left the world. Addresses only.
   struct Orphan {
     btCollisionObject* keeper;
     btCollisionObject* other;
@@ -67,11 +67,11 @@ struct Obstacles::Impl {
   void dropMissingBodies();
   void dropLost();
   void takeFound();
-  /// Pairs that the host lets touch are the island's from now on.
+  /// Takes over pairs that the host lets touch: their contact is now the island's.
   [[nodiscard]] auto takeOver() {
     return [this](const PrivateCopy& a, const PrivateCopy& b) {
       if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
-      // Of two that no force moves, neither can be pushed.
+      // If forces move neither body, neither can be pushed.
       if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
         return false;
       if (!hostLetsTouch(host, *a.original, *b.original)) return false;
@@ -85,7 +85,7 @@ struct Obstacles::Impl {
   ContactSearch search;
   std::vector<Ball> balls;
   std::vector<Obstacle> near_spheres, next_near_spheres;
-  bool has_next = false;  ///< of the two
+  bool has_next = false;  ///< next_near_spheres is ready
   KnownShapes known_shapes;
   std::vector<Orphan> orphans;
   bool changed = false;
@@ -183,7 +183,7 @@ void Obstacles::Impl::remove(btCollisionObject* original) {
   });
 }
 
-/// Gives native contact back. Either may have left the host's world, and be deleted.
+/// Restores native contact. Each object may have left the host's world or been deleted.
 void Obstacles::Impl::unfilter(const PrivateCopy& keeper, const PrivateCopy& other) {
   if (findInWorld(host, keeper.original) < 0) {
     if (orphans.size() == kMostOrphans) orphans.erase(orphans.begin());
@@ -195,7 +195,7 @@ void Obstacles::Impl::unfilter(const PrivateCopy& keeper, const PrivateCopy& oth
   }
 }
 
-/// Who is back in the world still remembers what was filtered when it left.
+/// A keeper that is back in the world still stores its old filter: remove it.
 void Obstacles::Impl::forgetOrphans() {
   std::erase_if(orphans, [&](const Orphan& orphan) {
     if (findInWorld(host, orphan.keeper) < 0) return false;
@@ -213,7 +213,7 @@ void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {
 void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btScalar margin,
                                     const std::vector<char>* moves) {
   found.clear();
-  // What is known already stays near those that stand.
+  // Known objects stay near bodies that stand.
   if (moves)
     for (const auto& copy : search.standing())
       if (findInWorld(host, copy->original, copy->world_index) >= 0)
@@ -228,7 +228,7 @@ void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btSca
   sortAsAdded(found);
 }
 
-/// The host may take a body out of its world, and delete it.
+/// The host may remove a body from its world and delete it.
 void Obstacles::Impl::dropMissingBodies() {
   for (std::size_t i = search.bodies().size(); i-- > 0;) {
     PrivateCopy& copy = *search.bodies()[i];

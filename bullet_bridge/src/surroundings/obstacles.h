@@ -13,62 +13,61 @@ class btRigidBody;
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Rigid surroundings of the island's bodies: the static objects of a host's world near them, and
-/// they themselves for each other. Found once per host step; their contacts are searched for at
+/// Rigid surroundings of the island's bodies: static objects of the host's world near them, and the
+/// bodies themselves for each other. They are found once per host step. Contacts are searched at
 /// each inner step of the island, by Bullet's narrowphase on private copies.
 ///
-/// The private origin is near the first body, so that a float Bullet resolves tens of nanometres
-/// anywhere. Friction, restitution and margins are those of the host's objects, as they were at the
-/// last update(); rolling friction
-/// and contact stiffness are not used. Simple shapes are copied as they are when they come near;
-/// meshes, height fields, compounds and other shapes of the host's are shared: they must not change
-/// while attached, and must live until the commit() after their object has left the world - with a
-/// haptic thread until the end of the host's next step.
-/// Native contact between an island body and a candidate, and among island bodies, is filtered in
-/// the host's world meanwhile. Kinematic objects are no candidates: they can be bodies. Bullet's
-/// global contact callbacks see the copies, too; they carry their originals' user pointers.
+/// The private origin is near the first body, so a float Bullet resolves tens of nanometres
+/// anywhere. Friction, restitution and margins are those of the host's objects at the last
+/// update(). Rolling friction and contact stiffness are ignored. Simple shapes are copied when they
+/// come near. Meshes, height fields, compounds and other shapes are shared with the host. They must
+/// not change while attached, and must live until the commit() after their object left the world.
+/// With a haptic thread that is the end of the host's next step.
+///
+/// Native contact of an island body with a candidate or another island body is filtered meanwhile.
+/// Kinematic objects are no candidates: they can be bodies. Bullet's global contact callbacks also
+/// receive the copies, which carry their originals' user pointers.
 ///
 /// Two threads may share it. addBody(), removeBody(), addSphere() and search() are for the thread
-/// that steps the host's world; nothing of what they find acts before commit(), which is for the
-/// thread that ticks, as are nearSpheres(), lookAround() and find(), while the other waits.
-/// Compounds of several shapes make Bullet allocate in every search of contacts; all others only at
-/// first touch.
+/// that steps the host's world. Their results take effect in commit(). commit(), nearSpheres(),
+/// lookAround() and find() are for the thread that ticks, while the other waits. Compounds of
+/// several shapes make Bullet allocate in every contact search; all others allocate only at first
+/// touch.
 class Obstacles final : public ContactFinder {
  public:
-  /// `host` must outlive this object or be forgotten by it (forgetWorld), bodies too unless they
+  /// `host` must outlive this object unless forgetWorld() was called. Bodies must too unless they
   /// have left the world.
   explicit Obstacles(btDiscreteDynamicsWorld& host);
   ~Obstacles() override;
 
-  /// Not in the tick. The island body `index` is `body` of the host's world. Throws tandem::Error
-  /// if the index has a body already, or the body is static, or of a shape neither convex nor
-  /// compound (kinematic ones: a plane). Two kinematic bodies do not meet.
+  /// Not in the tick. Makes `body` of the host's world the island body `index`. Throws
+  /// tandem::Error if the index has a body already, or the body is static. Also throws for a shape
+  /// neither convex nor compound (for kinematic bodies: a plane). Two kinematic bodies never touch.
   void addBody(BodyIndex index, btRigidBody& body);
 
-  /// Not in the tick. The index is free again, and native contact is the host's.
+  /// Not in the tick. Frees the index; native contact is the host's again.
   void removeBody(BodyIndex index);
 
-  /// Not in the tick. The host's world ends: no body is held and nothing is near any more, after
-  /// the commit().
+  /// Not in the tick. The host's world ends: after the commit() no body is held and nothing is
+  /// near.
   void forgetWorld();
 
-  /// Set-up. A haptic sphere (device or proxy): obstacles near it are reported by nearSpheres().
+  /// Set-up. Adds a haptic sphere (device or proxy); nearSpheres() reports obstacles near it.
   void addSphere(BodyIndex index, double radius);
 
-  /// Once per host step, from the host's thread: finds the static objects within `margin` [m] of
-  /// each dynamic body and sphere, given their states by index. May allocate when a new obstacle
-  /// comes near; the first time that a mesh is near a sphere it takes some microseconds for each
-  /// triangle. Returns whether anything has come, gone or moved: who rested on it should be
-  /// woken. With `moves`, by index, it searches around those that move only, and keeps whatever it
-  /// had found; call it without now and then.
+  /// Once per host step, from the host's thread. Finds the static objects within `margin` [m] of
+  /// each dynamic body and sphere; `states` is by index. May allocate when a new obstacle comes
+  /// near. A mesh near a sphere takes some microseconds per triangle the first time. True if an
+  /// object came, left or moved: wake the bodies that rested on it. With `moves`, by index, it
+  /// searches around moving bodies only and keeps earlier results; call it without now and then.
   bool search(const std::vector<RigidState>& states, double margin,
               const std::vector<char>* moves = nullptr);
 
-  /// What was added, removed and found acts from now on. Real-time safe. nearSpheres() is another
-  /// vector then.
+  /// Applies all added, removed and found objects. Real-time safe. nearSpheres() then returns
+  /// another vector.
   void commit() noexcept;
 
-  /// Both at once.
+  /// Calls search() and commit().
   bool update(const std::vector<RigidState>& states, double margin,
               const std::vector<char>* moves = nullptr) {
     const bool has_changed = search(states, margin, moves);
@@ -76,8 +75,8 @@ class Obstacles final : public ContactFinder {
     return has_changed;
   }
 
-  /// Obstacles near the spheres whose shape the island knows itself: those of convertShape() and
-  /// convertMesh(), also as children of compounds.
+  /// Obstacles near the spheres, of shapes that convertShape() or convertMesh() supports, also as
+  /// children of compounds.
   [[nodiscard]] const std::vector<Obstacle>& nearSpheres() const noexcept;
 
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
@@ -85,7 +84,7 @@ class Obstacles final : public ContactFinder {
   void find(const std::vector<RigidState>& states,
             std::vector<RigidContact>& contacts) noexcept override;
 
-  /// Pairs handed to Bullet's narrowphase so far: what a scene does not need is not searched.
+  /// Number of pairs passed to Bullet's narrowphase so far.
   [[nodiscard]] std::uint64_t searches() const noexcept;
 
  private:

@@ -16,18 +16,18 @@
 namespace tandem {
 namespace {
 
-/// Bullet finds no contact of two boxes at any gap. Boxes that rest on each other open and close by
-/// rounding, so their copies are larger by this, and distances are put right [m]. Far above the
-/// way of an inner step at rest, g h^2 = 6e-7, far below what a corner's place matters by.
+/// Bullet finds no contact of two boxes across a gap. Boxes at rest on each other open and close by
+/// rounding. Their copies are larger by this, and distances are corrected [m]. It is far above an
+/// inner step's motion at rest, g h^2 = 6e-7, and negligible at a corner.
 constexpr btScalar kBoxSkin = btScalar(5e-6);
 
-/// Of a shape that owns nothing: the same to the bit.
+/// Copies a shape that owns no memory, to the bit.
 template <typename ShapeType>
 std::unique_ptr<btCollisionShape> copyOf(const btCollisionShape& shape) {
   return std::make_unique<ShapeType>(static_cast<const ShapeType&>(shape));
 }
 
-/// Each axis has a class of its own.
+/// Each axis has its own class.
 std::unique_ptr<btCollisionShape> copyOfCylinder(const btCylinderShape& cylinder) {
   if (cylinder.getUpAxis() == 0) return copyOf<btCylinderShapeX>(cylinder);
   if (cylinder.getUpAxis() == 2) return copyOf<btCylinderShapeZ>(cylinder);
@@ -43,8 +43,8 @@ std::unique_ptr<btCollisionShape> copyOfHull(const btConvexHullShape& hull) {
   return copy;
 }
 
-/// The host may delete a shape with its object while the haptic thread still searches the copy.
-/// What is too large to be copied, or too rare, is shared: meshes, height fields, compounds.
+/// Copies a shape, because the host may delete it while the haptic thread still searches. Null for
+/// shapes too large or too rare to copy, which are shared: meshes, height fields, compounds.
 std::unique_ptr<btCollisionShape> makeOwnShape(const btCollisionShape& shape) {
   if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
     const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
@@ -85,7 +85,7 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
   if (type == STATIC_PLANE_PROXYTYPE)
     plane = static_cast<const btStaticPlaneShape*>(own_shape.get());
   if (type == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
-  // Bullet's objects share shapes by non-const pointer; nothing here changes them.
+  // Bullet takes shapes by non-const pointer; nothing here changes them.
   object.setCollisionShape(own_shape ? own_shape.get() : host_object.getCollisionShape());
   place(btTransform::getIdentity());
 }
@@ -118,8 +118,7 @@ btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
   const btTransform& host_pose = original->getWorldTransform();
   Vec3 p = fromBullet(host_pose.getOrigin()) - origin_W;
   if (plane) {
-    // A plane has no middle: its origin goes to its point nearest to ours, so that numbers stay
-    // small.
+    // A plane's origin moves to its point nearest to the private origin, which keeps numbers small.
     const auto& host_plane =
         static_cast<const btStaticPlaneShape&>(onlyShapeOf(*original->getCollisionShape()));
     const Vec3 normal = fromBullet(host_pose.getBasis() * host_plane.getPlaneNormal());

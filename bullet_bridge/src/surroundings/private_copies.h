@@ -12,7 +12,7 @@ class btStaticPlaneShape;
 
 namespace tandem {
 
-/// How an object's surface is, and what its owner knows it by.
+/// Surface properties of an object, and its owner's user data.
 struct Surface {
   btScalar friction = 0, rolling_friction = 0, spinning_friction = 0, restitution = 0;
   void* user_pointer = nullptr;
@@ -23,27 +23,26 @@ struct Surface {
   bool operator==(const Surface&) const noexcept = default;
 };
 
-/// An object of the host's world as the private contact search has it: same shape and surface, at a
-/// place of its own.
+/// Private copy of a host's object for the contact search: same shape and surface, own pose.
 struct PrivateCopy {
-  /// `index`: of the island's body, or kStanding.
+  /// `index`: the island body, or kStanding.
   PrivateCopy(btCollisionObject& host_object, BodyIndex index);
 
-  /// Where a standing original is, seen from `origin_W`.
+  /// Pose of a standing original relative to `origin_W`.
   [[nodiscard]] btTransform findOriginal(const Vec3& origin_W) const;
   void place(const btTransform& pose);
 
   btCollisionObject* original;         ///< the host may have deleted it: compare, do not read
-  const btCollisionShape* host_shape;  ///< another one: another object at the same address
+  const btCollisionShape* host_shape;  ///< a change means another object at the same address
   BodyIndex index;
-  std::unique_ptr<btCollisionShape> own_shape;  ///< null: the host's is shared
-  const btStaticPlaneShape* plane = nullptr;    ///< own_shape of a plane: through its origin
-  btScalar skin = 0;  ///< by which own_shape is larger all round than the host's [m]
+  std::unique_ptr<btCollisionShape> own_shape;  ///< null: shared with the host
+  const btStaticPlaneShape* plane = nullptr;    ///< own_shape if it is a plane, through its origin
+  btScalar skin = 0;  ///< excess of own_shape over the host's shape, all round [m]
   btCollisionObject object;
-  int world_index = -1;          ///< of the original in the host's world, last time
-  Vec3 p_placed = Vec3::Zero();  ///< of a body: where it was placed last, from the private origin
+  int world_index = -1;          ///< last index of the original in the host's world
+  Vec3 p_placed = Vec3::Zero();  ///< last position of a body, from the private origin [m]
   Quat q_placed = Quat::Identity();
-  Region bounds;  ///< around the copy where it was placed last
+  Region bounds;  ///< box around the copy at its last pose
 };
 
 }  // namespace tandem

@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// An axis-aligned box of space.
+/// An axis-aligned box.
 struct Region {
   btVector3 low;
   btVector3 high;
@@ -22,7 +22,7 @@ struct Region {
          a.high.y() >= b.low.y() && a.low.z() <= b.high.z() && a.high.z() >= b.low.z();
 }
 
-/// The region that holds a shape at a pose; all of space for a plane.
+/// Bounding box of a shape at a pose; all of space for a plane.
 [[nodiscard]] inline Region computeRegion(const btCollisionShape& shape,
                                           const btTransform& pose) noexcept {
   Region region;
@@ -30,8 +30,8 @@ struct Region {
   return region;
 }
 
-/// True if a plane's half-space reaches into the region. Bullet bounds a plane by all of space, so
-/// that everything would always be near every floor.
+/// True if a plane's half-space reaches into the region. Bullet's bounds of a plane are all of
+/// space, so every floor would be near everything.
 [[nodiscard]] inline bool reaches(const btStaticPlaneShape& plane, const btTransform& pose,
                                   const Region& region) noexcept {
   const btVector3 normal = pose.getBasis() * plane.getPlaneNormal();

@@ -12,26 +12,25 @@ namespace tandem {
 
 class HapticBody;
 
-/// Tells for a few nanoseconds whether what stands around bodies at rest is still as it was, so
-/// that nothing need be searched for while nothing moves.
+/// Checks within a few nanoseconds whether the surroundings of bodies at rest are unchanged. While
+/// they are and nothing moves, no search is needed.
 ///
-/// What counts as a change: one of the static objects near them has left the host's world, moved,
-/// got another shape or lost its contact response; anything was added to the world or taken out;
-/// the bodies' places in the world's list changed. A static object that comes from afar is not
-/// noticed, as Bullet's own sleeping bodies do not. For the thread that steps the host's world.
+/// A change is: a static object nearby left the host's world, moved, got another shape or lost its
+/// contact response. Objects added to or removed from the world count too, as do bodies at other
+/// indices in its list. A static object that arrives from afar is not noticed, nor is it by
+/// Bullet's own sleeping bodies. For the thread that steps the host's world.
 class StandingWatch {
  public:
   /// `host` must outlive this object.
   explicit StandingWatch(btDiscreteDynamicsWorld& host);
   ~StandingWatch();
 
-  /// Takes the static objects within `margin` [m] of these bodies and of the hand as they stand
-  /// now. May allocate.
+  /// Stores the static objects within `margin` [m] of these bodies and of the hand. May allocate.
   void remember(const std::vector<HapticBody*>& bodies, const Vec3& hand_W, double margin);
 
-  /// Real-time safe.
+  /// True if the surroundings are unchanged since remember(). Real-time safe.
   [[nodiscard]] bool isUnchanged() const noexcept;
-  /// The same of the world's gravity.
+  /// True if the world's gravity is unchanged since remember().
   [[nodiscard]] bool isGravityUnchanged() const noexcept;
 
  private:
