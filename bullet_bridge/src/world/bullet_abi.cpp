@@ -24,13 +24,13 @@ std::string nameTarget(std::size_t bytes) {
   return bytes == sizeof(double) ? "tandem::plugin_float64" : "tandem::plugin";
 }
 
-/// A btScalar that every libBulletDynamics defines: the symbol table of the one that has it says
-/// how wide it is.
+/// A btScalar that every libBulletDynamics defines; its size in the symbol table is the scalar
+/// width.
 constexpr const char* kScalarOfBullet = "gDeactivationTime";
 
 struct FoundScalar {
-  std::size_t bytes = 0;     ///< 0: there is none
-  const char* library = "";  ///< the file that defines it; lives as long as it is loaded
+  std::size_t bytes = 0;     ///< 0: not found
+  const char* library = "";  ///< file that defines it; valid while it is loaded
 };
 
 FoundScalar findScalar(void* handle) noexcept {

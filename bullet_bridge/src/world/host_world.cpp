@@ -14,19 +14,21 @@
 
 #include "world/world_end_watch.h"
 
-//   Bullet ─► [another layer ─►] our tick ─► whatever was in the slot before us
+// clang-format off
+//   Bullet ─► [another layer ─►] our tick ─► the callback that was in the slot before us
 //
-// Bullet's callbacks get the world and nothing else (the user pointer is the host's), so a table
-// finds our state by the world. When another layer sits on top of a detached link of ours and
-// somebody attaches again, our function is twice in one chain: the outermost call is the newest
-// link. Links come and go only while none of them is being called: whoever detaches within a step
-// is silent at once, and gone at the end of the call.
+// Bullet's callbacks receive only the world (the user pointer is the host's), so a table maps the
+// world to our state. If another layer sits on top of our detached link and somebody attaches
+// again, our function is twice in one chain. The outermost call is then the newest link. Links
+// change only while none of them is being called. A link detached within a step is silent at once,
+// and removed at the end of the call.
+// clang-format on
 
 namespace tandem {
 namespace {
 
-/// Reads the callbacks that Bullet keeps protected. Naming a protected member through a derived
-/// class is legal C++; nothing is cast.
+/// Reads Bullet's protected callbacks. Naming a protected member through a derived class is legal
+/// C++; nothing is cast.
 struct TickSlots : btDynamicsWorld {
   static btInternalTickCallback preTick(const btDynamicsWorld& world) {
     return world.*(&TickSlots::m_internalPreTickCallback);
@@ -36,17 +38,17 @@ struct TickSlots : btDynamicsWorld {
   }
 };
 
-/// One time that our tick function stands in a slot's chain.
+/// One place of our tick function in a slot's chain.
 struct Link {
-  btInternalTickCallback below = nullptr;  // what stood in the slot before
+  btInternalTickCallback below = nullptr;  // callback in the slot before us
   HostStepListener* listener = nullptr;    // null: detached, only calls through
 };
 
-/// Our links in one slot of one world, oldest first, and how many of them are being called now.
+/// Our links in one slot of one world, oldest first, and the number of calls now active.
 struct Slot {
   std::vector<Link> links;
   std::size_t depth = 0;
-  std::size_t called = 0;  // links when the outermost call began
+  std::size_t called = 0;  // number of links when the outermost call began
 
   [[nodiscard]] bool hasListener() const {
     for (const Link& link : links) {
@@ -60,11 +62,11 @@ struct Slot {
 struct WorldSlots {
   Slot pre;
   Slot post;
-  HostStepListener* begun = nullptr;  // who was told that the present step begins
-  bool is_left = false;               // nobody listens, but links of ours may still stand
+  HostStepListener* begun = nullptr;  // listener that was told of the present step
+  bool is_left = false;               // no listener, but our links may remain
 };
 
-/// All attached worlds of the process. The table is guarded; what it holds belongs to the world's
+/// All attached worlds of the process. A lock guards the table; each entry belongs to its world's
 /// thread.
 class AttachedWorlds {
  public:
@@ -92,7 +94,7 @@ class AttachedWorlds {
   }
 
  private:
-  /// What a thread found last, good until the table changes.
+  /// A thread's last result, valid until the table changes.
   struct Found {
     const btDynamicsWorld* world = nullptr;
     WorldSlots* slots = nullptr;
@@ -105,24 +107,24 @@ class AttachedWorlds {
 };
 
 AttachedWorlds& attachedWorlds() {
-  // Never destroyed: worlds of static lifetime may still step while the process ends.
+  // Never destroyed: static worlds may still step while the process ends.
   static AttachedWorlds& worlds = *new AttachedWorlds;
   return worlds;
 }
 
-/// The link that this call of our function stands for, for as long as the call lasts.
+/// The link of the present call of our function, for the time of the call.
 class Call {
  public:
   explicit Call(Slot& slot) : slot_(slot) {
     if (slot.depth == 0) slot.called = slot.links.size();
     ++slot_.depth;
-    place_ = slot.called - slot.depth;  // wraps to no link at all
+    place_ = slot.called - slot.depth;  // wraps to no link
   }
   ~Call() { --slot_.depth; }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  /// As it is now: what is called in between may detach us.
+  /// Read anew: a callback in between may detach us.
   [[nodiscard]] Link link() const {
     return place_ < slot_.links.size() ? slot_.links[place_] : Link{};
   }
@@ -135,7 +137,7 @@ class Call {
 void preTick(btDynamicsWorld* world, btScalar dt);
 void postTick(btDynamicsWorld* world, btScalar dt);
 
-/// Puts back what was in the slot before our silent links, as far as they are on top.
+/// Restores the callbacks below our silent links, while these are on top.
 void removeSilent(btDynamicsWorld& world, Slot& slot, bool is_pre_tick) {
   const auto present = [&] {
     return is_pre_tick ? TickSlots::preTick(world) : TickSlots::postTick(world);
@@ -187,7 +189,7 @@ void postTick(btDynamicsWorld* world, btScalar dt) {
   if (slots->is_left) tidyUp(*world, *slots);
 }
 
-/// Puts a link on top of the slot, or wakes our silent link if that is what stands there.
+/// Puts a link on top of the slot, or wakes our silent link if it is on top.
 void attach(btDiscreteDynamicsWorld& world, Slot& slot, btInternalTickCallback present,
             btInternalTickCallback ours, bool is_pre_tick, HostStepListener& listener) {
   if (present == ours && !slot.links.empty()) {

@@ -11,35 +11,34 @@ class btDiscreteDynamicsWorld;
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Who is told about each step of a host's world (each sub-step of a stepSimulation call).
+/// Listener for each step of a host's world (each sub-step of a stepSimulation call).
 class HostStepListener {
  public:
   virtual ~HostStepListener() = default;
   virtual void beforeHostStep(double dt) noexcept = 0;  ///< pre-tick; `dt` of this sub-step [s]
-  /// Post-tick, poses are new. Only of a step whose beginning was told.
+  /// Post-tick: poses are new. Called only if beforeHostStep() was called for this step.
   virtual void afterHostStep(double dt) noexcept = 0;
-  /// The host destroys its world, and nothing more will be heard of it: bodies in it, broadphase
-  /// and dispatcher are still there in this call, and not to be touched after it.
+  /// The host is destroying its world. Bodies, broadphase and dispatcher still exist during this
+  /// call; do not touch them afterwards.
   virtual void hostWorldEnds() noexcept {}
 };
 
-/// Holds on to a host's Bullet world by its pre-tick and post-tick callbacks.
+/// Attaches to a host's Bullet world by its pre-tick and post-tick callbacks.
 ///
-/// Bullet has one slot for each and one user pointer for both; the host may need all three. So the
-/// host's callbacks are called before ours in the pre-tick and after ours in the post-tick, with
-/// the world's user pointer untouched, and are put back on destruction if we are still on top (else
-/// we stay as a silent link of the chain that only calls through). A second HostWorld on the same
-/// world throws tandem::Error. Worlds may live in different threads; one world is attached, stepped
-/// and detached from one thread. Both may be done within a step, by the host's own tick callbacks:
-/// the listener then hears of the next whole step first, and of none that it is gone for.
+/// Bullet has one slot for each and one user pointer for both; the host may need all three. The
+/// host's callbacks run before ours in the pre-tick and after ours in the post-tick, with the
+/// world's user pointer unchanged. Destruction restores them if we are still on top; else a silent
+/// link remains that only calls through. A second HostWorld on the same world throws tandem::Error.
+/// Worlds may live in different threads; one world is attached, stepped and detached in one thread.
+/// Attaching and detaching may happen within a step, in the host's own tick callbacks. A new
+/// listener hears of the next whole step first, a detached one of none.
 ///
-/// The world should outlive this object. If it does not, the listener is told (hostWorldEnds), and
-/// this object does nothing more - unless the world has an island manager of the host's own making,
-/// through which its end is noticed otherwise; see warnings().
+/// The world should outlive this object. If not, hostWorldEnds() is called and this object stays
+/// idle. With an island manager of the host's own the end goes unnoticed; see warnings().
 class HostWorld {
  public:
-  /// Throws tandem::Error if the world is attached already or the Bullet of host and library
-  /// differ.
+  /// Throws tandem::Error if the world is attached already, or if the Bullet builds of host and
+  /// library differ.
   HostWorld(btDiscreteDynamicsWorld& world, HostStepListener& listener,
             BulletAbi host = bulletAbiOfThisCode());
   ~HostWorld();
@@ -49,7 +48,7 @@ class HostWorld {
   [[nodiscard]] btDiscreteDynamicsWorld& world() const noexcept { return world_; }
   /// True once the host has destroyed its world.
   [[nodiscard]] bool hasEnded() const noexcept;
-  /// One line each, about what a user should know of the world.
+  /// Warnings for the user about the world, one line each.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:

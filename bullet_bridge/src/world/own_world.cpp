@@ -18,7 +18,7 @@
 namespace tandem {
 namespace {
 
-constexpr double kUnit = 1e-6;  ///< of a quaternion's length
+constexpr double kUnit = 1e-6;  ///< tolerance of a quaternion's length
 
 template <typename Value>
 void require(bool good, const char* name, const Value& value, const char* allowed) {

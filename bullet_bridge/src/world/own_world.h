@@ -11,12 +11,11 @@ class btRigidBody;
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A body to be made in an OwnWorld.
+/// Settings of a body in an OwnWorld.
 struct OwnBodySettings {
-  Shape shape = Box{Vec3::Constant(0.02)};  ///< any but a Mesh; a Plane is static
+  Shape shape = Box{Vec3::Constant(0.02)};  ///< any shape except Mesh; a Plane is static
   double mass = 0.2;                        ///< [kg]; 0: static
-  Vec3 inertia = Vec3::Zero();  ///< principal moments [kg m^2]; all 0: as Bullet takes them for the
-                                ///< shape, of a box around capsules and hulls
+  Vec3 inertia = Vec3::Zero();  ///< [kg m^2]; all 0: Bullet's (capsules and hulls: of a box)
   double friction = 0.5;
   double restitution = 0.0;
   RigidState start;
@@ -25,8 +24,8 @@ struct OwnBodySettings {
 /// Throws std::invalid_argument, naming the value and what is allowed.
 void checkOwnBodySettings(const OwnBodySettings& settings);
 
-/// A Bullet world with all that belongs to it, for a host that has none of its own. Without gravity
-/// and bodies at first. One thread steps it; worlds may live in different threads.
+/// A complete Bullet world for a host without one. It starts without gravity and bodies. One thread
+/// steps it; worlds may live in different threads.
 class OwnWorld {
  public:
   OwnWorld();
@@ -36,11 +35,11 @@ class OwnWorld {
 
   [[nodiscard]] btDiscreteDynamicsWorld& world() const noexcept;
 
-  /// The body lives until remove(), or as long as the world. Without built-in damping. Throws
-  /// std::invalid_argument as checkOwnBodySettings().
+  /// Adds a body without built-in damping. It lives until remove(), or as long as the world. Throws
+  /// std::invalid_argument like checkOwnBodySettings().
   btRigidBody& add(const OwnBodySettings& settings);
 
-  /// A body of add() that no Site shares.
+  /// Removes a body of add(), which no Site may share.
   void remove(btRigidBody& body) noexcept;
 
  private:

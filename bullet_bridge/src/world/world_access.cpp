@@ -30,7 +30,7 @@ void putBody(btDiscreteDynamicsWorld& world, btRigidBody& body, const RigidState
     body.setLinearVelocity(toBullet(state.v_W));
     body.setAngularVelocity(toBullet(state.w_W));
   }
-  // Velocities first: this copies them to where the motion state is interpolated from.
+  // Velocities first: this call copies them for the interpolation of the motion state.
   body.setCenterOfMassTransform(toBullet(state.p_W, state.q_WB));
   body.setInterpolationWorldTransform(body.getWorldTransform());
   world.updateSingleAabb(&body);

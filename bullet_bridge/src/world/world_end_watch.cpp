@@ -17,7 +17,7 @@ class IslandManagerStandIn {
   IslandManagerStandIn(const IslandManagerStandIn&) = delete;
   IslandManagerStandIn& operator=(const IslandManagerStandIn&) = delete;
 
-  /// Puts the world's own manager back and frees this, or stays for good and is silent.
+  /// Restores the world's own manager and frees this; if that is impossible, stays and is silent.
   virtual void leave(btDiscreteDynamicsWorld& world) noexcept = 0;
 
  protected:
@@ -34,7 +34,7 @@ class IslandManagerStandIn {
 
 namespace {
 
-/// Reaches what Bullet keeps protected. Naming a protected member through a derived class is legal
+/// Accesses Bullet's protected members. Naming a protected member through a derived class is legal
 /// C++; nothing is cast.
 struct ManagerSlot : btDiscreteDynamicsWorld {
   static btSimulationIslandManager*& of(btDiscreteDynamicsWorld& world) {
@@ -45,7 +45,7 @@ struct ManagerSlot : btDiscreteDynamicsWorld {
   }
 };
 
-/// What a host may set of a manager; all else in it lives for a step.
+/// Settings of a manager that a host may change; all its other data lasts one step.
 bool readSettings(btSimulationIslandManager& manager) { return manager.getSplitIslands(); }
 void writeSettings(btSimulationIslandManager& manager, bool splits) {
   manager.setSplitIslands(splits);
@@ -61,7 +61,7 @@ void writeSettings(btSimulationIslandManagerMt& manager, const MtSettings& setti
   manager.setIslandDispatchFunction(std::get<2>(settings));
 }
 
-/// `Manager` comes first: the world frees its memory by the address that it has.
+/// `Manager` is the first base: the world frees the memory at that address.
 template <typename Manager>
 class StandIn final : public Manager, public IslandManagerStandIn {
  public:
@@ -86,7 +86,7 @@ class StandIn final : public Manager, public IslandManagerStandIn {
     btAlignedFree(static_cast<btSimulationIslandManager*>(this));
   }
 
-  /// The first that a step asks of it.
+  /// The first call of each step.
   void updateActivationState(btCollisionWorld* world, btDispatcher* dispatcher) override {
     followSettings();
     Manager::updateActivationState(world, dispatcher);
@@ -95,7 +95,7 @@ class StandIn final : public Manager, public IslandManagerStandIn {
  private:
   Manager& own() noexcept { return *this; }
 
-  /// The host asks its world for the manager, and gets this; or it knows its own from before.
+  /// Syncs the settings: the host may change them here or in the original manager it still knows.
   void followSettings() {
     const auto theirs = readSettings(*original_);
     known_ = theirs != known_ ? theirs : readSettings(own());

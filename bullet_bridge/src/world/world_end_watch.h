@@ -4,7 +4,7 @@ class btDiscreteDynamicsWorld;
 
 namespace tandem {
 
-/// Who is told that a world ends.
+/// Listener for the end of a world.
 class WorldEndListener {
  public:
   virtual void worldEnds() noexcept = 0;
@@ -13,20 +13,20 @@ class WorldEndListener {
   ~WorldEndListener() = default;
 };
 
-/// An island manager that stands in for a world's own.
+/// An island manager that replaces a world's own.
 class IslandManagerStandIn;
 
 /// Notices that a host destroys its world.
 ///
-/// Bullet tells nobody. But a world owns its island manager and destroys it first of all, by a
-/// virtual call, with its bodies and its broadphase still there. So one of ours stands in for it,
-/// made of the same class and doing the same to the bit. A world whose manager is not one of
-/// Bullet's two cannot be watched.
+/// Bullet has no callback for it. But a world owns its island manager and destroys it first, by a
+/// virtual call, while bodies and broadphase still exist. A stand-in of the same class replaces it
+/// and behaves the same to the bit. A world whose manager is not one of Bullet's two cannot be
+/// watched.
 class WorldEndWatch {
  public:
   WorldEndWatch(btDiscreteDynamicsWorld& world, WorldEndListener& listener);
-  /// Puts the world's own manager back, if the world still stands. If somebody has put another one
-  /// on top, ours stays below it and is silent.
+  /// Restores the world's own manager if the world still exists. If another one was set since, ours
+  /// stays below it and is silent.
   ~WorldEndWatch();
   WorldEndWatch(const WorldEndWatch&) = delete;
   WorldEndWatch& operator=(const WorldEndWatch&) = delete;
@@ -38,7 +38,7 @@ class WorldEndWatch {
 
   btDiscreteDynamicsWorld& world_;
   WorldEndListener& listener_;
-  IslandManagerStandIn* stand_in_ = nullptr;  // the world's, and gone with it
+  IslandManagerStandIn* stand_in_ = nullptr;  // owned by the world, destroyed with it
 };
 
 }  // namespace tandem

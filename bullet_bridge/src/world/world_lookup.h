@@ -4,9 +4,8 @@
 
 namespace tandem {
 
-/// Where `object` stands in the world's list, or -1 if the world does not have it. Compares
-/// addresses only: the object may have been deleted. `hint` is where it stood last time, which
-/// saves the search.
+/// Index of `object` in the world's list, or -1 if the world does not have it. Compares addresses
+/// only: the object may have been deleted. `hint` is its last index, which saves the search.
 [[nodiscard]] inline int findInWorld(const btCollisionWorld& world, const btCollisionObject* object,
                                      int hint = -1) noexcept {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
