@@ -18,9 +18,9 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kPeriod = 1e-3;  // between datagrams [s]
+constexpr double kPeriod = 1e-3;  // time between datagrams [s]
 
-/// Eight bytes that tell the number.
+/// Eight bytes that encode the number.
 Bytes makeDatagram(std::uint64_t number) {
   Bytes bytes(sizeof number);
   std::memcpy(bytes.data(), &number, sizeof number);
@@ -50,7 +50,7 @@ Entrance send(DatagramChannel& channel, const Bytes& bytes, const ChannelConditi
   return channel.send({bytes.data(), bytes.size()}, conditions, now);
 }
 
-/// `count` datagrams, one each period, and what comes out until all of it has.
+/// Sends `count` datagrams, one each period, and returns all that come out.
 std::vector<Arrived> pass(DatagramChannel& channel, const ChannelConditions& conditions,
                           std::uint64_t count) {
   std::vector<Arrived> arrived;
@@ -82,7 +82,7 @@ TEST(DatagramChannel, DelaysAndKeepsBytes) {
   EXPECT_EQ(arrived[0].due, 1.05);
 }
 
-// Number by number, bit by bit: nothing is invented, nothing is kept back.
+// Compares number by number and bit by bit: the channel adds none and keeps none back.
 TEST(DatagramChannel, DoesWhatTheFatesSay) {
   for (const std::uint64_t seed : {0U, 7U, 99U}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -145,7 +145,7 @@ TEST(DatagramChannel, KeepsOrderWhereAsked) {
   ASSERT_EQ(arrived.size(), 2000U);
   for (std::uint64_t n = 0; n < arrived.size(); ++n) {
     ASSERT_EQ(arrived[n].number(), n);
-    // Never sooner than its own fate, and later only because another one was before it.
+    // A datagram is never earlier than its own fate. It is later only because another was ahead.
     const double own =
         kPeriod * static_cast<double>(n) + computeFate(jittery, Direction::kForward, n).delay;
     ASSERT_EQ(arrived[n].due, n == 0 ? own : std::max(own, arrived[n - 1].due));
@@ -183,7 +183,7 @@ TEST(DatagramChannel, ACutLosesWhatComesAndKeepsWhatIsUnderWay) {
   expectBalance(channel.counts());
 }
 
-// An outage takes numbers, too: what comes after it has the fate that it would have had anyway.
+// An outage also consumes numbers: later datagrams keep their fates.
 TEST(DatagramChannel, ACutDoesNotShiftFates) {
   const ChannelConditions lossy{{0.0, 0.0, 0.3, 0.0, 0.0, 7}};
   ChannelConditions cut = lossy;
@@ -201,7 +201,7 @@ TEST(DatagramChannel, ACutDoesNotShiftFates) {
   }
 }
 
-// A shorter route from one moment on: newer ones overtake those that went the old way.
+// The route becomes shorter at one moment: newer datagrams overtake those on the old route.
 TEST(DatagramChannel, AStepOfTheDelayHoldsForWhatIsSentFromThenOn) {
   DatagramChannel channel(Direction::kForward, 8, 8);
   (void)send(channel, makeDatagram(0), {{.delay = 0.10}}, 0.00);
@@ -224,7 +224,7 @@ TEST(DatagramChannel, DropsWhatIsBeyondItsRoom) {
   ASSERT_EQ(arrived.size(), 3U);
   for (std::uint64_t n = 0; n < 3; ++n) EXPECT_EQ(arrived[n].number(), n);
 
-  for (std::uint64_t n = 5; n < 8; ++n)  // the room is free again
+  for (std::uint64_t n = 5; n < 8; ++n)  // there is room again
     EXPECT_EQ(send(channel, makeDatagram(n), {{.delay = 1.0}}, 1.0), Entrance::kOnItsWay);
   EXPECT_EQ(channel.counts().overflowed, 2U);
 }

@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint64_t kCount = 20000;  // packets
 constexpr std::uint64_t kSeeds[] = {0, 1, 2, 12345, ~std::uint64_t{0}};
 
-/// `observed` of `count` is likely for an event of that probability: within 5 standard deviations,
-/// which a right generator misses once in two million times.
+/// Expects `observed` of `count` within 5 standard deviations for an event of that probability. A
+/// correct generator fails once in two million times.
 void expectRate(std::uint64_t observed, std::uint64_t count, double probability) {
   const double n = static_cast<double>(count);
   const double deviation = std::sqrt(n * probability * (1.0 - probability));
@@ -68,13 +68,13 @@ TEST(LinkImpairments, LossesDoNotComeInBursts) {
   }
 }
 
-// Kolmogorov-Smirnov: the largest distance of the distributions, times sqrt(n), is above 2.23 once
-// in ten thousand times.
+// Kolmogorov-Smirnov: the largest distance of the distributions, times sqrt(n). It is above 2.23
+// once in ten thousand times.
 TEST(LinkImpairments, JitterIsEvenInItsRange) {
   for (const std::uint64_t seed : kSeeds) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<Fate> fates = observeFates({0.05, 0.02, 0.0, 0.0, 0.0, seed}, kCount);
-    std::vector<double> evenly;  // in [0, 1] if the delay is in 0.05 +- 0.02 s
+    std::vector<double> evenly;  // uniform in [0, 1] if the delay is in 0.05 +- 0.02 s
     for (std::uint64_t n = 0; n < kCount; ++n)
       evenly.push_back((fates[n].at(0) - static_cast<double>(n) - 0.03) / 0.04);
     std::sort(evenly.begin(), evenly.end());
@@ -127,7 +127,7 @@ TEST(LinkImpairments, DirectionsAreIndependent) {
   expectRate(both_lost, kCount, 0.25);
   EXPECT_EQ(equal_delays, 0U);
 
-  // Traffic on the way there leaves the way back as it was.
+  // Traffic on the forward way does not affect the way back.
   const auto [c, d] = makeSimulatedLinks(impairments);
   EXPECT_EQ(observeFates(*d, *c, kCount), back);
 }
@@ -142,7 +142,7 @@ TEST(LinkImpairments, EqualSeedsGiveEqualFatesAndOthersDoNot) {
   }
 }
 
-// Whatever the packets say and whenever they are sent, the same numbers are lost.
+// Loss depends neither on the packets' contents nor on their times.
 TEST(LinkImpairments, FateDependsOnThePacketsNumberOnly) {
   Impairments impairments;
   impairments.loss = 0.3;
@@ -174,7 +174,7 @@ TEST(LinkImpairments, MoreLossTakesMoreButGivesNothingBack) {
   }
 }
 
-/// What each impairment does to each packet when it acts alone: enough to foretell any combination.
+/// Effect of each impairment on each packet when it acts alone. This predicts any combination.
 class Foretold {
  public:
   Foretold(const Impairments& all, std::uint64_t count) : all_(all) {
@@ -207,8 +207,8 @@ class Foretold {
   std::vector<Fate> lost_, doubled_, jumps_, jittered_, both_jittered_;
 };
 
-// All 16 combinations, packet by packet and to the last bit: switching one impairment on changes
-// nothing about what the others do.
+// All 16 combinations, packet by packet and exactly: switching one impairment on does not affect
+// the others.
 TEST(LinkImpairments, SwitchingOneOnShiftsNoOther) {
   constexpr std::uint64_t kPackets = 2000;
   for (const std::uint64_t seed : kSeeds) {
@@ -228,7 +228,7 @@ TEST(LinkImpairments, SwitchingOneOnShiftsNoOther) {
   }
 }
 
-// Being lost says nothing about what else would have happened.
+// Loss is independent of all other decisions about a packet.
 TEST(LinkImpairments, DecisionsAreNotCorrelated) {
   for (const std::uint64_t seed : kSeeds) {
     SCOPED_TRACE("seed " + std::to_string(seed));

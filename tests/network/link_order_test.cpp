@@ -23,15 +23,16 @@ struct Copy {
   double arrival;
 };
 
-/// The plainest link that keeps the promises of Link::receive(): a list that is searched and sorted
-/// anew in every tick. How long each packet travels is known beforehand.
+/// The simplest link that keeps the promises of Link::receive(): a list that is searched and sorted
+/// anew in every tick. Each packet's travel time is known beforehand.
 class PlainLink {
  public:
   explicit PlainLink(std::vector<Fate> fates) : fates_(std::move(fates)) {}
 
   void send(std::uint64_t number, double now) {
     for (const double arrival : fates_.at(number)) {
-      const double observed_at = static_cast<double>(number);  // when its fate was observed
+      const double observed_at =
+          static_cast<double>(number);  // time at which its fate was observed
       const bool at_once = arrival == observed_at + kEarliest;
       on_the_way_.push_back({number, now, at_once ? now : now + (arrival - observed_at)});
     }
@@ -54,7 +55,7 @@ class PlainLink {
   std::vector<Copy> on_the_way_;  // in the order of sending
 };
 
-// Up to three packets in a tick, some in its middle, over a way that does everything at once.
+// Up to three packets in a tick, some in its middle, over a way with all impairments at once.
 TEST(LinkOrder, AgreesWithAListThatIsSearchedAndSorted) {
   constexpr std::uint64_t kPackets = 3000;
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
@@ -78,7 +79,7 @@ TEST(LinkOrder, AgreesWithAListThatIsSearchedAndSorted) {
       ASSERT_EQ(arrivals.size(), expected.size()) << "tick " << tick;
       for (std::size_t i = 0; i < arrivals.size(); ++i) {
         EXPECT_EQ(arrivals[i].packet.sequence, expected[i].number) << "tick " << tick;
-        // A travel time read off a time of up to 3000 s is right within 5e-13 s.
+        // A travel time computed from a time of up to 3000 s is right within 5e-13 s.
         EXPECT_NEAR(arrivals[i].time, expected[i].arrival, 1e-12);
         if (arrivals[i].time == from) ++late;
       }
@@ -86,11 +87,11 @@ TEST(LinkOrder, AgreesWithAListThatIsSearchedAndSorted) {
     }
     EXPECT_EQ(a->counts().delivered, delivered);
     EXPECT_GT(delivered, kPackets * 9 / 10);  // 0.8 arrive, 1.3 times each
-    EXPECT_GT(late, kPackets / 10);           // many had to wait for their tick
+    EXPECT_GT(late, kPackets / 10);           // many waited for their tick
   }
 }
 
-// With jitter the order of arrival is not that of sending, but time never runs backwards.
+// With jitter, packets arrive out of order, but arrival times never decrease.
 TEST(LinkOrder, JitterReordersAndTimesStayInOrder) {
   const auto [a, b] = makeSimulatedLinks({0.05, 0.02, 0.0, 0.0, 0.0, 9});
   std::uint64_t overtaken = 0, newest = 0, received = 0, sent = 0;

@@ -1,4 +1,4 @@
-// computeFate() and computeCorruptBit(): what everything that imitates a network has in common.
+// computeFate() and computeCorruptBit(), which all network emulations share.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(PacketFate, SimulatedLinkGivesEachPacketItsFate) {
       for (std::uint64_t n = 0; n < kCount; ++n) {
         const PacketFate fate = computeFate(impairments, direction, n);
         const double now = static_cast<double>(n);
-        Fate expected;  // the very same sums, so the very same bits
+        Fate expected;  // the very same sums, so exactly equal
         if (!fate.is_lost) expected.push_back(std::max(now + fate.delay, now + kEarliest));
         if (!fate.is_lost && fate.is_duplicated) expected.push_back(now + fate.duplicate_delay);
         std::sort(expected.begin(), expected.end());
@@ -49,7 +49,7 @@ TEST(PacketFate, SwitchingOneImpairmentOnShiftsNoOther) {
               computeFate(all, Direction::kForward, n).is_lost);
 }
 
-// What a seed means is a promise to whoever wrote one down.
+// The meaning of a seed must stay the same for users who wrote one down.
 TEST(PacketFate, SeedSevenLosesThesePackets) {
   const Impairments impairments{0.0, 0.0, 0.02, 0.0, 0.0, 7};
   std::vector<std::uint64_t> forward, back;
@@ -84,8 +84,8 @@ TEST(CorruptBit, IsOfTheRateAskedForAndEvenOverAllBits) {
       }
     const double count = static_cast<double>(kCount);
     EXPECT_NEAR(corrupted, 0.5 * count, 5.0 * std::sqrt(0.25 * count));
-    // Chi-square with 127 degrees of freedom has mean 127 and deviation 16; above 5 of them it is
-    // about once in 200000 times.
+    // Chi-square with 127 degrees of freedom has mean 127 and deviation 16. It is above 5
+    // deviations about once in 200000 times.
     const double each = corrupted / static_cast<double>(hits.size());
     double chi_square = 0.0;
     for (const double hit : hits) chi_square += (hit - each) * (hit - each) / each;

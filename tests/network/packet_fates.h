@@ -6,7 +6,7 @@
 #include "tandem/coordination/simulated_link.h"
 
 /// \file
-/// What becomes of packets on a simulated way, seen by its tests.
+/// Fates of packets on a simulated link, as its tests observe them.
 namespace tandem {
 
 inline StatePacket makePacket(std::uint64_t sequence) {
@@ -21,15 +21,15 @@ inline std::vector<Arrival> receiveAll(Link& end, double from, double until) {
   return arrivals;
 }
 
-/// When each copy of one packet arrives [s], early to late; empty if it is lost.
+/// Arrival times of each copy of one packet [s], in ascending order; empty if it is lost.
 using Fate = std::vector<double>;
 
-/// A packet without any delay is taken in this long after it was sent [s]: above the rounding of
-/// times up to 20000 s, below any delay that is likely to be drawn.
+/// A packet without delay arrives this long after it was sent [s]. The value is above the rounding
+/// of times up to 20000 s, and below any likely random delay.
 inline constexpr double kEarliest = 1e-9;
 
-/// Fates of `count` packets; number n is sent at n seconds and alone on the way, so that nothing
-/// but the impairments decides. Copies that are under way for a second or more are not waited for.
+/// Fates of `count` packets. Number n is sent at n seconds and is alone on the link, so only the
+/// impairments decide. Copies under way for a second or more are not waited for.
 inline std::vector<Fate> observeFates(Link& sender, Link& receiver, std::uint64_t count) {
   std::vector<Fate> fates(count);
   for (std::uint64_t n = 0; n < count; ++n) {

@@ -78,7 +78,7 @@ TEST(SimulatedLink, PacketIsNeverTakenInTheTickItWasSentIn) {
   for (const Arrival& arrival : next) EXPECT_EQ(arrival.time, tickTime(6));  // not before the tick
 }
 
-// Packet 1 overtakes packet 0 but was sent in this tick: it waits, and packet 0 does not wait for
+// Packet 1 overtakes packet 0 but was sent in this tick. It waits, and packet 0 does not wait for
 // it.
 TEST(SimulatedLink, PacketThatHasToWaitHoldsUpNoOther) {
   Impairments impairments;
@@ -104,7 +104,7 @@ TEST(SimulatedLink, PacketThatHasToWaitHoldsUpNoOther) {
   EXPECT_EQ(second[0].time, tickTime(2));
 }
 
-// Equal arrivals come in the order of sending, however the heap is filled and emptied.
+// Equal arrivals come in the order of sending, for any order of heap operations.
 TEST(SimulatedLink, EqualArrivalsKeepTheOrderOfSending) {
   const auto [a, b] = makeSimulatedLinks({});
   for (std::uint64_t n = 0; n < 500; ++n) a->send(makePacket(n), 1.0);
