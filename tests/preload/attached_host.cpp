@@ -1,5 +1,5 @@
-// The same host as host.cpp in its plain world, but built with Tandem: a site as the config of
-// host_test.cpp asks for. What a preloaded host does must be this to the bit.
+// The host of host.cpp in its plain world, but built with Tandem. Its site has the settings of the
+// config in host_test.cpp. A preloaded host must give exactly the same result.
 
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/plugin/site.h"

@@ -1,4 +1,4 @@
-// What a config file may say, and what is said of one that may not.
+// Valid config files, and the messages for invalid ones.
 
 #include <filesystem>
 

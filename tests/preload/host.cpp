@@ -1,5 +1,5 @@
-// A program of somebody else's: dynamically linked to Bullet, without a word of Tandem. It prints a
-// hash over the bits of all its bodies' states after each step, and where its cube is at the end.
+// A foreign program that links dynamically to Bullet and does not know Tandem. It prints a hash
+// over the bits of all bodies' states after each step, and the final place of its cube.
 //
 //   host [--steps N] [--world
 //   plain|derived|second|removed|late|callback|in_step|world_first|leaked|none]
@@ -19,7 +19,7 @@
 namespace tandem::test {
 namespace {
 
-/// A host's own callback, which takes the first cube out in the middle of a step.
+/// The host's own callback removes the first cube in the middle of a step.
 void removeInStep(btDynamicsWorld* world, btScalar) {
   static int calls = 0;
   if (++calls == 20) static_cast<Scene*>(world->getWorldUserInfo())->removeFirstCube();
@@ -59,7 +59,7 @@ void run(const std::string& kind, int steps, bool is_realtime) {
     }
     if (kind == "callback") state ^= static_cast<std::uint64_t>(seen_sub_steps);
     print(state, scene.firstCube());
-    if (kind == "leaked") std::exit(0);  // nothing is taken down
+    if (kind == "leaked") std::exit(0);  // exits without clean-up
     if (kind == "world_first") {
       world.reset();
       scene.forgetWorld();

@@ -19,7 +19,7 @@ struct Parts {
   btMultiBodyConstraintSolver solver_of_derived;
 };
 
-/// 40 mm cubes of 0.2 kg on a floor, the first one alone.
+/// 40 mm cubes of 0.2 kg on a floor; the first stands alone.
 class Scene {
  public:
   explicit Scene(btDiscreteDynamicsWorld& world) : world_(world) {
@@ -70,7 +70,7 @@ class Scene {
   bool is_world_gone_ = false;
 };
 
-/// What a host's run came to, in one line.
+/// Prints the result of a host's run in one line.
 inline void print(std::uint64_t hash, const btRigidBody& cube) {
   const btVector3& p = cube.getCenterOfMassPosition();
   std::printf("hash %016llx cube %.6f %.6f %.6f mass %.6f\n", static_cast<unsigned long long>(hash),

@@ -1,5 +1,5 @@
-// An unmodified program that is dynamically linked to Bullet, with and without the library in
-// LD_PRELOAD, for both widths.
+// An unmodified program that links dynamically to Bullet, with and without the library in
+// LD_PRELOAD. Runs for both widths.
 
 #include <algorithm>
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first cube, pushed along the floor.
+/// The first cube is pushed along the floor.
 const char* const kPush = R"(object = "box 0.04 0.04 0.04"
 log = "push.csv"
 [device]
@@ -40,7 +40,7 @@ const Width kWidths[] = {
 const char* const kWorlds[] = {"plain",    "derived", "second",      "removed", "late",
                                "callback", "in_step", "world_first", "leaked",  "none"};
 
-/// Every line is ours, and there are so many.
+/// Expects `count` lines, each from Tandem.
 void expectLines(const std::string& err, long count) {
   EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), count) << err;
   for (std::size_t at = 0; at < err.size(); at = err.find('\n', at) + 1)
@@ -60,7 +60,7 @@ class PreloadedHost : public testing::TestWithParam<Width> {
   [[nodiscard]] Outcome preloaded(const std::string& world, const std::string& config) const {
     return runPreloaded(GetParam().host, {"--world", world}, config);
   }
-  /// As a host without Tandem, for which one line says why.
+  /// Expects a host's run as without Tandem, and one line with the reason.
   void expectUntouched(const Outcome& outcome, const std::string& world,
                        const std::vector<std::string>& words) const {
     EXPECT_EQ(outcome.status, 0);
@@ -105,7 +105,7 @@ TEST_P(PreloadedHost, IsTheSameToTheBitWhileItsObjectIsNotThere) {
 TEST_P(PreloadedHost, MovesItsObjectAsASiteInTheProgramDoes) {
   const Outcome outcome = preloaded("world_first", folder_.write("push.toml", kPush));
   EXPECT_EQ(outcome.status, 0);
-  // The mass is given back when the world ends, after the line was printed.
+  // The mass is restored when the world ends, after the line was printed.
   EXPECT_EQ(outcome.out, runBare(GetParam().attached_host).out);
   EXPECT_NE(outcome.out, bare("world_first"));
   expectWords(outcome.err, {"shares moving body 1 of world 1: box 0.04 0.04 0.04, 0.2 kg",

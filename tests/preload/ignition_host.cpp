@@ -1,6 +1,6 @@
-// A program with Ignition Physics and Debian's unmodified Bullet plugin of it; without a word of
-// Tandem. The plugin is opened at run time and shows its Bullet to nobody else. Prints a line of
-// `t x y z` of its box every 50 of 500 steps of 1 ms.
+// A program with Ignition Physics and Debian's unmodified Bullet plugin for it, which does not know
+// Tandem. The plugin is opened at run time and exports its Bullet to no other library. Prints a
+// line `t x y z` of its box every 50 of 500 steps of 1 ms.
 //
 //   ignition_host PLUGIN [floor|free]
 
@@ -35,7 +35,7 @@ constexpr const char* kFloor = R"(
     <geometry><plane><normal>0 0 1</normal></plane></geometry>
   </collision></link></model>)";
 
-/// 0.1 x 0.1 x 0.05 m, 0.2 kg.
+/// A box of 0.1 x 0.1 x 0.05 m and 0.2 kg.
 constexpr const char* kBox = R"(<sdf version="1.9"><model name="box">
   <pose>0 0 0.025 0 0 0</pose>
   <link name="box">
@@ -65,7 +65,7 @@ int run(const char* file, bool has_floor) {
       !load(box_file, kBox))
     return 2;
   const auto world = engine->ConstructWorld(*world_file.WorldByIndex(0));
-  // The engine gives no way from a model to its links but making them.
+  // The engine's only way from a model to its links is to make them.
   sdf::Model model;
   model.SetName("box");
   model.SetRawPose(box_file.Model()->RawPose());

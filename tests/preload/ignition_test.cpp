@@ -1,5 +1,5 @@
-// Debian's unmodified Bullet plugin of Ignition Physics: a box of its world is pushed by a hand
-// that a config describes, over a floor and free in a slot.
+// Debian's unmodified Bullet plugin of Ignition Physics. A hand from a config pushes a box of its
+// world, over a floor and free in a slot.
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +28,9 @@ std::vector<Row> readRows(const std::string& text) {
 
 std::vector<std::string> inScene(const char* scene) { return {TANDEM_IGNITION_PLUGIN, scene}; }
 
-/// Where the box is at the ends of the rows, pushed along x by the hand's mass with a force F
-/// through K and B against Coulomb's friction, in steps of 1 us. As a device does, the hand holds
-/// the force of a tick's start for 1 ms, and goes on at its velocity in the contact meanwhile.
+/// Places of the box at the ends of the rows, in steps of 1 us. The hand's mass pushes it along x
+/// with a force F through K and B; Coulomb friction acts against it. Like a device, the hand holds
+/// the force of a tick's start for 1 ms. In the contact it meanwhile moves on at its velocity.
 std::vector<double> computePushed(double force, double friction) {
   constexpr double kStiffness = 4000, kDamping = 20;  // [N/m, N s/m]
   constexpr int kTick = 1000;                         // steps in a tick
@@ -48,7 +48,8 @@ std::vector<double> computePushed(double force, double friction) {
       held_f = press(hand_x, hand_v, box_x);
     }
     const double into_tick = h * (i % kTick + 0.5);
-    // In the middle of the step, where the box is faster by half of what this force makes it.
+    // Force in the middle of the step, where the box has gained half of this force's change in
+    // speed.
     const double f = press(tick_x + tick_v * into_tick, tick_v, box_x + 0.5 * h * box_v) /
                      (1.0 + 0.5 * h * kDamping / kBoxMass);
     const double hand_a = (force - held_f) / kHandMass;
@@ -62,7 +63,7 @@ std::vector<double> computePushed(double force, double friction) {
   return positions;
 }
 
-/// Largest distance along x of the rows to the model.
+/// Largest distance along x between the rows and the model.
 double compare(const std::vector<Row>& rows, const std::vector<double>& model) {
   EXPECT_EQ(rows.size(), model.size());
   double largest = 0.0;
@@ -103,7 +104,8 @@ damping = 0
             std::string::npos)
       << outcome.err;
   const std::vector<double> model = computePushed(0.5, 0.0);
-  // At 0.2 m a float's places are 1.5e-8 m apart, and Ignition's 1 ms is too long by 5e-8 of it.
+  // At 0.2 m float positions are 1.5e-8 m apart, and Ignition's 1 ms is too long by a factor of
+  // 5e-8.
   EXPECT_LT(compare(readRows(outcome.out), model), 1e-7);
   EXPECT_GT(model.back(), 0.2);
 }
@@ -123,7 +125,7 @@ damping = 0
 )"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::vector<Row> rows = readRows(outcome.out);
-  // Friction of Ignition's floor is 1. Rigid contact is solved each 0.25 ms.
+  // The friction of Ignition's floor is 1. Rigid contact is solved each 0.25 ms.
   EXPECT_LT(compare(rows, computePushed(5.0, kBoxMass * 9.81)), 1e-3);
   for (const Row& row : rows) EXPECT_NEAR(row.z, 0.025, 1e-5) << "at " << row.t;
   const std::string log = readFile(folder / "floor.csv");

@@ -1,5 +1,5 @@
-// Two preloaded hosts, each in its process, with the key of one pair: their copies of a cube are
-// one object once each has heard of the other.
+// Two preloaded hosts, each in its process, with the key of one pair. Their copies of a cube are
+// one object once each has heard the other.
 
 #include <cmath>
 #include <cstdio>
@@ -22,7 +22,7 @@ std::string makeConfig(int self, const Address& own, const Address& other, doubl
          "\"\naddress = \"" + toString(other) + "\"\nkey = \"pair.psk\"\n";
 }
 
-/// Ports that were free a moment ago.
+/// Two ports that were free a moment ago.
 std::pair<Address, Address> findPorts(const std::string& key) {
   const auto bindAny = [&](PeerId self, PeerId other) {
     UdpMeshSettings settings;
@@ -53,11 +53,11 @@ TEST(PreloadedHosts, ShareOneObjectOverUdp) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("site 1 is live"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("site 2 is live"), std::string::npos) << outcome.err;
-  // Gains come back while the copies part from each other, which may take all of the run.
+  // Gains return while the copies move apart, which may take the whole run.
   for (const char* log : {"log1.csv", "log2.csv"})
     EXPECT_NE(readFile(folder / log).find(",rejoining\n"), std::string::npos) << log;
 
-  // Only the first user pushes, and both cubes go.
+  // Only the first user pushes, and both cubes move.
   double x[2] = {};
   std::size_t at = 0;
   for (double& place : x) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Stands in for a Bullet that a plugin carries inside: a class of that name, whose functions it
-// shows, so that its own calls can be come between.
+// Stands in for a Bullet inside a plugin. A class of that name exports its functions, so its own
+// calls can be intercepted.
 
 class btDispatcher;
 class btBroadphaseInterface;

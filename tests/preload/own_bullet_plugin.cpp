@@ -1,4 +1,4 @@
-// A plugin for two_widths_host with a Bullet inside that is not Debian's.
+// A plugin for two_widths_host with its own Bullet inside, not Debian's.
 
 #include <cstdio>
 #include <memory>

@@ -7,14 +7,14 @@
 
 namespace tandem::test {
 
-/// A program as it is.
+/// Runs a program unchanged.
 [[nodiscard]] inline Outcome runBare(const std::string& program,
                                      const std::vector<std::string>& arguments = {}) {
   return runProgram(program, arguments);
 }
 
-/// The same with the library of this build, or another one, in LD_PRELOAD; with TANDEM_PRELOAD if
-/// there is a config.
+/// Runs a program with the library of this build, or another one, in LD_PRELOAD. Sets
+/// TANDEM_PRELOAD if there is a config.
 [[nodiscard]] inline Outcome runPreloaded(const std::string& program,
                                           const std::vector<std::string>& arguments,
                                           const std::string& config,

@@ -1,4 +1,4 @@
-// The adaptor without a preloaded process: what is done around the steps of a world.
+// The adaptor without a preloaded process: its work around the steps of a world.
 
 #include "preload/adaptor/shared_object.h"
 
@@ -25,7 +25,7 @@ PreloadConfig makeConfig() {
   return config;
 }
 
-/// As the interposer does.
+/// Steps as the interposer does.
 void step(SharedObject& shared, BulletRig& rig) {
   const btScalar dt = btScalar(1) / 60;
   shared.beforeStep();
@@ -71,7 +71,7 @@ TEST(SharedObject, LeavesAloneWhatWasThereBesides) {
   rig.world.removeRigidBody(&cube);
   step(shared, rig);
   EXPECT_EQ(shared.site(), nullptr);
-  // Taken out and put back it is a newcomer.
+  // A body that is removed and added again counts as new.
   shared.objectLeaves(&twin);
   rig.world.removeRigidBody(&twin);
   rig.world.addRigidBody(&twin);

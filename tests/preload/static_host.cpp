@@ -1,5 +1,5 @@
-// Stands in for a program with Bullet linked in statically, which Debian has no libraries for: a
-// class of that name, all of whose functions are in the program.
+// Stands in for a program with Bullet linked in statically; Debian has no libraries for that. All
+// functions of a class of that name are in the program.
 
 class btDiscreteDynamicsWorld {
  public:

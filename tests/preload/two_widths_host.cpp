@@ -1,5 +1,5 @@
-// A host whose plugins bring a Bullet each, of different widths, and show it to nobody: host.cpp
-// twice, as libraries. Prints what each prints.
+// A host whose plugins bring a Bullet each, of different widths, and export it to no other library.
+// The plugins are host.cpp twice. Prints the output of each.
 //
 //   two_widths_host PLUGIN... -- ARGUMENTS OF EACH
 
