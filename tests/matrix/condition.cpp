@@ -27,7 +27,7 @@ constexpr std::array<Outage, 8> kOutages{{{0.0, Cut::kDrops},
                                           {1.0, Cut::kHoldsBack},
                                           {5.0, Cut::kHoldsBack}}};
 
-/// Places in a row.
+/// Indices of the factors in a row.
 enum Factor : std::size_t {
   kLossFactor,
   kDelayFactor,

@@ -9,39 +9,39 @@
 
 namespace tandem::test {
 
-/// What the users do: Experiments I and II of docs/paper.md, stroke by stroke. The first user's
-/// hand goes its way, the second's is pushed.
+/// Task of the users: Experiments I and II of docs/paper.md, stroke by stroke. The first user's
+/// hand follows its own path, the second user's is pushed.
 enum class Task {
-  kCooperation,  ///< on both sides of a cube that something slows down
-  kFloating,     ///< the same with a cube that nothing slows down: cut off, its copies fly apart
+  kCooperation,  ///< on both sides of a damped cube
+  kFloating,     ///< the same with an undamped cube: cut off, its copies fly apart
   kMeeting,      ///< the users touch each other
 };
 [[nodiscard]] const char* nameOf(Task task);
 
-/// What a network that is cut does with what is sent meanwhile.
+/// Treatment of datagrams that are sent during a cut.
 enum class Cut { kDrops, kHoldsBack };
 
 /// One cell of the matrix.
 struct Condition {
   Impairments network;   ///< without a seed
-  double corrupt = 0.0;  ///< probability that a copy has a bit turned
-  double outage = 0.0;   ///< [s]; 0: none
+  double corrupt = 0.0;  ///< probability that a copy has a bit flipped
+  double outage = 0.0;   ///< length of the cut [s]; 0: none
   Cut cut = Cut::kDrops;
   std::string scheme;
   Task task = Task::kCooperation;
   bool is_guided = true, has_playout = true, thins_when_idle = true;
 
-  /// States come out in the order in which they were sent, at most a few late. Without playout one
-  /// that jumps the queue makes those before it worthless, and silence lasts as long as the way.
+  /// True if states come out in the order of sending, with few late. Without playout one that
+  /// overtakes makes all before it worthless, and silence lasts as long as the delay.
   [[nodiscard]] bool keepsOrder() const { return has_playout || network.reorder == 0.0; }
-  /// One way, at most [s].
+  /// Largest one-way time [s].
   [[nodiscard]] double slowest() const { return network.delay + network.jitter; }
 };
 
-/// In one line, as reports have it.
+/// Describes a condition in one line, as in reports.
 [[nodiscard]] std::string describe(const Condition& condition);
 
-/// All cells: pairs first, then triples.
+/// All cells of the matrix: first those for all pairs, then for triples.
 class ConditionMatrix {
  public:
   static constexpr std::size_t kCells = 150;

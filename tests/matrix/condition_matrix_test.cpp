@@ -1,7 +1,7 @@
-// Every pair of network conditions meets in a cell of the matrix, and in each of them two sites go
-// live, work together, are cut off from each other for a while, and come back.
+// Every pair of network conditions occurs in a cell of the matrix. In each cell two sites go live,
+// work together, are cut off from each other for a while, and recover.
 //
-// The cells run by default have every pair. More and others:
+// The default cells contain every pair. More and others:
 //
 //   TANDEM_MATRIX_CELLS=150 TANDEM_MATRIX_SEEDS=3    how much is run
 //   TANDEM_MATRIX_CELL=17:2                          cell 17 with seed 2, alone
@@ -26,18 +26,18 @@ using test::MatrixScene;
 using test::SiteReport;
 using test::Task;
 
-/// Force from one tick to the next, SiteSettings::max_slew [N].
+/// Largest force change from one tick to the next, SiteSettings::max_slew [N].
 constexpr double kMaxForceStep = 10.0;
-/// What a hand may get in all when nothing is left [J]: it moves on in the tick in which the force
-/// is held, and the force falls no faster than it may.
+/// Most energy that a hand may get with an empty tank [J]. It still moves in the tick that holds
+/// the force, and the force falls at a limited rate.
 constexpr double kOverdraft = 0.01;
-/// What both hands may get together beyond what they put in [J]: two tanks, and what both claim
-/// while the news of it is on its way.
+/// Most energy that both hands may get beyond their input [J]: two tanks, plus energy that both
+/// claim until the report arrives.
 constexpr double kMostGiven = 0.1;
 
 constexpr double kTick = MatrixScene::kPeriod;
 
-/// What went wrong; nothing for a cell that passed.
+/// Faults of a cell; empty if it passed.
 class Faults {
  public:
   void expect(bool is_good, const char* what, double value, double limit) {
@@ -87,7 +87,7 @@ std::string format(const char* form, double value) {
   return text.data();
 }
 
-/// The worst of some cells, each with where it was.
+/// The worst value of some cells, with its cell.
 struct Worst {
   double value = 0.0;
   std::string cell;
@@ -192,7 +192,7 @@ std::vector<Part> allParts() {
 INSTANTIATE_TEST_SUITE_P(All, ConditionMatrixTest, ::testing::ValuesIn(allParts()),
                          [](const auto& part) { return nameOf(part.param); });
 
-// Keys are drawn anew each time; nothing that is felt depends on them.
+// Keys are drawn anew each time. No felt quantity depends on them.
 TEST(MatrixScene, IsEqualToTheBitEachTime) {
   const Condition condition = ConditionMatrix::instance().at(0);
   MatrixScene first(condition, 1), second(condition, 1), other(condition, 2);

@@ -10,10 +10,10 @@
 
 namespace tandem::test {
 
-/// A level of each factor: one condition.
+/// A condition: one level of each factor.
 using Levels = std::vector<int>;
 
-/// Two levels that mean nothing together.
+/// Two levels that are meaningless together.
 struct ExcludedPair {
   std::size_t factor = 0;
   int level = 0;
@@ -21,13 +21,13 @@ struct ExcludedPair {
   int other_level = 0;
 };
 
-/// Conditions of factors with so many levels each, such that any two levels of different factors
-/// meet in one of them, but for those that are excluded. Greedy: of some rows that are drawn, each
-/// filled level by level with what covers most, the best is taken. When all pairs are covered,
+/// Rows such that any two levels of different factors occur together in one row, except for
+/// excluded pairs. Each row holds one level per factor. Greedy: draws some rows, fills each level
+/// by level with the level that covers most, and takes the best. Once all pairs are covered,
 /// further rows cover as many triples as they can.
 class CoveringArray {
  public:
-  /// `excluded` must leave a level of every factor whatever the others are.
+  /// `excluded` must leave a level of every factor for any choice of the others.
   CoveringArray(std::vector<int> level_counts, std::vector<ExcludedPair> excluded)
       : counts_(std::move(level_counts)), excluded_(std::move(excluded)) {
     for (const int count : counts_) {
@@ -39,7 +39,7 @@ class CoveringArray {
     findOpenPairs();
   }
 
-  /// At least `count`, and as many as it takes for all pairs.
+  /// Makes at least `count` rows, and as many as all pairs take.
   [[nodiscard]] std::vector<Levels> makeRows(std::size_t count) {
     std::vector<Levels> rows;
     while (rows.size() < count || !open_pairs_.empty()) {
@@ -57,7 +57,7 @@ class CoveringArray {
     return rows;
   }
 
-  /// Rows after which all pairs are covered.
+  /// Number of rows after which all pairs are covered.
   [[nodiscard]] std::size_t pairRows() const { return pair_rows_; }
 
   [[nodiscard]] bool isExcluded(std::size_t f, int level, std::size_t g, int other) const {
@@ -122,7 +122,7 @@ class CoveringArray {
     return row;
   }
 
-  /// The level that covers most with those that are set; of equals one that is drawn.
+  /// The level that covers most together with those already set; draws among equals.
   [[nodiscard]] int chooseLevel(const Levels& row, std::size_t factor) {
     int best = 0, most = -1;
     const int turn = random_.below(counts_[factor]);
@@ -135,7 +135,7 @@ class CoveringArray {
     return best;
   }
 
-  /// Open pairs, or triples once there are none, of this level and those that are set.
+  /// Open pairs of this level with those already set, or triples once no pair is open.
   [[nodiscard]] int countNew(const Levels& row, std::size_t factor, int level) const {
     int gain = 0;
     const std::size_t own = id(factor, level);
@@ -170,7 +170,7 @@ class CoveringArray {
 
   std::vector<int> counts_;
   std::vector<ExcludedPair> excluded_;
-  std::vector<std::size_t> first_;  ///< number of a factor's first level, counted through
+  std::vector<std::size_t> first_;  ///< index of a factor's first level among all levels
   std::size_t total_ = 0;
   std::vector<bool> pairs_, triples_;
   std::vector<Pair> open_pairs_;

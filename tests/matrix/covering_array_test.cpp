@@ -25,7 +25,7 @@ TEST(CoveringArray, EveryPairThatIsNotExcludedIsThere) {
       for (int level = 0; level < counts[f]; ++level)
         for (int other = 0; other < counts[g]; ++other)
           EXPECT_EQ(meet(rows, f, level, g, other), !array.isExcluded(f, level, g, other));
-  // 49 at least; each of them at once would be 2352.
+  // At least 49 rows are needed. One row for each combination would be 2352.
   EXPECT_LT(rows.size(), 70u);
 }
 
@@ -56,7 +56,7 @@ TEST(CoveringArray, TheMatrixHasEveryPairOfConditions) {
       for (int level = 0; level < counts[f]; ++level)
         for (int other = 0; other < counts[g]; ++other)
           missing += meet(matrix.rows(), f, level, g, other) ? 0 : 1;
-  EXPECT_EQ(missing, 1);  // virtual coupling lets users feel each other through an object only
+  EXPECT_EQ(missing, 1);  // with virtual coupling users feel each other only through an object
 }
 
 }  // namespace

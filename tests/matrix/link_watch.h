@@ -7,13 +7,13 @@
 
 namespace tandem::test {
 
-/// Passes everything on between a site and a link, and notes how old states are when they come out.
+/// Passes all packets on between a site and a link, and notes the age of states that come out.
 class LinkWatch final : public Link {
  public:
-  /// Of a state that comes out: when it was sent, and when it came out, by one clock [s].
+  /// Called for each state that comes out, with its send and arrival times by one clock [s].
   using Note = std::function<void(double sent, double came)>;
 
-  /// `sender_ahead`: sender's clock - receiver's [s].
+  /// `sender_ahead` is the sender's clock minus the receiver's [s].
   LinkWatch(Link& link, double sender_ahead, Note note)
       : link_(link), sender_ahead_(sender_ahead), note_(std::move(note)) {}
 

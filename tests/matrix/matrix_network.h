@@ -24,13 +24,13 @@ class MatrixNetwork {
     checkConditions(conditions_);
   }
 
-  /// Nothing gets through from then until then [s].
+  /// Blocks all datagrams between these times [s].
   void cutFrom(double from, double until) {
     cut_from_ = from;
     cut_until_ = until;
   }
 
-  /// Hands what has arrived by `now` to `take(site, datagram)`; `now` must not run back.
+  /// Hands datagrams due by `now` to `take(site, datagram)`. `now` must not decrease.
   template <typename Take>
   void deliverUntil(double now, Take take) {
     now_ = now;
@@ -79,7 +79,7 @@ class MatrixNetwork {
     }
   }
 
-  /// Copies under way: five seconds that come at once, all of them twice.
+  /// Capacity for copies under way: five seconds that arrive at once, all doubled.
   static constexpr std::size_t kRoom = 2048;
 
   Cut cut_;

@@ -10,16 +10,16 @@ namespace tandem::test {
 namespace {
 
 constexpr int kTicksPerHostStep = 4;
-constexpr double kHalf = 0.02, kRadius = 0.01;  // of the cube and of what touches it [m]
+constexpr double kHalf = 0.02, kRadius = 0.01;  // of the cube; of device and proxies [m]
 constexpr double kObjectDamping = 4.0;          // [N s/m]
-constexpr double kGap = 5e-3;                   ///< of the hands to what they will touch [m]
-constexpr double kRest = 1.0;                   ///< before the first stroke, idle at its end [s]
-constexpr double kStroke = 1.6;                 ///< there and back [s]
-constexpr double kReach = 0.05;                 ///< of a stroke, from the start [m]
-constexpr double kLedBack = 3.0;                ///< objects may need after a loss [s]
-constexpr double kAfter = 2.0;                  ///< watched after all has come back [s]
+constexpr double kGap = 5e-3;     ///< distance from the hands to what they will touch [m]
+constexpr double kRest = 1.0;     ///< pause before the first stroke, idle at its end [s]
+constexpr double kStroke = 1.6;   ///< duration of a stroke, there and back [s]
+constexpr double kReach = 0.05;   ///< length of a stroke from the start [m]
+constexpr double kLedBack = 3.0;  ///< longest way back of objects after a loss [s]
+constexpr double kAfter = 2.0;    ///< time watched after full recovery [s]
 
-/// A hand whose times count from a moment that comes to be known.
+/// A hand whose time begins at a moment that is set later.
 class LaterHand final : public Hand {
  public:
   LaterHand(std::unique_ptr<Hand> hand, const double& begin)
@@ -54,7 +54,7 @@ MatrixScene::MatrixScene(const Condition& condition, std::uint64_t seed)
   for (std::size_t i = 0; i < 2; ++i) makeUser(i);
 }
 
-// Sites before the worlds, devices and links that they use.
+// Destroys sites before the worlds, devices and links that they use.
 MatrixScene::~MatrixScene() {
   for (User& user : users_) user.site.reset();
 }
@@ -167,7 +167,7 @@ void MatrixScene::tickUser(std::size_t i) {
   User& user = users_[i];
   SiteReport& report = user.report;
   user.site->tick(now_ + user.clock_offset);
-  // Since the last tick the device has moved under the force of then.
+  // Since the last tick the device has moved under the force of that tick.
   const Vec3 p_W = user.device->handle().p_W;
   energy_ -= user.force_W.dot(p_W - user.p_W);
   const Vec3& force_W = user.site->force();

@@ -18,17 +18,17 @@
 /// One cell of the condition matrix: two sites with real meshes on a bad network, in virtual time.
 namespace tandem::test {
 
-/// What one site has felt and done.
+/// Measurements of one site.
 struct SiteReport {
   double largest_force = 0.0;       ///< [N]
-  double largest_force_step = 0.0;  ///< from one tick to the next [N]
-  double largest_excess = 0.0;      ///< age of what was taken in, beyond delay and wait [s]
-  double first_new = -1.0;          ///< after the outage's end the first new state came in [s]
-  double recovered = -1.0;          ///< and the link was live or rejoining [s]; -1: never
-  double live_again = -1.0;         ///< the same, live
-  double last_coupled = -1.0;       ///< before the end, it was live or rejoining [s]; -1: never
-  double overdrawn = 0.0;           ///< energy that the hand got when none was left [J]
-  double last_taken = 0.0;          ///< before the end the last state came in [s]
+  double largest_force_step = 0.0;  ///< largest force change from tick to tick [N]
+  double largest_excess = 0.0;  ///< largest age of a state at arrival, beyond delay and wait [s]
+  double first_new = -1.0;      ///< time from the outage's end to the first new state [s]
+  double recovered = -1.0;      ///< time from there until live or rejoining [s]; -1: never
+  double live_again = -1.0;     ///< time from there until live [s]; -1: never
+  double last_coupled = -1.0;   ///< time from last live or rejoining to the end [s]; -1: never
+  double overdrawn = 0.0;       ///< energy that the hand got with an empty tank [J]
+  double last_taken = 0.0;      ///< time from the last state to the end [s]
   PeerPhase phase = PeerPhase::kCalling;
   std::uint32_t status = kTickOk;
   SiteCounters counters;
@@ -36,36 +36,36 @@ struct SiteReport {
 };
 
 struct CellReport {
-  double joined = -1.0;       ///< both sites were live [s]; -1: never
-  double least_energy = 0.0;  ///< that both hands have put in [J]
+  double joined = -1.0;       ///< time at which both sites were live [s]; -1: never
+  double least_energy = 0.0;  ///< least energy put in by both hands [J]
   std::array<SiteReport, 2> sites;
-  std::uint64_t hash = 0;  ///< of both sites
+  std::uint64_t hash = 0;  ///< state hash of both sites
 };
 
 class MatrixScene {
  public:
   static constexpr double kPeriod = 1e-3;    // [s]
-  static constexpr double kMaxForce = 9.0;   ///< of the devices [N]
-  static constexpr double kPatience = 30.0;  ///< for the handshake [s]
+  static constexpr double kMaxForce = 9.0;   ///< force limit of the devices [N]
+  static constexpr double kPatience = 30.0;  ///< limit for the handshake [s]
   static constexpr double kRampIn = 0.5;     ///< [s]
-  static constexpr double kGrace = 0.5;      ///< for what must happen after an outage [s]
+  static constexpr double kGrace = 0.5;      ///< limit for required reactions after an outage [s]
 
   MatrixScene(const Condition& condition, std::uint64_t seed);
   ~MatrixScene();
 
-  /// Runs it once.
+  /// Runs the cell once.
   [[nodiscard]] CellReport run();
 
  private:
   /// One user: world, device, mesh and site.
   struct User {
-    double clock_offset = 0.0;  ///< own clock - ours [s]
+    double clock_offset = 0.0;  ///< own clock minus scene time [s]
     BulletRig rig;
     std::unique_ptr<SimulatedDevice> device;
     std::unique_ptr<net::Mesh> mesh;
     std::unique_ptr<LinkWatch> link;
     std::unique_ptr<Site> site;
-    Vec3 force_W = Vec3::Zero(), p_W = Vec3::Zero();  ///< since the last tick, and then
+    Vec3 force_W = Vec3::Zero(), p_W = Vec3::Zero();  ///< force of the last tick; position then
     SiteReport report;
   };
 
@@ -83,12 +83,12 @@ class MatrixScene {
   [[nodiscard]] PeerStatus statusOf(std::size_t i) const;
 
   Condition c_;
-  double phase_ = 0.0;  ///< of the stroke in which the outage begins [s]
+  double phase_ = 0.0;  ///< start of the outage within its stroke [s]
   MatrixNetwork network_;
   std::array<User, 2> users_;
   std::uint64_t ticks_ = 0;
   double now_ = 0.0;
-  double begin_ = 1e9;  ///< of the first stroke; not known before both are live [s]
+  double begin_ = 1e9;  ///< start of the first stroke; unknown before both are live [s]
   double outage_end_ = 1e9, end_ = 1e9;
   double energy_ = 0.0;
   CellReport report_;
