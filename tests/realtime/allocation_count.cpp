@@ -87,7 +87,7 @@ int __wrap_posix_memalign(void** memory, std::size_t alignment, std::size_t size
 // NOLINTEND(bugprone-reserved-identifier)
 }
 
-// The array and nothrow forms of the standard library end in these.
+// The standard library's array and nothrow forms call these.
 void* operator new(std::size_t size) { return take(size); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return takeAligned(size, alignment);
@@ -101,7 +101,7 @@ namespace tandem::test {
 
 AllocationCount::AllocationCount(bool shows) {
   void* frame = nullptr;
-  backtrace(&frame, 1);  // loads what it needs now, not in the middle of a count
+  backtrace(&frame, 1);  // loads its libraries now, not during a count
   counted = 0;
   showing = shows;
   counting = true;

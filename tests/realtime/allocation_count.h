@@ -4,12 +4,11 @@
 
 namespace tandem::test {
 
-/// Counts what is taken from the heap while it lives: operator new in all its forms, malloc and its
-/// relatives in everything that is linked statically, and Bullet's btAlignedAlloc.
+/// Counts heap allocations while it lives: operator new in all forms, malloc and its relatives in
+/// statically linked code, and Bullet's btAlignedAlloc.
 ///
-/// It counts what the thread takes that made it, and belongs to that thread; one at a time. The
-/// first few allocations are shown on standard error with their call stack, unless `shows` is
-/// false.
+/// It counts the thread that made it, and belongs to that thread; one at a time. The first few
+/// allocations are shown on standard error with their call stack, unless `shows` is false.
 class AllocationCount {
  public:
   explicit AllocationCount(bool shows = true);
@@ -19,7 +18,7 @@ class AllocationCount {
 
   [[nodiscard]] std::size_t count() const noexcept;
 
-  /// Bullet's allocations come here from now on; before any Bullet object is made.
+  /// Redirects Bullet's allocations here from now on. Call it before making any Bullet object.
   static void watchBullet();
 };
 

@@ -1,4 +1,4 @@
-// Site::tick takes nothing from the heap, and the counter that says so can count.
+// Site::tick allocates nothing, and the counter that checks this can count.
 
 #include <cstdlib>
 #include <iostream>
@@ -19,10 +19,10 @@ namespace {
 
 using test::AllocationCount;
 
-// Before main, and so before the first Bullet object.
+// Runs before main, and so before the first Bullet object.
 const bool bullet_is_watched = (AllocationCount::watchBullet(), true);
 
-/// Shows a pointer to the world, so that the compiler cannot leave its allocation out.
+/// Exposes a pointer to the compiler, so that it cannot omit the allocation.
 const volatile void* volatile shown = nullptr;
 void use(const volatile void* memory) { shown = memory; }
 
@@ -62,7 +62,7 @@ TEST(AllocationCount, SeesEveryDoorToTheHeap) {
 }
 
 TEST(AllocationCount, SeesBulletsOwnLibrary) {
-  // Bullet's shared library takes its pools by its own allocator.
+  // Bullet's shared library allocates its pools by its own allocator.
   EXPECT_GE(countIn([] { btDefaultCollisionConfiguration configuration; }), 3u);
 }
 
@@ -110,12 +110,12 @@ TEST_P(Tick, DoesNotAllocateAfterWarmUp) {
   EXPECT_GT(static_cast<double>(counters.packets_taken + counters.packets_stale),
             0.75 * (1.0 - scenario.network.loss) * sent);
   EXPECT_EQ(recording.leftOut(), 0u);
-  // The host's steps are the host's business, but good to know.
+  // The host's own steps may allocate; the number is recorded for information.
   RecordProperty("allocations_in_host_steps", static_cast<int>(in_host_steps));
   std::cout << "allocations in the host's steps: " << in_host_steps << '\n';
 }
 
-/// Users who hold on to waypoints and push a cube on a floor forth and back, off its middle.
+/// Users hold on to waypoints and push a cube on a floor forth and back, off its middle.
 const std::vector<std::string> kFloor = {
     "experiment.guide=false",
     "world.floor=true",
@@ -137,7 +137,7 @@ std::vector<Case> makeCases() {
     cases.push_back(
         {name, file, {"network.loss=0.1", "network.jitter=0.03", "network.duplicate=0.2"}});
     cases.push_back({name, file, {"experiment.guide=false", "experiment.axis=[0.6,0,0.8]"}});
-    // Peers are lost and come back all the time.
+    // Peers are lost and return all the time.
     cases.push_back({name, file, {"network.loss=0.97"}});
     cases.push_back({name, file, {"network.loss=0.97", "experiment.guide=false"}});
   }

@@ -1,4 +1,4 @@
-// A datagram on an emulated way takes nothing from the heap, whatever becomes of it.
+// A datagram on an emulated network allocates nothing, whatever its fate.
 
 #include <array>
 #include <cstdint>
@@ -20,7 +20,7 @@ TEST(ChannelAllocation, NoneForADatagram) {
   whole.at = 2.5;
   whole.cut = LinkCut::kNone;
   LinkPlan plan({{0.05, 0.04, 0.1, 0.3, 0.1, 7}, 0.1}, {cut, whole});
-  DatagramChannel channel(Direction::kForward, 40, 160);  // too few for all that is under way
+  DatagramChannel channel(Direction::kForward, 40, 160);  // too few for all datagrams under way
   const std::array<std::uint8_t, 161> bytes{};
 
   const test::AllocationCount count;

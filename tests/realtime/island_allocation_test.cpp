@@ -1,4 +1,4 @@
-// Island::advance and all that may be called between advances take nothing from the heap.
+// Island::advance and all functions allowed between advances allocate nothing.
 
 #include <cmath>
 #include <vector>
@@ -53,7 +53,7 @@ TEST(IslandAllocation, NoneInTheTick) {
   EXPECT_GT(island.counters().events, 10u);
 }
 
-// Over a mesh's triangles and a groove, with a hull and a cylinder that come and go.
+// The ball moves over a mesh's triangles and a groove, while a hull and a cylinder come and go.
 TEST(IslandAllocation, NoneWithHullsAndMeshes) {
   constexpr double kPeriod = 1e-3;  // haptic period [s]
   IslandSettings settings;

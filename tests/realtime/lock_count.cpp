@@ -10,7 +10,7 @@ thread_local std::size_t counted = 0;
 
 }  // namespace
 
-// In the program, so that the dynamic linker finds it before the library's.
+// Defined in the program, so the dynamic linker finds it before the library's.
 extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
   using Lock = int (*)(pthread_mutex_t*);
   static const Lock lock = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));

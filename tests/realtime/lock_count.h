@@ -4,8 +4,8 @@
 
 namespace tandem::test {
 
-/// Counts the mutexes that a thread asks for while it lives: pthread_mutex_lock() and all that ends
-/// in it, std::mutex among them. It belongs to the thread that made it; one at a time.
+/// Counts the mutexes that a thread locks while this lives: pthread_mutex_lock() and all that call
+/// it, including std::mutex. It belongs to the thread that made it; one at a time.
 class LockCount {
  public:
   LockCount();

@@ -1,5 +1,5 @@
-// The haptic thread of a live site takes nothing from the heap and no lock, whatever the host's
-// thread does meanwhile: it steps its world, finds boxes that come near, and floors.
+// The haptic thread of a live site neither allocates nor locks. Meanwhile the host's thread steps
+// its world, and finds floors and boxes that come near.
 
 #include <mutex>
 #include <optional>

@@ -1,5 +1,5 @@
-// States of two live sites over real sockets take nothing from the heap, and neither does a flood
-// of forged datagrams. Time is passed in: the keys are made once, and renewed after the end.
+// States of two live sites over real sockets allocate nothing, nor does a flood of forged
+// datagrams. Time is passed in: keys are made once, and renewed only after the end.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace tandem {
 namespace {
 
 constexpr double kPeriod = 1.0 / 128;  // [s]
-constexpr double kPatience = 10.0;     ///< of the machine [s]
+constexpr double kPatience = 10.0;     ///< longest wait for the machine [s]
 constexpr std::uint64_t kMostPerPoll = 128;
 
 SecretKey makeKey() {
@@ -27,8 +27,8 @@ SecretKey makeKey() {
   return SecretKey::take(bytes);
 }
 
-/// Two sites; what site 1 says to site 2 goes through a socket of ours, so that we hear it and can
-/// speak from the address that site 2 believes to be site 1's.
+/// Two sites. Datagrams from site 1 to site 2 pass a socket of ours. So we hear them and can speak
+/// from the address that site 2 believes to be site 1's.
 class Pair {
  public:
   Pair() : between_(resolveAddress("127.0.0.1:0")) {
@@ -44,7 +44,7 @@ class Pair {
     first = std::make_unique<UdpMesh>(settings, std::move(peers));
   }
 
-  /// Both send a state, and take in what the other sent.
+  /// Both sites send a state, and receive the other's.
   void tick() {
     now += kPeriod;
     StatePacket packet;
@@ -65,15 +65,15 @@ class Pair {
     while (second->link(PeerId{1}).receive(now, now + kPeriod)) ++given_to_second;
   }
 
-  /// Site 1's newest state from where site 1 seems to be: again, or under the number of one to
-  /// come.
+  /// Sends site 1's newest state from site 1's apparent address: a replay, or under a future
+  /// number.
   void forge(bool is_again) {
     std::array<std::uint8_t, kMaxDatagramSize> forged = heard_;
     if (!is_again) ++forged[13];  // the sequence's second byte
     between_.send({forged.data(), heard_size_}, second->bound());
   }
 
-  /// Lets site 2 take in all that is there; the most that one poll did.
+  /// Lets site 2 receive all that is there. Returns the largest count of one poll.
   std::uint64_t drain() {
     std::uint64_t most = 0;
     for (std::uint64_t before = second->received() + 1; before != second->received();) {
@@ -161,7 +161,7 @@ TEST(MeshAllocation, NoneInAFlood) {
     EXPECT_EQ(count.count(), 0U);
   }
   EXPECT_EQ(most, kMostPerPoll);
-  // Each is refused, and the states come all the same.
+  // Each forgery is refused, and the states still arrive.
   constexpr std::uint64_t kHalf = std::uint64_t{kTicks} * kForged / 2;
   EXPECT_EQ(countRefused(*pair.second, "forged"), forged + kHalf);
   EXPECT_EQ(countRefused(*pair.second, "replayed"), replayed + kHalf);

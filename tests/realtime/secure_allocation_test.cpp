@@ -1,4 +1,4 @@
-// Datagrams are sealed, opened and refused without the heap; so are cookies.
+// Sealing, opening and refusing datagrams allocate nothing, nor do cookies.
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// What a tick does when something goes wrong: it says so, and the hand is safe.
+// When a fault occurs, a tick reports it and the hand is safe.
 
 #include <cmath>
 #include <limits>
@@ -27,10 +27,10 @@ constexpr double kRadius = 0.01;       // of device and proxy [m]
 constexpr double kHalf = 0.02;         // half an edge of the cube [m]
 constexpr double kTouch = kHalf + kRadius;
 constexpr PeerId kRemote{2};
-/// The cube's size has btScalar's rounding: some 1e-9 m of 2 cm in float, times the stiffness [N].
+/// The cube's size has btScalar's rounding: in float about 1e-9 m of 2 cm, times the stiffness [N].
 constexpr double kForceRounding = test::byWidth(1e-9, 1e-5);
 
-/// One site with a cube at the origin, a device that the test holds and a remote user out of reach.
+/// One site with a cube at the origin, a device held by the test and a remote user out of reach.
 struct Rig {
   BulletRig host;
   FakeDevice device{Vec3(-kTouch, 0, 0)};
@@ -51,7 +51,7 @@ struct Rig {
   [[nodiscard]] double now() const { return static_cast<double>(ticks) * kPeriod; }
   std::uint32_t tick() { return site->tick(static_cast<double>(ticks++) * kPeriod); }
   void put(const StatePacket& packet) { link.arrivals.push_back({packet, now()}); }
-  /// Device this deep in the cube, along x, for one tick; the cube follows slowly.
+  /// Puts the device this deep into the cube, along x, for one tick; the cube follows slowly.
   std::uint32_t press(double depth) {
     device.sample.hip.p_W = Vec3(-kTouch + depth, 0, 0);
     return tick();
@@ -64,7 +64,7 @@ SiteSettings inSlot() {
   return settings;
 }
 
-// ---- Packets ----
+// Packets.
 
 TEST(TickStatus, RefusesPacketsThatHoldNonsense) {
   StatePacket not_finite = makePacket(kRemote, 0, Vec3(kNan, 0, 0));
@@ -110,7 +110,7 @@ TEST(TickStatus, DropsAndCountsStalePackets) {
   Rig rig;
   for (const std::uint64_t sequence : {5u, 3u, 5u, 6u, 0u, 8u, 7u})
     rig.put(makePacket(kRemote, sequence, Vec3(0.001 * static_cast<double>(sequence), 0, 0)));
-  EXPECT_EQ(rig.tick(), kTickOk);                     // late packets are a network's ordinary life
+  EXPECT_EQ(rig.tick(), kTickOk);                     // late packets are normal in a network
   EXPECT_EQ(rig.site->counters().packets_taken, 3u);  // 5, 6, 8
   EXPECT_EQ(rig.site->counters().packets_stale, 4u);
   EXPECT_EQ(rig.site->latest(0).sequence, 8u);
@@ -131,10 +131,10 @@ TEST(TickStatus, IgnoresObjectsThatAreNotShared) {
 
 TEST(TickStatus, SendsAtThePacketRate) {
   SiteSettings settings;
-  settings.thins_when_idle = false;  // nothing moves here
+  settings.thins_when_idle = false;  // no body moves here
   Rig rig(settings);
   for (int i = 0; i < 1000; ++i) rig.tick();
-  // One second of 128 packets per second, the first at once.
+  // One second of 128 packets per second; the first is sent at once.
   EXPECT_EQ(rig.site->counters().packets_sent, 128u);
   ASSERT_EQ(rig.link.sent.size(), 128u);
   for (std::size_t i = 0; i < 128; ++i) {
@@ -144,9 +144,9 @@ TEST(TickStatus, SendsAtThePacketRate) {
   }
 }
 
-// ---- The device ----
+// The device.
 
-// Presses with 8 N, then the device gives no good sample: 2000 N/s are 2 N per tick.
+// Presses with 8 N, then the device gives no valid sample. 2000 N/s are 2 N per tick.
 void expectFade(const DeviceSample& bad) {
   Rig rig(inSlot());
   EXPECT_EQ(rig.press(0.002), kTickOk);
@@ -180,11 +180,11 @@ TEST(TickStatus, ForceFadesWhenTheDeviceGivesNan) {
 
 TEST(TickStatus, DeviceThatIsGoneStaysWhereItWas) {
   Rig rig(inSlot());
-  rig.device.sample.hip = {Vec3(-0.1, 0, 0), Vec3(0.5, 0, 0)};  // on its way to the cube
+  rig.device.sample.hip = {Vec3(-0.1, 0, 0), Vec3(0.5, 0, 0)};  // moving towards the cube
   rig.tick();
   rig.device.sample.valid = false;
   for (int i = 0; i < 500; ++i) rig.tick();
-  // It was read once at 0.5 m/s and moves no further than to the next tick.
+  // The device was read once at 0.5 m/s. The hand moves no further than to the next tick.
   EXPECT_LE(rig.site->hip().p_W.x(), -0.1 + 0.5 * kPeriod + 1e-12);
   EXPECT_EQ(rig.site->object(0).p_W, Vec3::Zero());
   EXPECT_EQ(rig.link.sent.back().user.v_W, Vec3::Zero());
@@ -203,7 +203,7 @@ TEST(TickStatus, DeviceThatComesBackIsFeltAgain) {
 
 TEST(TickStatus, ForceLimitOfTheDeviceKeepsTheDirection) {
   const Vec3 on_the_edge(-kHalf - 0.003, -kHalf - 0.005,
-                         0.001);  // sees two faces: a slanting force
+                         0.001);  // touches two faces: an oblique force
   SiteSettings settings;
   settings.contact = {kStiffness, 0.0};
   settings.max_slew = std::numeric_limits<double>::infinity();
@@ -213,7 +213,7 @@ TEST(TickStatus, ForceLimitOfTheDeviceKeepsTheDirection) {
     EXPECT_EQ(rig->tick(), kTickOk);
   }
   const Vec3 wanted_W = free.device.force_W;
-  // Distance from the edge line is sqrt(3^2 + 5^2) mm; the sphere has 10 mm.
+  // The distance from the edge line is sqrt(3^2 + 5^2) mm; the sphere has 10 mm.
   EXPECT_NEAR(wanted_W.norm(), kStiffness * (kRadius - std::hypot(0.003, 0.005)), kForceRounding);
   EXPECT_NEAR(limited.device.force_W.norm(), 3.0, 1e-12);
   EXPECT_LT((limited.device.force_W.normalized() - wanted_W.normalized()).norm(), 1e-12);
@@ -221,9 +221,9 @@ TEST(TickStatus, ForceLimitOfTheDeviceKeepsTheDirection) {
   EXPECT_EQ(limited.site->force(), limited.device.force_W);
 }
 
-// ---- The host ----
+// The host.
 
-// A body taken out: the force fades, the island stops, and the tick says so from then on.
+// A body is removed: the force fades, the island stops, and every later tick reports it.
 void expectStopWithout(bool takes_proxy) {
   Rig rig(inSlot());
   const double host_step = 4 * kPeriod;
@@ -252,7 +252,7 @@ void expectStopWithout(bool takes_proxy) {
   }
   EXPECT_EQ(last, 0.0);
   EXPECT_EQ(rig.site->object(0).p_W, cube.p_W);
-  if (!takes_proxy) rig.host.world.addRigidBody(&body);  // so that the rig can end as it began
+  if (!takes_proxy) rig.host.world.addRigidBody(&body);  // lets the rig end as it began
 }
 
 TEST(TickStatus, StopsWhenTheProxysBodyIsTakenOut) { expectStopWithout(true); }
@@ -270,12 +270,12 @@ TEST(TickStatus, SaysThatAHostStepsWronglyForImpulses) {
   EXPECT_EQ(rig.site->status(), kHostStepWrong);
 }
 
-// Gains far beyond what the inner step can follow, off any slot.
+// Gains far beyond the limit of the inner step, outside any slot.
 TEST(TickStatus, StateThatIsNotFiniteEndsWithoutForce) {
   Rig rig;
   rig.press(0.002);
   StatePacket packet = makePacket(kRemote, 0, Vec3(0.5, 0, 0));
-  packet.user.p_W = Vec3::Constant(1e308);  // finite, and sane as far as one packet can tell
+  packet.user.p_W = Vec3::Constant(1e308);  // finite, and sane by the checks on one packet
   packet.user.v_W = Vec3::Constant(-1e308);
   packet.object_count = 1;
   packet.objects[0].state.p_W = Vec3::Constant(1e308);
@@ -287,7 +287,7 @@ TEST(TickStatus, StateThatIsNotFiniteEndsWithoutForce) {
   EXPECT_EQ(rig.device.force_W, Vec3::Zero());
 }
 
-// ---- The program's run ----
+// The program's run.
 
 TEST(VirtualRun, RefusesToGoOnWithoutABody) {
   using demos::loadScenario;

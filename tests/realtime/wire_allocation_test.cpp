@@ -1,4 +1,4 @@
-// What is done for each datagram in the tick takes nothing from the heap.
+// The work on each datagram in the tick allocates nothing.
 
 #include <array>
 #include <cstddef>
