@@ -43,7 +43,7 @@ TEST(SmoothReference, PressIsADampedSwingAboutItsRest) {
                 rest + swing(2000, 10, 0.1, -5.0 / 2000.0, 0, timeOf(n)), 1e-12);
 }
 
-// Without damping the contact is half a swing of time pi / w, and gives the speed back.
+// Without damping the contact is half a swing of time pi / w, and returns the full speed.
 TEST(SmoothReference, UndampedImpactGivesTheSpeedBack) {
   BenchScene scene = findScene("impact");
   scene.contact.damping = 0.0;
@@ -88,9 +88,9 @@ INSTANTIATE_TEST_SUITE_P(All, SmoothScene,
                                            "corner"),
                          [](const auto& one) { return std::string(one.param); });
 
-// Two solvers that have only the scene in common. The planar one misses the moment of a touch by up
-// to a step h: at 0.5 m/s the damper's force is then missing for h, B v h / m = 0.5 mm/s, which in
-// the 70 ms after the impact, were it all, is 35 um.
+// Two solvers that share only the scene. The planar one misses the moment of a touch by up to a
+// step h. At 0.5 m/s the damper's force is then missing for h: B v h / m = 0.5 mm/s. In the 70 ms
+// after the impact that is at most 35 um.
 TEST_P(SmoothScene, BothReferencesAgree) {
   const BenchScene& scene = findScene(GetParam());
   const ReferenceRun exact = runSmoothReference(scene, kMaxStep);
@@ -110,8 +110,8 @@ INSTANTIATE_TEST_SUITE_P(All, RigidScene,
                                            "squeeze", "stack"),
                          [](const auto& one) { return std::string(one.param); });
 
-// Order one: at 24 kHz and twice as fine, the difference is at most 20 um, and refining on makes it
-// smaller. What remains at the benchmark's own step is shown in its table.
+// Order one: at 24 kHz and twice as fine, the difference is at most 20 um, and further refinement
+// reduces it. The benchmark's table shows the error at its own step.
 TEST_P(RigidScene, PlanarReferenceConverges) {
   const BenchScene& scene = findScene(GetParam());
   const ReferenceRun coarse = runPlanarReference(scene, 24000);

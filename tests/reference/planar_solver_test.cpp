@@ -1,5 +1,5 @@
-// The planar rigid solver against closed forms. Its order is one wherever contact is made, so
-// tolerances are what a step of 1/96 ms leaves: h times a speed, or h^2 times an acceleration.
+// The planar rigid solver against closed forms. Contacts make it first order. Tolerances are the
+// error of a step of 1/96 ms: h times a speed, or h^2 times an acceleration.
 
 #include "bench/reference/planar_solver.h"
 
@@ -93,7 +93,7 @@ TEST(PlanarSolver, RestingBoxPressesWithItsWeight) {
   EXPECT_NEAR(solver.normalImpulse(1, 2), 0.3 * kGravity * kStep, 1e-9 * kStep);
 }
 
-// A push F at height z tips a box of weight m g and half width a when F z > m g a.
+// A push F at height z tips a box (weight m g, half width a) if F z > m g a.
 TEST(PlanarSolver, BoxTipsWhenThePushIsStrongEnough) {
   constexpr double kMass = 0.2, kHalf = 0.02, kHeight = 0.03;
   const double limit = kMass * kGravity * kHalf / kHeight;
@@ -104,7 +104,7 @@ TEST(PlanarSolver, BoxTipsWhenThePushIsStrongEnough) {
     scene.bodies = {makeFloor(), makeBox({kHalf, kHalf}, kMass, {0, kHalf})};
     PlanarTool tool;
     tool.force = {share * limit, 0.0};
-    // Already pushing with its force: nothing swings.
+    // The tool already pushes with its full force, so nothing swings.
     tool.p = {-kHalf - tool.radius + tool.force.x() / 2000.0, kHeight};
     scene.tools = {tool};
     PlanarSolver solver(scene);
@@ -118,15 +118,16 @@ TEST(PlanarSolver, BoxTipsWhenThePushIsStrongEnough) {
   }
 }
 
-// A box that stands on a corner falls as a pendulum about it: (J + m r^2) a'' = m g r sin a, a from
-// the vertical.
+// A box that stands on a corner falls as a pendulum about it: (J + m r^2) a'' = m g r sin a, with a
+// from the vertical.
 TEST(PlanarSolver, BoxTurnsAboutItsCornerAsAPendulum) {
   constexpr double kMass = 0.2;
   const Vec2 half(0.015, 0.03);
   const double r = half.norm();
   const double inertia = kMass / 3.0 * half.squaredNorm() + kMass * r * r;
-  double a = -0.2, rate = 0.0;  // leaning left of upright over its lower left corner
-  const double upright = std::atan2(half.y(), half.x());  // of the diagonal, from the lower edge
+  double a = -0.2, rate = 0.0;  // leans left of upright over its lower left corner
+  const double upright =
+      std::atan2(half.y(), half.x());  // angle of the diagonal from the lower edge
 
   PlanarScene scene = makeScene(50.0);
   const double angle = 0.5 * std::acos(-1.0) - a - upright;
@@ -160,14 +161,14 @@ TEST(PlanarSolver, BoxesThatMeetGoOnTogether) {
   run(solver, 0.2);
   const PlanarBody& a = solver.scene().bodies[0];
   const PlanarBody& b = solver.scene().bodies[1];
-  EXPECT_NEAR(a.v.x(), 0.1, 1e-12);  // restitution 0: one speed, momentum kept
+  EXPECT_NEAR(a.v.x(), 0.1, 1e-12);  // restitution 0: one common speed, momentum conserved
   EXPECT_NEAR(b.v.x(), 0.1, 1e-12);
-  EXPECT_NEAR(b.p.x() - a.p.x(), 0.04, 1e-9);  // and no overlap
+  EXPECT_NEAR(b.p.x() - a.p.x(), 0.04, 1e-9);  // no overlap
   EXPECT_NEAR(b.p.x(), 0.05 + 0.1 * (0.2 - 0.01 / 0.4), 0.4 * kStep);
 }
 
-// A box that falls on a fixed bump d beside its centre: the point that hits stands still, so
-// j = m v / (1 + m d^2 / J), and the box turns at j d / J.
+// A box falls on a fixed bump at distance d from its centre. The point of impact stops: j = m v /
+// (1 + m d^2 / J). The box turns at j d / J.
 TEST(PlanarSolver, OffCentreImpactTurnsTheBox) {
   constexpr double kMass = 0.2, kSpeed = 0.3, kArm = 0.012;
   PlanarScene scene;
@@ -181,7 +182,7 @@ TEST(PlanarSolver, OffCentreImpactTurnsTheBox) {
   run(solver, 0.0036);  // just after the impact at 1 mm / 0.3 m/s
   const double inertia = scene.bodies[1].inertia;
   const double impulse = kMass * kSpeed / (1.0 + kMass * kArm * kArm / inertia);
-  // Since then the box has rolled on the bump for less than 0.3 ms, at w^2 d < 1 m/s^2.
+  // Since the impact the box has rolled on the bump for less than 0.3 ms, at w^2 d < 1 m/s^2.
   EXPECT_NEAR(solver.scene().bodies[1].w, impulse * kArm / inertia, 0.02);
   EXPECT_NEAR(solver.scene().bodies[1].v.y(), -kSpeed + impulse / kMass, 4e-4);
 }

@@ -13,9 +13,9 @@
 namespace tandem::reference {
 namespace {
 
-// The tables were made with the device's own position as HIP and are printed with three or four
-// digits: another integrator must agree to 0.2 %. Extrapolating the HIP over a millisecond is a
-// slightly different system and moves the smooth figures by less than 1 %.
+// The tables use the device's own position as HIP and have three or four digits. Another integrator
+// must agree to 0.2 %. Extrapolating the HIP over a millisecond is a slightly different system, and
+// changes smooth values by less than 1 %.
 constexpr double kTableTolerance = 0.002;
 constexpr double kExtrapolatedTolerance = 0.01;
 
@@ -61,7 +61,7 @@ TEST_P(PaperTables, CooperativeManipulation) {
     expectClose(summary.coherency_mean, row.mean);
     expectClose(summary.coherency_max, row.max);
     expectClose(summary.force_mean[0], row.force);
-    // These are printed with fewer digits: half of the last one comes on top.
+    // These values have fewer digits: half of the last digit is added.
     const double relative = GetParam().tolerance;
     EXPECT_NEAR(summary.received_mean[0], row.received_1, 0.05e-3 + relative * row.received_1);
     EXPECT_NEAR(summary.received_mean[1], row.received_2, 0.005e-3 + relative * row.received_2);
@@ -86,8 +86,9 @@ TEST_P(PaperTables, UserContactIsKeptByRemoteDynamicProxies) {
   }
 }
 
-// Bouncing is chaotic: the count and the force are judged by their size. 30 % keeps the soft cases
-// (about 24 changes, 8 N) well apart from the stiff one (88, 14 N) and from kept contact (1).
+// Bouncing is chaotic, so count and force have wide tolerances. 30 % separates the soft cases
+// (about 24 changes, 8 N) from the stiff one (88, 14 N). It also separates them from lasting
+// contact (1).
 TEST_P(PaperTables, UserContactIsIntermittentWithKinematicProxies) {
   struct Row {
     double stiffness, delay;  // [N/m], [s]
@@ -106,9 +107,9 @@ TEST_P(PaperTables, UserContactIsIntermittentWithKinematicProxies) {
   }
 }
 
-// A contact that is made inside a step misses its damper's impulse for up to a step: at 0.3 m/s and
-// 4 us that leaves B v h / m = 1.2e-5 m/s on a body, which the coordination coupling brakes within
-// m / B_t = 1/300 s, so each make costs at most 4e-8 m. There are about a dozen of them.
+// A contact made inside a step misses its damper's impulse for up to a step. At 0.3 m/s and 4 us
+// that is B v h / m = 1.2e-5 m/s on a body. The coordination coupling brakes it within m / B_t =
+// 1/300 s, so each make costs at most 4e-8 m. There are about a dozen.
 TEST(PaperModel, ConvergesWithTheStep) {
   PaperParameters coarse = makeCooperativeManipulation(Scheme::kRemoteDynamicProxy);
   PaperParameters fine = coarse;
@@ -143,7 +144,7 @@ TEST(PaperModel, DeviceThatLeavesTheCubeMovesAlone) {
   EXPECT_EQ(result.summary.contact_transitions[0], 0);
 }
 
-// User 2 pushing towards -x is the mirror image of user 1 pushing towards +x.
+// User 2 pushing towards -x mirrors user 1 pushing towards +x.
 TEST(PaperModel, UsersAreInterchangeable) {
   PaperParameters first = makeCooperativeManipulation(Scheme::kRemoteDynamicProxy);
   first.sampling.duration = 0.3;
@@ -163,7 +164,7 @@ TEST(PaperModel, UsersAreInterchangeable) {
 TEST(PaperModel, NothingReachesTheOtherSiteBeforeTheDelay) {
   const PaperParameters parameters = makeCooperativeManipulation(Scheme::kRemoteDynamicProxy);
   const PaperResult result = runPaperModel(parameters);
-  // Packet 0 tells of the start; the first that tells of motion leaves one packet period later.
+  // Packet 0 carries the start; the first packet with motion leaves one packet period later.
   const double news = parameters.sampling.delay + 1.0 / parameters.sampling.packet_rate;
   for (const PaperRow& row : result.rows) {
     ASSERT_EQ(row.x12 != 0.0, row.t > news) << "t = " << row.t;

@@ -18,7 +18,7 @@ struct BoxLoad {
   Vec3 torque = Vec3::Zero();  // about the centre, in W
 };
 
-// Sums what acts on each body; keeps its storage from one evaluation to the next.
+// Sums the forces on each body; keeps its storage between evaluations.
 class Loads {
  public:
   explicit Loads(const RigidScene& scene)
@@ -102,7 +102,7 @@ class SceneIntegrator {
     y_ += step / 6.0 * (sum_ + slope_);
   }
 
-  // Leaves the state in the scene.
+  // Stores the state in the scene.
   void finish() { unpack(y_); }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20090216;
 
-// Random numbers that are the same with every standard library.
+// Random numbers that are equal with every standard library.
 class Random {
  public:
   [[nodiscard]] double uniform(double low, double high) {
@@ -64,7 +64,7 @@ TEST(SphereBoxContact, FindsFacesEdgesCornersAndInside) {
   const Box box = makeUniformBox(Vec3(0.2, 0.4, 0.6), 1.0);  // half: 0.1, 0.2, 0.3
   struct Case {
     Vec3 centre, point, normal;
-    double distance;  // of the centre outside the box, negative inside
+    double distance;  // distance of the centre from the surface, negative inside
   };
   for (const Case& c : {
            Case{{0.13, 0.1, 0.0}, {0.1, 0.1, 0.0}, Vec3::UnitX(), 0.03},
@@ -81,9 +81,9 @@ TEST(SphereBoxContact, FindsFacesEdgesCornersAndInside) {
   }
 }
 
-// The force uses -n (v_sphere - v_material): it must be d(overlap)/dt, also where box and sphere
-// move and turn, wherever the nearest point is. Central differences over +-1 us err by about
-// v^2 / d * 1e-12 / 1e-6 with distances d down to 1e-3 m.
+// The force uses -n (v_sphere - v_material), which must equal d(overlap)/dt for any moving and
+// turning box and sphere. Central differences over +-1 us err by about v^2 / d * 1e-12 / 1e-6, with
+// distances d down to 1e-3 m.
 TEST(SphereBoxContact, OverlapRateIsTheDerivativeOfOverlap) {
   Random random;
   RecordProperty("seed", std::to_string(kSeed));
@@ -146,8 +146,8 @@ TEST(RigidReference, LoneCouplerIsADampedOscillator) {
   }
 }
 
-// About a principal axis the rotation vector is axis times angle at any angle below half a turn,
-// so the angular coupler is the same oscillator with J for m.
+// About a principal axis the rotation vector is axis times angle, for any angle below half a turn.
+// The angular coupler is then the same oscillator with J for m.
 TEST(RigidReference, AngularCouplerIsADampedOscillatorOfTheAngle) {
   RigidScene scene;
   Box box = makeUniformBox(Vec3(0.04, 0.05, 0.06), 0.1);
@@ -179,8 +179,8 @@ TEST(RigidReference, FallsFreelyUnderGravityAndForce) {
   EXPECT_NEAR(computeEnergy(scene) - 0.4 * 0.25, energy, 1e-12);
 }
 
-// Elastic and head-on: velocities are (m1 - m2) / (m1 + m2) and 2 m1 / (m1 + m2) of the first
-// sphere's, after a contact of pi sqrt(mu / K).
+// The collision is elastic and head-on. Final velocities are (m1 - m2) / (m1 + m2) and 2 m1 / (m1 +
+// m2) of the first sphere's. The contact lasts pi sqrt(mu / K).
 TEST(RigidReference, SpheresBounceElastically) {
   RigidScene scene;
   scene.contact = {4000.0, 0.0};
@@ -189,7 +189,7 @@ TEST(RigidReference, SpheresBounceElastically) {
   const double reduced_mass = 0.1 * 0.3 / 0.4;
   const double contact_time = std::numbers::pi * std::sqrt(reduced_mass / 4000.0);
 
-  advanceScene(scene, contact_time / 2.0, 1e-6);  // both move at the common speed, fully pressed
+  advanceScene(scene, contact_time / 2.0, 1e-6);  // both have the common speed, fully pressed
   EXPECT_NEAR(scene.spheres[0].v.x(), 0.25, 1e-9);
   EXPECT_NEAR(scene.spheres[1].v.x(), 0.25, 1e-9);
   EXPECT_NEAR(computeContactForceOnSphere(scene, 1).x(), std::sqrt(reduced_mass * 4000.0), 1e-6);
@@ -200,8 +200,8 @@ TEST(RigidReference, SpheresBounceElastically) {
   EXPECT_NEAR(scene.spheres[1].v.x(), 0.5, 1e-8);
 }
 
-// The axis of a free symmetric top circles the angular momentum H at |H| / I1 while the top turns
-// about its own axis at (I1 - I3) / I1 w3.
+// The axis of a free symmetric top circles the angular momentum H at |H| / I1. The top turns about
+// its own axis at (I1 - I3) / I1 w3.
 TEST(RigidReference, SymmetricTopPrecesses) {
   RigidScene scene;
   Box top = makeUniformBox(Vec3(0.06, 0.06, 0.02), 0.2);
@@ -221,7 +221,7 @@ TEST(RigidReference, SymmetricTopPrecesses) {
   }
 }
 
-// Spheres that fly at a turning box from all sides, without damping.
+// Spheres fly at a turning box from all sides, without damping.
 TEST(RigidReference, ElasticImpactsKeepEnergyAndMomenta) {
   Random random;
   for (int i = 0; i < 20; ++i) {
@@ -240,7 +240,7 @@ TEST(RigidReference, ElasticImpactsKeepEnergyAndMomenta) {
     const double energy = computeEnergy(scene);
     const Vec3 momentum = computeMomentum(scene);
     const Vec3 angular_momentum = computeAngularMomentum(scene);
-    double stored = 0.0;  // largest energy in springs, as kinetic energy lost [J]
+    double stored = 0.0;  // largest energy in springs, equal to the kinetic energy lost [J]
     for (int k = 0; k < 60; ++k) {
       advanceScene(scene, 2e-3, 1e-5);
       RigidScene springless = scene;
@@ -288,7 +288,7 @@ TEST(RigidReference, ErrorFallsWithTheFourthPowerOfTheStep) {
   const auto turnError = [&](double step) {
     return computeRotationVector(exact.q, runWithStep(step).q).norm();
   };
-  // Position and velocity together, because either alone passes through zero as the box swings.
+  // Combines position and velocity, because either alone passes through zero as the box swings.
   const double frequency = std::sqrt(box.coupling.stiffness / box.mass);
   const auto shiftError = [&](double step) {
     const Box rough = runWithStep(step);

@@ -94,7 +94,7 @@ Vec3 computeContactForceOnSphere(const RigidScene& scene, std::size_t sphere) {
 Vec3 computeRotationVector(const Quat& from, const Quat& to) {
   Quat turn = to * from.conjugate();
   if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
-  const double sine = turn.vec().norm();  // of half the angle
+  const double sine = turn.vec().norm();  // sine of half the angle
   if (sine == 0.0) return Vec3::Zero();
   return 2.0 * std::atan2(sine, turn.w()) / sine * turn.vec();
 }

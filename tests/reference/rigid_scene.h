@@ -13,18 +13,18 @@ namespace tandem::reference {
 using Vec3 = Eigen::Vector3d;
 using Quat = Eigen::Quaterniond;
 
-/// What moves a sphere.
+/// Motion of a sphere.
 enum class Motion {
-  kDynamic,     ///< all forces, those of contacts included
-  kDriven,      ///< its own forces and coupling only: contacts push the others but not it
-  kPrescribed,  ///< nothing: p + v tau from where it was put
+  kDynamic,     ///< by all forces, including contacts
+  kDriven,      ///< by its own forces and coupling only: contacts push the others but not it
+  kPrescribed,  ///< by p + v tau from its start, without forces
 };
 
 /// A sphere that does not rotate: a point mass with a radius. World frame W.
 struct Sphere {
   double radius = 0.01;  ///< [m]
   double mass = 0.1;     ///< [kg]
-  double damping = 0.0;  ///< linear, against the world [N s/m]
+  double damping = 0.0;  ///< linear, relative to the world [N s/m]
   Motion motion = Motion::kDynamic;
   bool touches = true;  ///< takes part in contacts
 
@@ -42,7 +42,7 @@ struct Box {
   Vec3 size = Vec3::Constant(0.04);  ///< edge lengths along the box's own axes [m]
   double mass = 0.2;                 ///< [kg]
   Vec3 inertia = Vec3::Ones();       ///< principal moments about the centre [kg m^2]
-  double damping = 0.0;              ///< linear, of the translation, against the world [N s/m]
+  double damping = 0.0;              ///< linear, of the translation, relative to the world [N s/m]
 
   Vec3 p = Vec3::Zero();       ///< centre [m]
   Quat q = Quat::Identity();   ///< turns box coordinates into world coordinates
@@ -62,16 +62,16 @@ struct Box {
 /// A uniform box at rest at the origin: inertia m/12 (b^2 + c^2) about each axis.
 [[nodiscard]] Box makeUniformBox(const Vec3& size, double mass);
 
-/// Bodies that meet by frictionless contacts: every sphere with every box and every other sphere.
-/// Boxes do not meet each other.
+/// Bodies with frictionless contacts: every sphere with every box and every other sphere. Boxes do
+/// not touch each other.
 struct RigidScene {
-  SpringDamper contact{};       ///< of every contact
+  SpringDamper contact{};       ///< gains of every contact
   Vec3 gravity = Vec3::Zero();  ///< acts on all but prescribed bodies [m/s^2]
   std::vector<Sphere> spheres{};
   std::vector<Box> boxes{};
 };
 
-/// Where a sphere meets another body.
+/// Contact of a sphere with another body.
 struct Contact {
   double overlap = 0.0;         ///< positive while they overlap [m]
   Vec3 normal = Vec3::UnitX();  ///< from the other body towards the sphere
@@ -90,7 +90,7 @@ struct Contact {
 [[nodiscard]] Vec3 computeContactForce(const SpringDamper& gains, const Contact& contact,
                                        const Vec3& velocity);
 
-/// A sphere that overlaps a box or another sphere, and the force that this puts on it.
+/// A sphere that overlaps a box or another sphere, and the contact force on the sphere.
 struct Touch {
   std::size_t sphere = 0;     ///< index in RigidScene::spheres
   bool other_is_box = false;  ///< the other body is a box, else a sphere
@@ -102,7 +102,7 @@ struct Touch {
 /// Replaces `touches` by all pairs that overlap now, each pair once.
 void findTouches(const RigidScene& scene, std::vector<Touch>& touches);
 
-/// Sum of the contact forces that act on one sphere, whatever moves it [N].
+/// Sum of the contact forces on one sphere, for any kind of its motion [N].
 [[nodiscard]] Vec3 computeContactForceOnSphere(const RigidScene& scene, std::size_t sphere);
 
 /// Axis times angle of the shortest rotation from `from` to `to`, in W [rad].

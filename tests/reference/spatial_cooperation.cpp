@@ -8,11 +8,11 @@
 namespace tandem::reference {
 namespace {
 
-// Spheres of a site's scene. The device is a driven body: it feels its hand and the force it holds,
-// not the contacts of the island. Which of device and HIP touches depends on the HIP's motion.
+// Spheres of a site's scene. The device is a driven body: it feels its hand and the held force, not
+// the contacts of the island. The HIP's motion decides whether device or HIP touches.
 enum SphereIndex : std::size_t { kDevice, kHip, kProxy, kSphereCount };
 
-// What a site tells the other one.
+// State that one site sends to the other.
 struct Packet {
   Vec3 device_p, device_v;
   Vec3 box_p, box_v;
@@ -35,7 +35,7 @@ class SpatialUser {
   [[nodiscard]] const Box& box() const { return scene_.boxes.front(); }
 
   RigidScene scene_;
-  std::size_t touching_;  // the sphere that stands for the local user in contacts
+  std::size_t touching_;  // the sphere that represents the local user in contacts
   double step_;
   Vec3 hand_force_;
   Vec3 held_force_ = Vec3::Zero();

@@ -13,18 +13,18 @@ namespace tandem::reference {
 /// Experiment I in space: two users hold a free cube between two spheres, by remote dynamic
 /// proxies.
 ///
-/// The cube starts centred at the origin with its edges along the axes; user 1's sphere just
-/// touches its face at -x and user 2's the face at +x. Index 0 is site 1 (user 1), index 1 is
-/// site 2.
+/// The cube starts centred at the origin with its edges along the axes. User 1's sphere just
+/// touches its face at -x and user 2's the face at +x. Index 0 is site 1 (user 1), index 1 is site
+/// 2.
 struct SpatialParameters {
   HipMotion hip_motion = HipMotion::kExtrapolated;
   std::array<Vec3, 2> hand_force{Vec3(5.0, 0.0, 0.0), Vec3::Zero()};  ///< constant, in W [N]
   std::array<Vec3, 2> start_offset{Vec3::Zero(), Vec3::Zero()};  ///< added to the start, x = 0 [m]
 
-  SpringDamper contact{4000.0, 1.0};       ///< of every contact
+  SpringDamper contact{4000.0, 1.0};       ///< gains of every contact
   SpringDamper coordination{200.0, 30.0};  ///< RDP to its user, cube copy to the other copy
-  /// Turns the copies towards each other [N m/rad, N m s/rad]. Empty: `coordination` times J / m of
-  /// a copy, which makes both motions equally stiff.
+  /// Turns the copies towards each other [N m/rad, N m s/rad]. If empty: `coordination` times J / m
+  /// of a copy, which makes both motions equally stiff.
   std::optional<SpringDamper> angular_coordination{};
 
   double object_size = 0.04;    ///< edge of the cube [m]
@@ -58,15 +58,15 @@ struct SpatialResult {
   SpatialRow end;                ///< at t = duration, the force being that of the last period
 };
 
-/// Where user `user` (0 or 1) starts: centre of the HIP [m].
+/// Start of user `user` (0 or 1): centre of the HIP [m].
 [[nodiscard]] Vec3 computeStart(const SpatialParameters& parameters, std::size_t user);
 
 /// Gains that turn the copies: angular_coordination, or its default for the uniform cube.
 [[nodiscard]] SpringDamper computeAngularCoordination(const SpatialParameters& parameters);
 
 /// Runs both sites. At each, the local HIP, the RDP of the other user and the cube copy touch each
-/// other; devices, ticks and packets are timed as in runPaperModel(). No guide, no gravity.
-/// Throws std::invalid_argument on masses, step or sampling that make no sense.
+/// other. Devices, ticks and packets are timed as in runPaperModel(). There is no guide and no
+/// gravity. Throws std::invalid_argument on invalid masses, step or sampling.
 [[nodiscard]] SpatialResult runSpatialCooperation(const SpatialParameters& parameters);
 
 }  // namespace tandem::reference

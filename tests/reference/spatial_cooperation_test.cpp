@@ -11,8 +11,8 @@
 namespace tandem::reference {
 namespace {
 
-// Contacts are made and broken inside steps of 5 us here and of 2 us in the paper model. Each costs
-// up to 5e-8 m (see PaperModel.ConvergesWithTheStep); a contact turns the sum into K times as much.
+// Contacts begin and end inside steps of 5 us here and of 2 us in the paper model. Each costs up to
+// 5e-8 m (see PaperModel.ConvergesWithTheStep). A contact multiplies the sum by K.
 constexpr double kPositionTolerance = 5e-7;                      // [m]
 constexpr double kForceTolerance = 4000.0 * kPositionTolerance;  // [N]
 
@@ -54,7 +54,7 @@ TEST_P(SpatialHip, AxialForcesGiveThePaperModel) {
     ASSERT_NEAR(a.x12, site_2.proxy_p.x() - start_1, kPositionTolerance);
     ASSERT_NEAR(a.force_1, site_1.force.x(), kForceTolerance);
     ASSERT_NEAR(a.force_2, site_2.force.x(), kForceTolerance);
-    // Nothing leaves the axis.
+    // All motion stays on the axis.
     ASSERT_EQ(site_1.box_p.tail<2>().norm() + site_2.box_p.tail<2>().norm(), 0.0);
     ASSERT_EQ(site_1.box_q.vec().norm() + site_2.box_q.vec().norm(), 0.0);
   }
@@ -65,7 +65,7 @@ TEST_P(SpatialHip, AxialForcesGiveThePaperModel) {
 
 TEST(SpatialCooperation, OffCentrePushTurnsBothCopies) {
   const SpatialResult result = runSpatialCooperation(makeOffCentre());
-  // User 1 pushes along +x above the centre (+y): the cube turns about -z, first at site 1.
+  // User 1 pushes along +x above the centre (+y). The cube turns about -z, first at site 1.
   const Vec3 early = computeRotationVector(Quat::Identity(), result.rows[45].site[0].box_q);
   EXPECT_LT(early.z(), -0.01);
   for (const SpatialSite& site : result.end.site) {
@@ -73,8 +73,8 @@ TEST(SpatialCooperation, OffCentrePushTurnsBothCopies) {
   }
 }
 
-// Coordination acts on the difference of the two turns only: it keeps the copies together and lets
-// them turn in common.
+// Coordination acts only on the difference of the two rotations. It keeps the copies together and
+// lets them turn together.
 TEST(SpatialCooperation, AngularCoordinationKeepsCopiesTogether) {
   const auto turnOf = [](const SpatialRow& row, std::size_t site) {
     return computeRotationVector(Quat::Identity(), row.site[site].box_q).norm();
@@ -92,7 +92,7 @@ TEST(SpatialCooperation, AngularCoordinationKeepsCopiesTogether) {
 }
 
 TEST(SpatialCooperation, TurnsWithTheScene) {
-  // A quarter turn about x maps the cube onto itself, and so the whole run onto a turned run.
+  // A quarter turn about x maps the cube onto itself, so it maps the run onto a turned run.
   const Quat turn(Eigen::AngleAxisd(std::numbers::pi / 2.0, Vec3::UnitX()));
   const SpatialParameters upright = makeOffCentre();
   SpatialParameters turned = upright;
@@ -154,7 +154,7 @@ TEST(SpatialCooperation, HipAndProxyPushEachOtherAtEachSite) {
     force_1 = std::min(force_1, row.site[0].force.x());
     force_2 = std::max(force_2, row.site[1].force.x());
     ASSERT_EQ(row.site[0].box_p.norm(), 0.0);
-    // Mirror images of each other.
+    // The users are mirror images.
     ASSERT_NEAR(row.site[0].device_p.x(), -row.site[1].device_p.x(), 1e-12);
   }
   EXPECT_LT(force_1, -1.0);
