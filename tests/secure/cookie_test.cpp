@@ -1,4 +1,4 @@
-// Cookies hold for who asked, where, and for one to two slots; and for nobody else.
+// A cookie is valid for its asker, address and one to two slots only.
 
 #include "secure/cookie.h"
 

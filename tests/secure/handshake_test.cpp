@@ -1,4 +1,4 @@
-// What the handshake gives to two sites with the same key, and refuses to everybody else.
+// The handshake succeeds for two sites with the same key, and refuses all others.
 
 #include "secure/handshake.h"
 
@@ -129,7 +129,7 @@ TEST(Handshake, RefusesAKeyThatWasMovedAway) {
   EXPECT_THROW(secure::Responder(taken, kPrologue, std::move(key)), std::invalid_argument);
 }
 
-// Points whose product with any secret is zero (RFC 7748, section 6.1), made by one who has the
+// Points whose product with any secret is zero (RFC 7748, section 6.1), from a peer that has the
 // key.
 TEST(Handshake, RefusesPointsOfLowOrder) {
   const char* const kPoints[] = {

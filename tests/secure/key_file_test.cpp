@@ -1,4 +1,4 @@
-// Key files: what is written reads back, and everything else is refused by a line with the remedy.
+// A written key file reads back. All others are refused by one line with the remedy.
 
 #include "tandem/plugin/key_file.h"
 
@@ -106,7 +106,7 @@ class KeyFile : public ::testing::Test {
   }
   ~KeyFile() override { fs::remove_all(folder); }
 
-  /// A file with this text that its owner alone may read.
+  /// Writes a file with this text that only its owner may read.
   [[nodiscard]] fs::path write(const std::string& text, mode_t mode = 0600) const {
     const fs::path path = folder / "written.key";
     std::ofstream(path) << text;
@@ -119,7 +119,7 @@ class KeyFile : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  /// What is thrown is one line with the path and these words.
+  /// Expects an error of one line with the path and these words.
   static void expectRefused(const std::function<void()>& act,
                             const std::vector<std::string>& words) {
     try {
@@ -186,10 +186,10 @@ TEST_F(KeyFile, RefusesAFolderThatIsNotThere) {
   expectRefused([&] { makeKeyFile(path); }, {path.string(), "No such file", "folder"});
 }
 
-/// 0 if a key that does not fit is an error of one line, with nothing left behind. For a process of
-/// its own: its files stay small.
+/// Returns 0 if a key that does not fit is an error of one line and leaves no file. Runs in its own
+/// process: its files stay small.
 int makeKeyWithoutRoom(const fs::path& path) {
-  constexpr rlim_t kRoom = 40;  // less than a key file [bytes]
+  constexpr rlim_t kRoom = 40;  // smaller than a key file [bytes]
   const rlimit limit{kRoom, kRoom};
   signal(SIGXFSZ, SIG_IGN);
   if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;

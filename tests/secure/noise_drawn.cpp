@@ -1,5 +1,5 @@
-// Draws handshakes and prints everything of them as lines of JSON, for noise_reference.py to
-// compute again on its own.
+// Draws handshakes and prints all their values as lines of JSON. noise_reference.py recomputes them
+// independently.
 //
 //   tandem_noise_drawn [COUNT [SEED]]
 

@@ -40,7 +40,7 @@ TEST(NoiseVectors, Handshake) {
   EXPECT_EQ(toHex(pair.responder.hash()), vectors.all.at("handshake_hash"));
 }
 
-// With salt 0 and nothing associated, sealing is Noise's own transport.
+// With salt 0 and no associated data, sealing is Noise's own transport.
 TEST(NoiseVectors, TransportAfterTheHandshake) {
   const Vectors vectors;
   Pair pair = vectors.makePair();

@@ -1,4 +1,4 @@
-// When keys are due for new ones, and when they are refused.
+// Times at which keys are due for renewal, and at which they are refused.
 
 #include "secure/rekey_policy.h"
 

@@ -1,4 +1,4 @@
-// Sealing and opening of datagrams: nothing but what was sealed opens, and no nonce comes twice.
+// Sealing and opening of datagrams. Only sealed datagrams open, and no nonce repeats.
 
 #include "secure/seal.h"
 
@@ -88,8 +88,8 @@ TEST(Seal, AMovedSealerGoesOnAndTheOldOneSealsNothing) {
   EXPECT_FALSE(gone.open(0, kHeader, datagram));
 }
 
-// Zeros seal to the key stream itself, which is the same for two datagrams only if key and nonce
-// are.
+// Zeros seal to the key stream itself. Two datagrams have the same one only for equal key and
+// nonce.
 TEST(Seal, NoNonceComesTwiceOverRekeys) {
   constexpr int kEpochs = 200;
   constexpr std::uint64_t kLimit = 50;
@@ -124,7 +124,7 @@ class WrongDatagram : public ::testing::Test {
     const ByteVector before = datagram;
     EXPECT_FALSE(tried.open(sequence, header, datagram));
     ASSERT_EQ(datagram.size(), before.size());
-    // As it was, or its text wiped.
+    // The datagram is unchanged, or its text is wiped.
     if (datagram != before) {
       datagram.resize(datagram.size() - kTagSize);
       EXPECT_EQ(datagram, ByteVector(datagram.size(), 0));

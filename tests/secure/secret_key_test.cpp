@@ -1,4 +1,4 @@
-// Keys are never copied or printed, and gone when they end.
+// Keys are never copied or printed, and are wiped at their end.
 
 #include "tandem/plugin/secret_key.h"
 
@@ -62,7 +62,7 @@ TEST(SecretKey, MovesWithoutACopy) {
   EXPECT_EQ(from.data(), where);
 }
 
-// Its page goes back to the system, wiped: reading it ends the program.
+// The key's page returns to the system, wiped: reading it ends the program.
 TEST(SecretKeyDeathTest, IsGoneAtItsEnd) {
   EXPECT_DEATH(
       {
@@ -97,13 +97,13 @@ TEST(SecretKeyDeathTest, StandsBeforeAPageThatNobodyMayTouch) {
       "");
 }
 
-/// 0 if keys work where nothing can be locked, and say so. For a process of its own: gives up the
-/// right to lock.
+/// Returns 0 if keys work where no memory can be locked, and report it. Runs in its own process: it
+/// gives up the right to lock.
 int useKeysWithoutLocks() {
   const rlimit none{0, 0};
   if (setrlimit(RLIMIT_MEMLOCK, &none) != 0) return 2;
   if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 3;
-  // Sanitizers put a function that does nothing and succeeds in the place of mlock.
+  // Sanitizers replace mlock by a function that does nothing and succeeds.
   alignas(4096) static char page[4096];
   const bool can_lock = mlock(page, sizeof page) == 0;
   const SecretKey key = SecretKey::generate(), other = SecretKey::generate();

@@ -47,7 +47,7 @@ inline SecretKey copyOf(const SecretKey& key) { return keyOf({key.data(), Secret
 
 inline std::string toHex(const SecretKey& key) { return toHex({key.data(), SecretKey::kSize}); }
 
-/// Draws for property tests; the same everywhere for the same seed.
+/// Random draws for property tests; equal everywhere for the same seed.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : engine_(seed) {}
@@ -61,16 +61,16 @@ class Draw {
   }
   SecretKey key() { return keyOf(bytes(SecretKey::kSize)); }
 
-  /// What an attacker without the key may make of a datagram; never the datagram itself.
+  /// A change that an attacker without the key may make to a datagram; never the datagram itself.
   ByteVector forge(const ByteVector& right) {
     ByteVector wrong = right;
     do {
       switch (below(5)) {
-        case 0:  // one bit
+        case 0:  // one bit flipped
           if (!wrong.empty())
             wrong[below(wrong.size())] ^= static_cast<std::uint8_t>(1U << below(8));
           break;
-        case 1:  // some bytes
+        case 1:  // some bytes changed
           for (std::size_t i = below(8) + 1; i > 0 && !wrong.empty(); --i)
             wrong[below(wrong.size())] = static_cast<std::uint8_t>(engine_());
           break;
@@ -80,7 +80,7 @@ class Draw {
         case 3:  // extended
           wrong.resize(right.size() + below(40) + 1, static_cast<std::uint8_t>(engine_()));
           break;
-        default:  // from nothing
+        default:  // all new
           wrong = bytes(below(2 * right.size()));
       }
     } while (wrong == right);
@@ -102,7 +102,7 @@ struct Pair {
       : initiator(shared, prologue, std::move(e1)), responder(shared, prologue, std::move(e2)) {}
 };
 
-/// A message with this payload; empty if the side refuses to write.
+/// Writes a message with this payload; empty if the side refuses.
 template <typename Side>
 ByteVector write(Side& side, secure::ByteView payload = {}) {
   ByteVector message(payload.size() + secure::kHandshakeOverhead);
@@ -110,7 +110,7 @@ ByteVector write(Side& side, secure::ByteView payload = {}) {
   return message;
 }
 
-/// The payload of a message; nothing if it is refused.
+/// Reads the payload of a message; empty if the side refuses.
 template <typename Side>
 std::optional<ByteVector> read(Side& side, secure::ByteView message) {
   ByteVector payload(message.size());
