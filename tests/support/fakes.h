@@ -8,7 +8,7 @@
 
 namespace tandem::testing {
 
-/// A device that stands where the test says, and remembers the forces written to it.
+/// A device at a place that the test sets; it records the forces written to it.
 class FakeDevice final : public HapticDevice {
  public:
   FakeDevice() = default;
@@ -22,8 +22,7 @@ class FakeDevice final : public HapticDevice {
   Vec3 force_W = Vec3::Zero();
 };
 
-/// A link whose arrivals the test puts in, ordered by time; what is sent is kept (as many as
-/// `room`).
+/// A link whose arrivals the test inserts, ordered by time. It keeps up to `room` sent packets.
 class FakeLink final : public Link {
  public:
   explicit FakeLink(std::size_t room = 0) { sent.reserve(room); }

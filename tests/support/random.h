@@ -8,7 +8,8 @@
 
 namespace tandem::test {
 
-/// Numbers for property tests. Own distributions: the standard ones differ between libraries.
+/// Random numbers for property tests. It has its own distributions: the standard ones differ
+/// between libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -16,9 +17,9 @@ class Random {
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
   }
-  /// With evenly spread logarithms.
+  /// Uniform on a logarithmic scale.
   double logUniform(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
-  /// 0 to count - 1.
+  /// Uniform in 0 to count - 1.
   int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
   Vec3 inCube(double half) {
     const double x = uniform(-half, half), y = uniform(-half, half), z = uniform(-half, half);

@@ -5,7 +5,7 @@
 
 namespace tandem::test {
 
-/// What `check` says of default settings that `spoil` has changed; "" if it takes them.
+/// The message of `check` for default settings that `spoil` has changed; "" if it accepts them.
 template <typename Settings, typename Spoil>
 std::string refusalOf(void (*check)(const Settings&), Spoil spoil) {
   Settings settings;

@@ -11,7 +11,7 @@
 
 namespace tandem::test {
 
-/// Corners and faces, counter-clockwise seen from outside.
+/// A solid by corners and faces, counter-clockwise seen from outside.
 struct Solid {
   std::vector<Vec3> corners;
   std::vector<std::vector<int>> faces;
@@ -27,7 +27,7 @@ inline Solid makeBoxSolid(const Vec3& half) {
   return solid;
 }
 
-/// With a corner at each end of three axes.
+/// An octahedron with a corner at each end of three axes.
 inline Solid makeOctahedron(const Vec3& half) {
   Solid solid;
   for (int axis = 0; axis < 3; ++axis)
@@ -64,7 +64,7 @@ inline ConvexHull makeHull(const Solid& solid, double rounding = 0.0) {
   return {std::make_shared<const ConvexPolyhedron>(solid.corners, solid.faces), rounding};
 }
 
-/// Three corners for each triangle, of faces cut into fans.
+/// Three corners for each triangle; faces are cut into fans.
 inline std::vector<Vec3> cutIntoTriangles(const Solid& solid) {
   std::vector<Vec3> corners;
   for (const std::vector<int>& face : solid.faces)
@@ -78,8 +78,8 @@ inline Mesh makeMesh(const std::vector<Vec3>& corners, double skin = 0.0) {
   return {std::make_shared<const TriangleMesh>(corners), skin};
 }
 
-/// A floor at y = 0 of cells of this length, `count` by `count` around the origin, each cut along
-/// one diagonal or the other.
+/// A floor at y = 0 with cells of length `cell`, `count` by `count` around the origin. Each cell is
+/// cut along one of its diagonals.
 inline std::vector<Vec3> makeFloor(int count, double cell) {
   std::vector<Vec3> corners;
   const auto at = [&](int i, int j) {
