@@ -22,7 +22,7 @@ Bytes encode(const AgreeAnswer& answer) {
   return collect([&](ByteSpan out) { return encodeAgreeAck(answer, out); });
 }
 
-/// A configuration of `count` items whose keys and values are of any allowed length.
+/// A configuration of `count` items whose keys and values have any allowed length.
 Configuration drawConfiguration(std::mt19937_64& random, std::size_t count) {
   std::vector<ConfigurationItem> items;
   for (std::size_t i = 0; i < count; ++i) {
@@ -94,7 +94,7 @@ TEST(WireAgree, ConfigurationsOfAnySizeComeAcross) {
     const Configuration configuration = drawConfiguration(random, count);
     auto parts = makeAgreeParts(configuration);
     std::shuffle(parts.begin(), parts.end(), random);
-    parts.push_back(parts.front());  // one comes twice
+    parts.push_back(parts.front());  // one item occurs twice
     AgreeCollector collector;
     for (const AgreePart& part : parts) {
       const Bytes bytes = encode(part);

@@ -14,7 +14,7 @@
 #include "coordination/src/wire/wire_state.h"
 
 /// \file
-/// The golden files as bytes, and their values as golden/index.txt has them.
+/// The golden files as bytes, and their values from golden/index.txt.
 namespace tandem::test {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -27,7 +27,7 @@ inline Bytes readGolden(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Calls encode(ByteSpan) with room for any datagram, and gives what it wrote.
+/// Calls encode(ByteSpan) with room for any datagram. Returns the written bytes.
 template <class Encode>
 Bytes collect(const Encode& encode) {
   Bytes bytes(kMaxDatagramSize);
@@ -35,7 +35,7 @@ Bytes collect(const Encode& encode) {
   return bytes;
 }
 
-/// Header, then the payload that encode(ByteSpan) writes; empty if either is refused.
+/// A header, then the payload written by encode(ByteSpan); empty if either is refused.
 template <class Encode>
 Bytes collectOpened(const ClearHeader& header, const Encode& encode) {
   return collect([&](ByteSpan out) -> std::size_t {
@@ -89,7 +89,7 @@ inline StateMessage makeState(WireProfile profile) {
   return message;
 }
 
-/// Values of state_full.bin: everything at its bound.
+/// Values of state_full.bin: every field at its bound.
 inline StateMessage makeFullState() {
   StateMessage message;
   message.send_time_us = message.echo_send_time_us = kMaxWireTimeUs;

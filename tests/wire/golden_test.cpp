@@ -1,4 +1,4 @@
-// Golden files of coordination/STANDARD.md, section 12: exactly these bytes of these values.
+// Golden files of coordination/STANDARD.md, section 12: these values give exactly these bytes.
 
 #include "wire/golden.h"
 
@@ -87,7 +87,7 @@ void expectHeader(const ClearHeader& header, const ClearHeader& expected) {
   EXPECT_EQ(header.sequence, expected.sequence);
 }
 
-/// To the bit, signs of zeros too.
+/// Compares bit for bit, including signs of zeros.
 template <class A, class B>
 void expectSame(const A& a, const B& b) {
   for (Eigen::Index i = 0; i < a.size(); ++i) {

@@ -101,7 +101,7 @@ TEST(WireHandshake, HelloOfAnotherVersionIsAnswered) {
   EXPECT_EQ(refuse->code, RefuseCode::kVersion);
   EXPECT_EQ(refuse->version, kWireVersion);
 
-  hello[40] = 1;  // no HELLO of any version
+  hello[40] = 1;  // invalid in any version of HELLO
   EXPECT_EQ(encodeVersionRefusal(viewOf(hello), out), 0U);
   Bytes other = readGolden("open.bin");
   other[2] = 9;

@@ -5,10 +5,10 @@
 #include "coordination/src/wire/wire_state.h"
 
 /// \file
-/// Every decoder behind one door.
+/// One function for all decoders.
 namespace tandem::test {
 
-/// Why a clear or opened datagram is refused, by the decoder of its type.
+/// Reason why the decoder of its type refuses a clear or opened datagram.
 inline WireRefusal findRefusal(ByteView datagram) {
   const auto header = decodeHeader(datagram);
   if (!header) return header.refusal();

@@ -1,4 +1,5 @@
-// What must be refused: golden/refused.txt line by line, every truncation, every flipped bit.
+// Datagrams that must be refused: golden/refused.txt line by line, every truncation, every flipped
+// bit.
 
 #include <memory>
 #include <random>
@@ -35,7 +36,7 @@ const std::vector<std::string> kDatagrams = {"hello.bin",
                                              "agree_ack_same.bin",
                                              "agree_ack_different.bin"};
 
-/// A copy in memory of exactly its size, so that a sanitizer sees a read behind its end.
+/// Copies into memory of exactly this size, so that a sanitizer detects a read past its end.
 WireRefusal findRefusalOfCopy(const Bytes& bytes, std::size_t size) {
   const std::unique_ptr<std::uint8_t[]> copy(new std::uint8_t[size]);
   std::copy_n(bytes.begin(), size, copy.get());
@@ -49,7 +50,7 @@ Bytes fromHex(const std::string& hex) {
   return bytes;
 }
 
-/// OFFSET:BYTES
+/// Applies OFFSET:BYTES.
 void patch(const std::string& word, Bytes& bytes) {
   const std::size_t colon = word.find(':');
   const Bytes replacement = fromHex(word.substr(colon + 1));
@@ -62,7 +63,7 @@ void patch(const std::string& word, Bytes& bytes) {
 TEST(WireRefusals, AreNamedAsTheStandardSays) {
   const Bytes file = readGolden("refused.txt");
   std::istringstream lines(std::string(file.begin(), file.end()));
-  std::set<std::string> seen = {"none", "terms"};  // terms: WireRefusals.Terms below
+  std::set<std::string> seen = {"none", "terms"};  // WireRefusals.Terms below covers terms
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string refusal, golden, size;
@@ -127,7 +128,7 @@ TEST(WireRefusals, Terms) {
   EXPECT_EQ(readSessionTerms(bytes).refusal(), WireRefusal::kZero);
 }
 
-// What passes by chance is still something that a peer may say.
+// Damaged bytes that pass by chance are still a valid message of a peer.
 TEST(WireRefusals, SpoiltBytesGiveARefusalOrASaneState) {
   constexpr std::uint64_t kSeed = 1;
   std::mt19937_64 random(kSeed);

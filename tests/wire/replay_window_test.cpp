@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
 
-/// What the standard says, with every number remembered.
+/// The window of the standard, implemented by remembering every number.
 class PlainWindow {
  public:
   [[nodiscard]] bool check(std::uint64_t sequence) const {
@@ -29,7 +29,7 @@ class PlainWindow {
   std::set<std::uint64_t> taken_;
 };
 
-/// The next number that may come in: a bit off from where the sender is, or a jump.
+/// The next incoming number: near the sender's position, or a jump.
 std::uint64_t drawSequence(std::mt19937_64& random, std::uint64_t around) {
   switch (random() % 8) {
     case 0:
@@ -53,11 +53,11 @@ TEST(ReplayWindow, AgreesWithASetOfAllNumbers) {
       const std::uint64_t sequence = drawSequence(random, around);
       const bool fresh = plain.check(sequence);
       ASSERT_EQ(window.check(sequence), fresh) << "seed " << seed << ", number " << i;
-      if (random() % 4 == 0) continue;  // it did not open
+      if (random() % 4 == 0) continue;  // the datagram did not open
       ASSERT_EQ(plain.commit(sequence), fresh);
       ASSERT_EQ(window.commit(sequence), fresh) << "seed " << seed << ", number " << i;
       if (fresh) around = std::max(around, sequence);
-      // Not to run beyond the last number there is.
+      // Stops before the last number.
       if (around > kLast - 10 * ReplayWindow::kSize) break;
     }
   }

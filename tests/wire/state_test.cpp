@@ -47,7 +47,7 @@ TEST(WireState, SecondsAreWholeMicroseconds) {
   EXPECT_EQ(toMicroseconds(1.2e9), -1);
 }
 
-// Why times end at 2^50 us: up to there seconds in a double come back to the microsecond.
+// This is why times end at 2^50 us: up to there a double in seconds keeps every microsecond.
 TEST(WireState, EveryMicrosecondComesBack) {
   constexpr std::uint64_t kSeed = 2;
   std::mt19937_64 random(kSeed);
@@ -77,17 +77,17 @@ std::vector<double*> listReals(StatePacket& packet) {
   return reals;
 }
 
-/// Whether the real at this place of the list belongs to a quaternion.
+/// True if the real at this place of the list belongs to a quaternion.
 bool isOfOrientation(std::size_t index) {
   return index >= 6 && (index - 6) % 13 >= 3 && (index - 6) % 13 < 7;
 }
 
 class WireStateProfiles : public ::testing::TestWithParam<WireProfile> {};
 
-/// Anything that may be sent.
+/// Draws any state that may be sent.
 StateMessage drawState(std::mt19937_64& random, WireProfile profile) {
   const auto draw = [&random](double bound) {
-    // Half of them small, on a logarithmic scale.
+    // Half of the values are small, on a logarithmic scale.
     const double unit = static_cast<double>(random() >> 11) * 0x1p-53;
     const double size = random() % 2 == 0 ? unit : std::pow(10.0, -20.0 * unit);
     return (random() % 2 == 0 ? bound : -bound) * size;
@@ -157,7 +157,8 @@ TEST_P(WireStateProfiles, WhatGoesInComesOut) {
     const auto expected = listReals(sent.packet);
     const auto reals = listReals(got->packet);
     for (std::size_t k = 0; k < reals.size(); ++k) {
-      // To the bit, but for float's orientations: those off by less than 1e-14 stay as they are.
+      // Compares exactly, except float's orientations. Those off by less than 1e-14 stay as they
+      // are.
       const bool divided = GetParam() == WireProfile::kFloat32 && isOfOrientation(k);
       ASSERT_NEAR(*reals[k], *expected[k], divided ? 1e-14 : 0.0) << "number " << k;
     }
@@ -195,10 +196,11 @@ TEST_P(WireStateProfiles, EachRealMustBeFiniteAndInBounds) {
   }
 }
 
-/// Writes a real of the records where it stands in the payload; returns it as the profile has it.
+/// Overwrites a real of the records at its place in the payload. Returns it as the profile stores
+/// it.
 void overwriteReal(Bytes& payload, WireProfile profile, std::size_t index, double value) {
   const std::size_t width = profile == WireProfile::kFloat32 ? 4 : 8;
-  const std::size_t heads = index < 6 ? 0 : 1 + (index - 6) / 13;  // of object records before it
+  const std::size_t heads = index < 6 ? 0 : 1 + (index - 6) / 13;  // object records before it
   std::uint8_t* const place = payload.data() + kStateBlockSize + index * width + 4 * heads;
   const auto narrow = static_cast<float>(value);
   if (profile == WireProfile::kFloat32) {
@@ -208,9 +210,9 @@ void overwriteReal(Bytes& payload, WireProfile profile, std::size_t index, doubl
   }
 }
 
-// The same on the receiver's side, where an encoder has no say: each real, in its place.
+// The same checks at the receiver, which no encoder protects: each real, in its place.
 TEST_P(WireStateProfiles, EachRealIsCheckedOnArrival) {
-  constexpr double kHuge = 3e38;  // a float's, too
+  constexpr double kHuge = 3e38;  // finite as a float too
   StateMessage message = makeFullState();
   message.profile = GetParam();
   const Bytes good = encode(message);
@@ -280,7 +282,8 @@ TEST(WireState, ReceiverMayBeNarrower) {
   EXPECT_EQ(decode(bytes, narrow).refusal(), WireRefusal::kPosition);
 }
 
-// Off by less than 1e-3, as of a peer that rounds otherwise: taken, and made a unit again.
+// A peer that rounds differently is off by less than 1e-3. Such orientations are accepted and
+// normalised.
 TEST(WireState, OrientationsBecomeUnits) {
   Bytes bytes = encode(makeState(WireProfile::kFloat64));
   overwriteReal(bytes, WireProfile::kFloat64, 6 + 3, 0.6004);  // w; the square is off by 4.8e-4
