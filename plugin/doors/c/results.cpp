@@ -68,7 +68,7 @@ TandemResult takeException() noexcept {
 extern "C" {
 
 const char* tandem_result_name(TandemResult result) {
-  // By number: another language may pass a value outside the enumeration.
+  // Indexed by number: another language may pass a value outside the enumeration.
   constexpr std::array<const char*, 8> kNames{
       "TANDEM_OK",     "TANDEM_INVALID_ARGUMENT", "TANDEM_CANNOT",    "TANDEM_WRONG_BULLET",
       "TANDEM_IN_USE", "TANDEM_WORLD_GONE",       "TANDEM_NO_MEMORY", "TANDEM_INTERNAL"};

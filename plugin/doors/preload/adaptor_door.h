@@ -3,35 +3,35 @@
 #include <cstddef>
 
 /// \file
-/// What the interposer asks of an adaptor library: plain C, as the two are built apart and meet in
-/// a process of somebody else's. Nothing here throws. The thread that makes, steps and ends the
-/// world calls; of one world only, from take to end.
+/// Interface of an adaptor library to the interposer. It is plain C, because the two are built
+/// apart and meet in a foreign process. No function throws. The thread that makes, steps and ends
+/// the world makes the calls. They concern one world only, from takeWorld to endWorld.
 extern "C" {
 
-/// Width of btScalar that the adaptor was built for [bytes]. Asked first.
+/// Width of the adaptor's btScalar [bytes]. Called first.
 using TandemPreloadScalarBytes = std::size_t (*)();
 
 /// Reads the config file. `process` is the name that the interposer compared with the config's key.
-/// True if it can be used; else one line on stderr has said why.
+/// Returns false if the file is unusable, after one line on stderr.
 using TandemPreloadOpen = bool (*)(const char* config, const char* process);
 
-/// A world was made, the `number`th of the process, counted from 1: true if it is the config's. A
-/// derived world is not complete yet.
+/// Tells that the process made its world `number`, counted from 1. Returns true if the config wants
+/// that world. A derived world is not complete yet.
 using TandemPreloadTakeWorld = bool (*)(void* world, int number);
 
-/// Around each of its steps: dt [s] is what stepSimulation() was told, and `sub_steps` of
-/// `fixed_step` [s] what it did.
+/// Called before and after each step of the world. stepSimulation() got `dt` [s], and made
+/// `sub_steps` sub-steps of `fixed_step` [s].
 using TandemPreloadBeforeStep = void (*)();
 using TandemPreloadAfterStep = void (*)(double dt, int max_sub_steps, double fixed_step,
                                         int sub_steps);
 
-/// A body or another collision object is about to be taken out of it.
+/// Called before a body or another collision object is removed from the world.
 using TandemPreloadObjectLeaves = void (*)(void* object);
 
-/// It is about to end.
+/// Called before the world is destroyed.
 using TandemPreloadEndWorld = void (*)();
 
-/// All of it: the one symbol of an adaptor library, kTandemPreloadDoor.
+/// All functions: the only symbol of an adaptor library, kTandemPreloadDoor.
 struct TandemPreloadDoor {
   TandemPreloadScalarBytes scalarBytes;
   TandemPreloadOpen open;

@@ -2,13 +2,13 @@
 
 #include <cstddef>
 
-// What PyBullet and a plugin of its physics server hand to each other, as facts of its binary
-// interface: none of its headers is used. Layouts hold for the magic number below, which PyBullet
-// has had since 3.07 (October 2020); a server of another number refuses the plugin by itself.
+// Binary interface between PyBullet's physics server and its plugins; none of its headers is used.
+// The layouts hold for the magic number below, in use since PyBullet 3.07 (October 2020). A server
+// with another number refuses the plugin.
 
 namespace tandem::pybullet::b3 {
 
-/// What initPlugin returns to say for which layouts a plugin was built.
+/// Return value of initPlugin: the version of the layouts.
 inline constexpr int kMagicNumber = 202010061;
 
 // Opaque to a plugin.
@@ -16,7 +16,7 @@ using Client = struct ClientHandle*;
 using Command = struct CommandHandle*;
 using Status = struct StatusHandle*;
 
-/// Bytes that a command gives back to the caller.
+/// Bytes that a command returns to the caller.
 struct UserDataValue {
   int type;
   int length;
@@ -25,8 +25,8 @@ struct UserDataValue {
 inline constexpr int kBytes = 0;
 inline constexpr int kString = 1;
 
-/// Of each call into a plugin. In the first initPlugin() only the first two and the last member are
-/// set; in ticks all that is not given is 0.
+/// Argument of each call into a plugin. The first initPlugin() sets only the first two members and
+/// the last one. In ticks all members without a value are 0.
 struct PluginContext {
   Client client;  // of the server itself, private to plugins
   void* user_pointer;
@@ -42,7 +42,7 @@ struct PluginContext {
   void* command_processor;
 };
 
-/// Arguments of executePluginCommand(). The floats have been rounded to single precision.
+/// Arguments of executePluginCommand(). The floats are rounded to single precision.
 struct PluginArguments {
   char text[1024];
   int int_count;
@@ -51,8 +51,7 @@ struct PluginArguments {
   double floats[128];
 };
 
-/// Answer to a request for the dynamics of a link. Newer versions have more behind; `later` is room
-/// for it.
+/// Answer about the dynamics of a link. `later` is room for members of newer versions.
 struct DynamicsInfo {
   double mass;
   double inertia[3];
@@ -73,11 +72,11 @@ inline constexpr int kRigidBody = 1;  // body_type: a btRigidBody ("maximal coor
 inline constexpr int kMultiBody = 2;
 inline constexpr int kNeverSleeps = 4;  // activation_state
 
-/// What DynamicsInfo says and change-dynamics takes differ: bits of the latter.
+/// Activation bits of the change-dynamics command, which differ from those in DynamicsInfo.
 inline constexpr int kEnableSleeping = 1;
 inline constexpr int kDisableSleeping = 2;
 
-/// Answer to a request for parameters of the simulation; see DynamicsInfo for `later`.
+/// Answer about the simulation's parameters; see DynamicsInfo for `later`.
 struct SimulationParameters {
   double time_step;
   double timestamp;

@@ -5,7 +5,7 @@
 namespace tandem::pybullet {
 namespace {
 
-/// Takes functions out of one module, and keeps the name of the first that is missing.
+/// Finds functions in one module, and keeps the name of the first missing one.
 class Finder {
  public:
   explicit Finder(void* module) : module_(module) {}
@@ -22,7 +22,7 @@ class Finder {
   std::string missing_;
 };
 
-/// A handle on the module that holds `code`; on the whole program if it has none of its own.
+/// Opens the module that contains `code`, or the whole program if there is none.
 void* openModuleOf(const void* code) {
   Dl_info info{};
   if (dladdr(code, &info) != 0 && info.dli_fname) {
@@ -61,7 +61,7 @@ std::string findB3Functions(const void* caller, B3Functions& functions) {
   in.find(functions.get_shape, "b3GetCollisionShapeInformation");
   in.find(functions.make_filter, "b3CollisionFilterCommandInit");
   in.find(functions.set_pair, "b3SetCollisionFilterPair");
-  // The caller is in it, so it stays loaded without this handle.
+  // The module contains the caller, so it stays loaded.
   if (module) dlclose(module);
   return in.missing();
 }

@@ -6,8 +6,8 @@
 
 namespace tandem::pybullet {
 
-/// The functions of PyBullet's C interface that the plugin calls, found at run time: the plugin is
-/// linked to no PyBullet, so one file serves all that have them.
+/// Functions of PyBullet's C interface, found at run time. The plugin is not linked to PyBullet, so
+/// one file serves all versions.
 struct B3Functions {
   b3::Status (*submit)(b3::Client, b3::Command) = nullptr;
 
@@ -48,9 +48,9 @@ struct B3Functions {
                    int collides) = nullptr;
 };
 
-/// Finds all functions in the module (PyBullet's, or a program that exports them) that the code at
-/// `caller` belongs to. Python loads PyBullet for itself only, so its names are not found by the
-/// loader: the module must be asked. Gives "", or the name of the first one that is not there.
+/// Finds all functions in the module that contains the code at `caller`: PyBullet's, or a program
+/// that exports them. Python loads PyBullet with local symbols, so the loader does not find them.
+/// Returns "", or the name of the first missing function.
 std::string findB3Functions(const void* caller, B3Functions& functions);
 
 }  // namespace tandem::pybullet

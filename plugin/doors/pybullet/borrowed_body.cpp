@@ -10,14 +10,15 @@
 namespace tandem::pybullet {
 namespace {
 
-/// A new mark with each call. 1 - mark is 1 and v + mark v is v, in float as in double, and both
-/// keep all 20 bits of the count.
+/// Makes a new mark. It is so small that 1 - mark is 1 and v + mark v is v, in float and double.
+/// Both types keep all 20 bits of the count.
 double makeMark() {
   static std::atomic<unsigned> count{0};
   return 0x1p-100 * (1.0 + 0x1p-20 * (1U + count++ % 0xFFFFFU));
 }
 
-/// `value` with the count of `mark` in its low bits: within 6e-8 of it. The mark itself for 0.
+/// Puts the count of `mark` in the low bits of `value`, a relative change below 6e-8. Returns the
+/// mark itself for 0.
 double addMark(double value, double mark) {
   const double count = mark * 0x1p100 - 1.0;  // 2^-20 to 1
   return value == 0.0 ? mark : value * (1.0 + 0x1p-24 * count);
@@ -111,7 +112,7 @@ bool BorrowedBody::giveBack(const Engine& engine) {
   engine.writeDamping(body_, before_.linear_damping, before_.angular_damping);
   engine.writeFriction(body_, before_.friction);
   if (before_.is_multibody) engine.writeRestitution(body_, before_.restitution);
-  // Of a multibody PyBullet does not tell whether it may sleep.
+  // PyBullet does not tell whether a multibody may sleep.
   if (!before_.is_multibody && before_.may_sleep) engine.letSleep(body_, true);
   return true;
 }

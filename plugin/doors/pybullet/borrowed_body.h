@@ -8,33 +8,34 @@
 
 namespace tandem::pybullet {
 
-/// A body of PyBullet while Tandem has a hand on it: mass, damping and sleeping as Tandem needs
-/// them, and what they were.
+/// A body of PyBullet while Tandem uses it: its mass, damping and sleeping as Tandem needs them,
+/// and their original values.
 ///
-/// PyBullet gives the number of a removed body to the next one that is made. So a borrowed body
-/// carries marks that no other has: two dampings too small (1e-30) to damp anything, and the low
-/// bits (1e-7) of friction and, where PyBullet tells it, restitution. The user may set any of these
-/// meanwhile: as long as one mark is left it is the same body.
+/// PyBullet reuses the number of a removed body. A borrowed body therefore carries unique marks:
+/// two dampings too small (1e-30) to damp, and the low bits (1e-7) of friction and, if PyBullet
+/// tells it, restitution. The user may set any of these meanwhile. While one mark is left it is the
+/// same body.
 class BorrowedBody {
  public:
-  /// Reads only. Throws Refusal if there is no such body.
+  /// Only reads the body. Throws Refusal if it does not exist.
   BorrowedBody(const Engine& engine, int body);
 
   int number() const { return body_; }
   const BodyFacts& before() const { return before_; }
 
-  /// No damping, no sleep, the marks, and `share` of mass and inertia. 0: they stay as they are.
+  /// Removes damping and sleeping, sets the marks, and scales mass and inertia by `share`. A
+  /// `share` of 0 keeps mass, inertia and sleeping.
   void borrow(const Engine& engine, double share);
 
-  /// Whether the body still is the one that was borrowed. A damping or mass that the user has given
-  /// it meanwhile is taken off again, friction and restitution stay; `notice` tells of each.
-  /// Damping, friction and restitution of the user's are what giveBack() gives.
+  /// True if this is still the borrowed body. Removes a damping or mass that the user has set
+  /// meanwhile, keeps friction and restitution, and reports each in `notice`. giveBack() restores
+  /// the user's damping, friction and restitution.
   bool isThere(const Engine& engine, std::string& notice);
 
-  /// Puts back what borrow() has changed; false if it is not the same body any more.
+  /// Undoes borrow(). Returns false if this is another body.
   bool giveBack(const Engine& engine);
 
-  /// The velocities to hand over so that those of `target` come out of PyBullet's step.
+  /// Changes the velocities so that PyBullet's step ends with those of `target`.
   void makeReadyToTurn(double step, TandemState& target) const;
 
  private:
@@ -50,7 +51,7 @@ class BorrowedBody {
   BodyFacts before_;
   double mark_ = 0.0;
   double mass_ = 0.0;      // in PyBullet meanwhile
-  Vec3 inertia_{0, 0, 0};  // the same
+  Vec3 inertia_{0, 0, 0};  // in PyBullet meanwhile
 };
 
 }  // namespace tandem::pybullet

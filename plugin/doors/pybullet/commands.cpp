@@ -9,7 +9,7 @@
 namespace tandem::pybullet {
 namespace {
 
-/// What may wait for its command: x, y, z of each point of a hull, each two words.
+/// Limits of the data sent before a command: x, y, z of each hull point, two words per double.
 constexpr std::size_t kMostPoints = 4096;
 constexpr std::size_t kMostWords = kMostPoints * 3 * 2;
 
@@ -54,7 +54,7 @@ Reply Commands::run(const b3::PluginArguments& arguments) noexcept {
     }
     data_.clear();
   } catch (...) {
-    // No memory for the text.
+    // There is no memory for the text.
     reply.status = -TANDEM_NO_MEMORY;
   }
   return reply;

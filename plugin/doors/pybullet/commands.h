@@ -9,12 +9,12 @@
 
 namespace tandem::pybullet {
 
-/// Runs the commands of one plugin instance; docs/pybullet.md has the table of them.
+/// Runs the commands of one plugin instance; docs/pybullet.md lists them.
 class Commands {
  public:
   explicit Commands(Session& session) : session_(session) {}
 
-  /// Never throws. What was refused has changed nothing, but what waited for it is gone: `data`,
+  /// Never throws. A refused command changes nothing, but consumes what was sent for it: `data`,
   /// and the peers and agreements of a mesh.
   Reply run(const b3::PluginArguments& arguments) noexcept;
 

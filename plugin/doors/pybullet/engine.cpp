@@ -5,7 +5,7 @@
 namespace tandem::pybullet {
 namespace {
 
-constexpr int kBase = -1;  // the link of that number
+constexpr int kBase = -1;  // link number of the base
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Engine::writeState(int body, const TandemState& state) const {
 }
 
 std::optional<BodyFacts> Engine::readFacts(int body) const {
-  // The state first: it alone says reliably that there is no such body, and how many links it has.
+  // The state comes first: only it tells reliably whether the body exists, and its number of links.
   b3::Status status = b3_.submit(client_, b3_.make_state_request(client_, body));
   if (!status ||
       !b3_.get_state(status, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr)) {
@@ -60,14 +60,14 @@ std::optional<BodyFacts> Engine::readFacts(int body) const {
   facts.linear_damping = info.linear_damping;
   facts.angular_damping = info.angular_damping;
   facts.is_multibody = info.body_type == b3::kMultiBody;
-  // Of others the answer holds what was there before.
+  // For a btRigidBody the answer holds an old value.
   if (facts.is_multibody) facts.restitution = info.restitution;
   facts.may_sleep = info.activation_state != b3::kNeverSleeps;
   return facts;
 }
 
 void Engine::writeMass(int body, double mass, const double inertia[3]) const {
-  // A new mass alone would give the body the inertia of its shape.
+  // A new mass alone resets the inertia to that of the shape.
   const b3::Command command = b3_.make_dynamics_change(client_);
   b3_.change_mass(command, body, kBase, mass);
   b3_.change_inertia(command, body, kBase, inertia);
@@ -119,7 +119,7 @@ std::vector<b3::CollisionShapeData> Engine::readShape(int body) const {
   b3::CollisionShapeInformation shape{};
   if (!b3_.submit(client_, b3_.make_shape_request(client_, body, kBase))) return {};
   b3_.get_shape(client_, &shape);
-  // After a request that failed the answer to an earlier one is still there.
+  // After a failed request the answer is that of an earlier one.
   if (shape.count < 1 || shape.pieces[0].body != body) return {};
   return {shape.pieces, shape.pieces + shape.count};
 }

@@ -9,12 +9,12 @@
 
 namespace tandem::pybullet {
 
-/// What PyBullet knows of a body's base besides its state.
+/// Properties of a body's base besides its state.
 struct BodyFacts {
   double mass = 0.0;    // [kg]; 0: static
   double inertia[3]{};  // principal moments [kg m^2]
   double friction = 0.0;
-  double restitution = 0.0;     // 0 for a btRigidBody: PyBullet does not tell
+  double restitution = 0.0;     // 0 for a btRigidBody: unknown to PyBullet's interface
   double linear_damping = 0.0;  // v (1 - d)^dt, or -m d v for a multibody
   double angular_damping = 0.0;
   bool is_multibody = true;  // else a btRigidBody, "maximal coordinates"
@@ -22,15 +22,15 @@ struct BodyFacts {
   int links = 0;  // besides the base
 };
 
-/// Time step of PyBullet's next internal step [s], and what it adds to velocities [m/s^2].
+/// Length of PyBullet's next internal step [s], and its gravity [m/s^2].
 struct EngineParameters {
   double step = 0.0;
   double gravity[3]{};
 };
 
-/// PyBullet's physics server, seen through its C interface. What asks for a body gives nothing when
-/// there is none. May be used in commands and in ticks, not in exitPlugin(): there the bodies may
-/// have been deleted, and PyBullet would reach for them. Thread: the server's.
+/// PyBullet's physics server through its C interface. Queries return nothing if the body does not
+/// exist. Allowed in commands and in ticks, but not in exitPlugin(): the bodies may be deleted
+/// there, and PyBullet would access them. Thread: the server's.
 class Engine {
  public:
   Engine(const B3Functions& functions, b3::Client client) : b3_(functions), client_(client) {}
@@ -47,12 +47,12 @@ class Engine {
   void writeRestitution(int body, double restitution) const;
   void letSleep(int body, bool may_sleep) const;
 
-  /// Whether the bases of two bodies collide from now on, whatever their groups and masks.
+  /// Switches contact between the bases of two bodies, whatever their groups and masks.
   void setCollides(int body_a, int body_b, bool collides) const;
 
   std::optional<EngineParameters> readParameters() const;
 
-  /// Pieces of the shape of the base of a multibody. PyBullet tells nothing of a btRigidBody's.
+  /// Shape pieces of a multibody's base. PyBullet does not tell those of a btRigidBody.
   std::vector<b3::CollisionShapeData> readShape(int body) const;
 
  private:

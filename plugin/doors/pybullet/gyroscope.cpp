@@ -21,7 +21,7 @@ Vec3 applyGyroLaw(GyroLaw law, const Vec3& inertia, const Quat& R_WB, const Vec3
     const Vec3 after = w - dt * torque.cwiseQuotient(inertia);
     return R_WB * after;
   }
-  // Newton's step for I (w' - w) + dt w' x I w' = 0 from w' = w.
+  // One Newton step for I (w' - w) + dt w' x I w' = 0 from w' = w.
   const Eigen::Matrix3d I = inertia.asDiagonal();
   const Eigen::Matrix3d slope = I + dt * (makeCross(w) * I - makeCross(Iw));
   const Vec3 after = w - slope.inverse() * (dt * torque);
@@ -31,7 +31,7 @@ Vec3 applyGyroLaw(GyroLaw law, const Vec3& inertia, const Quat& R_WB, const Vec3
 Vec3 computeVelocityBefore(GyroLaw law, const Vec3& inertia, const Quat& R_WB, const Vec3& target_W,
                            double dt) {
   if (inertia.x() == inertia.y() && inertia.y() == inertia.z()) return target_W;
-  // The step turns w by little, so what is missing shrinks by |w| dt with each round.
+  // A step turns w only slightly, so the error shrinks by |w| dt per round.
   constexpr int kRounds = 30;
   Vec3 before = target_W;
   for (int round = 0; round < kRounds; ++round) {

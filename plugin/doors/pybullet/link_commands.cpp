@@ -33,7 +33,7 @@ void Commands::key(Words& words, Reply&) {
   check(tandem_key_create(path.c_str()));
 }
 
-// What has been said for this mesh is for this one only, also when it fails.
+// Peers and agreements belong to this mesh only, also if it fails.
 void Commands::mesh(Words& words, Reply&) {
   const std::vector<Peer> said_peers = std::exchange(peers_, {});
   const std::vector<Item> said_items = std::exchange(agreements_, {});

@@ -10,7 +10,7 @@ namespace {
 
 struct Pair {
   TandemNetwork network;
-  LinkHandle other;  // the end that nobody has asked for
+  LinkHandle other;  // the end that is still free
   int in_use = 0;
 };
 

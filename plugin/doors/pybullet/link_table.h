@@ -12,10 +12,10 @@ struct LinkDeleter {
 };
 using LinkHandle = std::unique_ptr<TandemLink, LinkDeleter>;
 
-/// One end of the simulated link `name` of this process. Who asks first makes it, with `network`;
-/// the second, with the same numbers, gets the other end; a third is refused until both ends are
-/// back. Several physics clients of one process meet so. Thread: any; the sites that they serve
-/// must be ticked by one thread.
+/// One end of the simulated link `name` of this process, so that several physics clients can meet.
+/// The first caller creates the link with `network`. The second gets the other end, and must give
+/// the same numbers. A third one fails until both ends are returned. Thread: any; one thread must
+/// tick the connected sites.
 class SimulatedEnd {
  public:
   SimulatedEnd(const std::string& name, const TandemNetwork& network);

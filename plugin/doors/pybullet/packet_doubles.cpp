@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kHead = 12;
 constexpr std::size_t kPerObject = 14;
 
-/// A whole number of [0, most].
+/// Checks that `value` is a whole number in [0, most].
 double toWhole(double value, double most, const char* what) {
   if (!(value >= 0.0 && value <= most) ||
       value != static_cast<double>(static_cast<std::uint64_t>(value))) {
@@ -22,7 +22,7 @@ double toWhole(double value, double most, const char* what) {
 }
 
 constexpr double kMostId = 4294967295.0;
-constexpr double kMostSequence = 9007199254740992.0;  // 2^53, the last that doubles count to
+constexpr double kMostSequence = 9007199254740992.0;  // 2^53: doubles count up to it
 
 }  // namespace
 

@@ -6,12 +6,13 @@
 
 namespace tandem::pybullet {
 
-/// A packet as the commands push and pop carry it: sender, is_idle, sequence, time, position (3),
-/// velocity (3), port_energy, number of objects, then of each its id and 13 numbers of its state.
+/// Converts a packet to the format of push and pop: sender, is_idle, sequence, time, position (3),
+/// velocity (3), port_energy, number of objects. Each object follows with its id and 13 numbers of
+/// its state.
 std::vector<double> toDoubles(const TandemPacket& packet);
 
-/// The packet of such doubles. Throws Refusal if there are not as many as they say, or ids and
-/// counts are none.
+/// Converts such doubles to a packet. Throws Refusal if their number is wrong, or if an id or count
+/// is not a whole number.
 TandemPacket toPacket(const std::vector<double>& doubles);
 
 }  // namespace tandem::pybullet

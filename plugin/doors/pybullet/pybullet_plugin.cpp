@@ -6,8 +6,8 @@
 #include "commands.h"
 #include "session.h"
 
-// The functions that PyBullet looks for when the plugin is loaded with the postfix "_tandem". Each
-// physics server that loads it has an instance of its own. No exception goes through.
+// Entry points that PyBullet looks up for the postfix "_tandem". Each physics server that loads the
+// plugin has its own instance. No exception leaves a function.
 
 namespace tandem::pybullet {
 namespace {
@@ -43,10 +43,10 @@ int preTickPluginCallback_tandem(b3::PluginContext* context);
 int postTickPluginCallback_tandem(b3::PluginContext* context);
 int executePluginCommand_tandem(b3::PluginContext* context, const b3::PluginArguments* arguments);
 
-// Whoever calls this has the b3 functions, so it must be called directly, and not be inlined.
+// Called directly by PyBullet and never inlined: the caller's module has the b3 functions.
 [[gnu::noinline]] int initPlugin_tandem(b3::PluginContext* context) {
   const void* const caller = __builtin_return_address(0);
-  constexpr int kNotLoaded = 0;  // no magic number of any version
+  constexpr int kNotLoaded = 0;  // not a magic number of any version
   try {
     tandem::pybullet::B3Functions functions;
     const std::string missing = tandem::pybullet::findB3Functions(caller, functions);
@@ -94,7 +94,7 @@ int executePluginCommand_tandem(b3::PluginContext* context, const b3::PluginArgu
   Instance* const instance = tandem::pybullet::instanceOf(context);
   if (!instance || !arguments) return -TANDEM_INVALID_ARGUMENT;
   instance->reply = instance->commands.run(*arguments);
-  // PyBullet takes no answer without bytes.
+  // PyBullet refuses an answer without bytes.
   if (!instance->reply.bytes.empty()) {
     instance->returned = {instance->reply.type, static_cast<int>(instance->reply.bytes.size()),
                           instance->reply.bytes.data()};

@@ -8,8 +8,8 @@
 
 namespace tandem::pybullet {
 
-/// What a command gives back: a number, negative if it was refused, and bytes: the text of a
-/// refusal or a warning, or doubles.
+/// Reply of a command: a number, negative if it was refused, and bytes. The bytes are the text of
+/// an error or a warning, or doubles.
 struct Reply {
   int status = 0;
   int type = b3::kBytes;

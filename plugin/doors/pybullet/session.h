@@ -32,7 +32,7 @@ using DeviceHandle = std::unique_ptr<TandemDevice, DeviceDeleter>;
 using SiteHandle = std::unique_ptr<TandemSite, SiteDeleter>;
 using MeshHandle = std::unique_ptr<TandemMesh, MeshDeleter>;
 
-/// What a site shows; all zero force after the end.
+/// State of a site; the force is zero after its end.
 struct SessionReading {
   TandemReading reading{};
   std::vector<TandemState> objects, proxies;
@@ -47,14 +47,14 @@ struct SessionReading {
 ///       sphere    ------------------------------  proxy of a remote     in each internal step
 ///       floor     -- pose, when it is moved ----  guest, static
 ///
-/// Set-up throws Refusal and then has changed nothing. Thread: the server's, for everything.
+/// Set-up throws Refusal and then changes nothing. Thread: the server's, for all calls.
 class Session {
  public:
   Session(const B3Functions& functions, b3::Client client);
-  /// Ends the site. PyBullet's bodies are not touched, see Engine; close() gives them back.
+  /// Ends the site but does not touch PyBullet's bodies, see Engine. close() restores them.
   ~Session();
 
-  // Order of set-up: device, site; then links and bodies.
+  // Order of set-up: device, site, then links and bodies.
   void takeDevice(DeviceHandle device, bool is_moved);
   void openSite(const TandemSiteSettings& settings);
   void addMesh(MeshHandle mesh);
@@ -62,16 +62,16 @@ class Session {
   int addMeshLink(std::uint32_t peer);
   int addSimulatedLink(const std::string& name, const TandemNetwork& network);
 
-  /// Shares the base of a body without joints. `shape` if PyBullet's answer will not do.
+  /// Shares the base of a body without joints. `shape` replaces PyBullet's shape, if given.
   int share(int body, double damping, const Piece* shape);
-  /// A static body that shared objects, proxies and the hand shall meet.
+  /// Adds a static body that shared objects, proxies and the hand can touch.
   void addObstacle(int body, const Piece* shape);
   int connect(std::uint32_t peer, int link, const double start[3]);
-  /// Lets a sphere of PyBullet's go where a remote's proxy is, and push what PyBullet has there,
-  /// with the proxy's mass.
+  /// Moves a sphere of PyBullet's with a remote's proxy and its mass, so that it pushes other
+  /// bodies.
   void showProxy(int remote, int body);
 
-  /// Gives all bodies back and ends the site, its links and its device.
+  /// Restores all bodies and ends the site, its links and its device.
   void close();
 
   bool hasBodies() const { return !moving_.empty() || !standing_.empty(); }
@@ -81,10 +81,11 @@ class Session {
   std::string explainPeer(std::uint32_t peer) const;
   TandemLink* manualLink(int link) const;
   void read(SessionReading& reading) const;
-  /// What a user should know, one line each: of set-up, and since.
+  /// Facts that a user should know, one line each: from set-up, and since then.
   std::string warnings() const;
 
-  /// Before and after each internal step of PyBullet. What fails ends the site with a warning.
+  /// Called before and after each internal step of PyBullet. A failure ends the site with a
+  /// warning.
   void preTick() noexcept;
   void postTick() noexcept;
 
@@ -92,7 +93,7 @@ class Session {
   struct Moving {
     BorrowedBody body;
     TandemBody id;
-    TandemState set;  // as PyBullet was told last
+    TandemState set;  // state that PyBullet was told last
   };
   struct Standing {
     BorrowedBody body;
@@ -131,9 +132,9 @@ class Session {
   int peers_ = 1;
   double proxy_mass_ = 0.0;  // [kg]
   bool device_is_moved_ = false;
-  bool is_between_ = false;  // pre-tick and post-tick
+  bool is_between_ = false;  // between pre-tick and post-tick
   bool has_warned_of_step_ = false;
-  std::string ended_;  // why; "" while all is well
+  std::string ended_;  // reason; "" while the site runs
   std::vector<std::string> warnings_;
   std::vector<Moving> moving_;
   std::vector<Standing> standing_;
@@ -143,7 +144,7 @@ class Session {
   std::vector<TandemBody> ids_;
   std::vector<TandemState> now_, told_;
 
-  // In this order: the last is destroyed first.
+  // Order of destruction: the last member goes first.
   MeshHandle mesh_;
   std::vector<Link> links_;
   DeviceHandle device_;

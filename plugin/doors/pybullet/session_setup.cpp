@@ -178,7 +178,7 @@ void Session::stopContact(int body_a, int body_b) {
   without_contact_.emplace_back(body_a, body_b);
 }
 
-// Guests of Tandem's world meet there: contact in PyBullet as well would count twice.
+// Guests collide in Tandem's world; contact in PyBullet, too, would count twice.
 void Session::stopContactWithAll(int body) {
   for (const Standing& other : standing_) stopContact(body, other.body.number());
   for (const Moving& other : moving_) stopContact(body, other.body.number());

@@ -9,7 +9,7 @@
 namespace tandem::pybullet {
 namespace {
 
-/// Below this two states are the same [m, m/s, rad/s, and of quaternions].
+/// Largest difference of equal states [m, m/s, rad/s, and of quaternions].
 constexpr double kSame = 1e-9;
 
 bool areNear(const double* a, const double* b, std::size_t size) {
@@ -54,7 +54,7 @@ void Session::runSafely(void (Session::*part)()) noexcept {
     }
   } catch (...) {
     is_between_ = false;
-    ended_ = "out of memory";  // short enough for a string without heap
+    ended_ = "out of memory";  // short enough for a string without heap memory
   }
 }
 
@@ -68,7 +68,7 @@ bool Session::isSame(BorrowedBody& body) {
   return is_there;
 }
 
-// One body of all per step: the cost does not grow with their number.
+// Checks one body per step, so that the cost does not grow with their number.
 void Session::lookAtOne() {
   const std::size_t all = moving_.size() + standing_.size();
   if (all == 0) return;
@@ -131,7 +131,8 @@ void Session::begin() {
   is_between_ = true;
 }
 
-// Bullet moves a body by its velocity after the step times the step.
+// Warns if PyBullet's motion does not fit the step: Bullet moves a body by its new velocity times
+// dt.
 void Session::watchStep(const TandemState& before, const TandemState& after) {
   const double* const v = after.velocity;
   const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -3,8 +3,8 @@
     import pybullet as p, tandem_pybullet as tandem
 
     with tandem.Site(device=tandem.SimulatedDevice(start=(-0.03, 0, 0))) as site:
-        site.share(cube)                                   # a PyBullet body; the same at each user
-        site.obstacle(floor)                               # what the hand and the cube shall feel
+        site.share(cube)                                   # a PyBullet body, the same at each user
+        site.obstacle(floor)                               # the hand and the cube can touch it
         site.connect(2, site.mesh(1, "0.0.0.0:7001", [tandem.Peer(2, "host:7001", "pair.key")])[2],
                      start=(0.03, 0, 0))
         while True:
@@ -12,9 +12,9 @@
             site.step()                                    # p.stepSimulation()
             print(site.force(), site.read().objects[0].position)
 
-Needs the plugin, libtandem-pybullet.so, beside this file, in a lib/.../tandem folder above it, or
-named by the environment variable TANDEM_PYBULLET_PLUGIN; and nothing else but pybullet. SI units;
-quaternions are x, y, z, w. What is refused raises TandemError with one line of text. All calls for
+Needs pybullet and the plugin libtandem-pybullet.so. The plugin is beside this file, in a
+lib/.../tandem folder above it, or named by the environment variable TANDEM_PYBULLET_PLUGIN. SI units;
+quaternions are x, y, z, w. A refused call raises TandemError with one line of text. All calls for
 one physics client belong to one thread.
 """
 
@@ -39,16 +39,16 @@ _CLOSED, _NO_MEMORY, _BAD_COMMAND, _WRONG_ORDER = -1, -6, -10, -11
 #: Pose of a centre of mass and its velocities, each a tuple.
 State = namedtuple("State", "position orientation velocity angular_velocity")
 
-#: What a site shows at one moment. `force`: on the hand [N]; `hip`: where the hand is; `status`: names
-#: out of STATUS_BITS; `links`: names out of LINK_STATES, one for each remote, as `proxies` are.
+#: State of a site at one moment. `force`: on the hand [N]; `hip`: position of the hand [m]; `status`:
+#: names of STATUS_BITS. `proxies` and `links` have an entry per remote; links are names of LINK_STATES.
 Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash packets_sent "
                                 "packets_taken has_ended objects proxies links")
 
-#: A state as it goes from site to site by manual links; `objects`: (id, State) pairs.
+#: A state that manual links carry between sites; `objects`: (id, State) pairs.
 Packet = namedtuple("Packet", "sender is_idle sequence time position velocity port_energy objects")
 
-#: A remote of a mesh; `address` "host:port", or None if its number is lower than ours: then it calls
-#: us; `key`: a file.
+#: A remote of a mesh. `address`: "host:port", or None if the peer calls us, which needs a lower number
+#: than ours. `key`: a file.
 Peer = namedtuple("Peer", "id address key")
 
 PeerStatus = namedtuple("PeerStatus", "phase silence round_trip loss")
@@ -60,7 +60,7 @@ STATUS_BITS = ("device_invalid", "body_missing", "packet_refused", "host_step_wr
 
 
 class TandemError(RuntimeError):
-    """A command that was refused; `status` is the plugin's number."""
+    """A refused command; `status` is the plugin's error number."""
 
     def __init__(self, status, text):
         super().__init__(text)
@@ -68,16 +68,16 @@ class TandemError(RuntimeError):
 
 
 class Device:
-    """A hand that the script moves: Site.move(). `max_force` [N] and `max_slew` [N/s] bound what it is
-    given to feel."""
+    """A hand that the script moves: Site.move(). `max_force` [N] and `max_slew` [N/s] limit the force
+    on it."""
 
     def __init__(self, start=(0, 0, 0), max_force=None, max_slew=None):
         self.words = {"kind": "moved", "start": start, "max_force": max_force, "max_slew": max_slew}
 
 
 class SimulatedDevice:
-    """A handle of `mass` [kg] and `damping` [N s/m] in a hand that pushes: Site.push(). `guide`: the
-    unit vector of a slot that it moves in."""
+    """A handle of `mass` [kg] and `damping` [N s/m] that a hand pushes: Site.push(). `guide`: unit
+    vector of a slot that limits its motion."""
 
     def __init__(self, start=(0, 0, 0), mass=0.1, damping=0.5, guide=None):
         self.words = {"kind": "simulated", "start": start, "mass": mass, "damping": damping,
@@ -85,14 +85,14 @@ class SimulatedDevice:
 
 
 class Link:
-    """A way to one remote, made by a Site. push() and pop() are for manual ones."""
+    """A link to one remote, made by a Site. push() and pop() are for manual links."""
 
     def __init__(self, site, number):
         self._site = site
         self.number = number
 
     def push(self, packet):
-        """Gives a Packet that has come in, for the next step."""
+        """Delivers a received Packet for the next step."""
         numbers = [packet.sender, packet.is_idle, packet.sequence, packet.time, *packet.position,
                    *packet.velocity, packet.port_energy, len(packet.objects)]
         for number, state in packet.objects:
@@ -102,7 +102,7 @@ class Link:
         self._site._send_doubles("push", numbers, link=self.number)
 
     def pop(self):
-        """The next Packet that the site wants to send, or None."""
+        """Takes the next Packet to send, or None."""
         numbers = self._site._ask("pop", link=self.number)
         if not numbers:
             return None
@@ -117,11 +117,11 @@ class Link:
 class Site:
     """One user's site in one physics client.
 
-    `device`: a Device or SimulatedDevice. `self_id`: this user's number, 1 or more; `peers`: how many
-    users share, so that each copy of a body carries 1/peers of its mass. `settings`: haptic_rate,
-    packet_rate, contact=(K, B), coordination=(K, B), proxy_mass, proxy_damping, proxy_radius,
-    hip_radius, scheme, guide=(x, y, z) and more: docs/pybullet.md. What is not given is as in the
-    paper's Experiment I. A client takes one site at a time.
+    `device`: a Device or SimulatedDevice. `self_id`: this user's number, 1 or more. `peers`: number of
+    users; each copy of a body carries 1/peers of its mass. `settings`: haptic_rate, packet_rate,
+    contact=(K, B), coordination=(K, B), proxy_mass, proxy_damping, proxy_radius, hip_radius, scheme,
+    guide=(x, y, z) and more: docs/pybullet.md. The defaults are those of the paper's Experiment I.
+    A client takes one site at a time.
     """
 
     def __init__(self, device=None, self_id=1, peers=2, client=0, plugin=None, **settings):
@@ -134,7 +134,7 @@ class Site:
         try:
             self._command("site", self=self_id, peers=peers, **settings)
         except Exception:
-            self._command("close")  # or its device would be the next site's
+            self._command("close")  # otherwise the next site would get this device
             raise
 
     def __enter__(self):
@@ -151,22 +151,23 @@ class Site:
     # Set-up.
 
     def share(self, body, damping=0.0, shape=None):
-        """Shares a body without joints, and returns its number, from 0. All users share the same
-        bodies in the same order. `damping` acts on this copy [N s/m]. `shape`, if PyBullet does not
-        tell it (maximal coordinates): ("box", half_extents), ("sphere", radius),
+        """Shares a body without joints and returns its number, from 0. All users share the same bodies
+        in the same order. `damping` acts on this copy [N s/m]. Give `shape` if PyBullet does not
+        know it (maximal coordinates): ("box", half_extents), ("sphere", radius),
         ("capsule", radius, height), ("cylinder", radius, height) or ("hull", points)."""
         return self._command_with_shape("share", body, shape, damping=damping)
 
     def obstacle(self, body, shape=None):
-        """Makes a static body one that shared bodies, proxies and the hand meet in Tandem, and no
-        longer in PyBullet. `shape` as of share(), or ("plane",) for all below z = 0 of the body."""
+        """Makes a static body an obstacle: shared bodies, proxies and the hand touch it in Tandem, and
+        no longer in PyBullet. `shape` as in share(), or ("plane",) for all below z = 0 of the
+        body."""
         self._command_with_shape("obstacle", body, shape)
         self._obstacles.add(body)
 
     def obstacles(self):
-        """Makes all static bodies without joints obstacles that are none yet; returns their numbers.
-        What has no collision shape is left out; what cannot be an obstacle as well, with a warning
-        that says what it lacks."""
+        """Makes obstacles of all static bodies without joints that are none yet; returns their numbers.
+        Skips bodies without collision shape. Skips unsuitable bodies with a warning that names the
+        reason."""
         found = []
         for index in range(pybullet.getNumBodies(physicsClientId=self._client)):
             body = pybullet.getBodyUniqueId(index, physicsClientId=self._client)
@@ -178,14 +179,14 @@ class Site:
                 self.obstacle(body)
                 found.append(body)
             except TandemError as why:
-                if why.status == _WRONG_ORDER or self._plugin < 0:  # the site's fault
+                if why.status == _WRONG_ORDER or self._plugin < 0:  # the site is the cause
                     raise
                 warnings.warn(f"no obstacle: {why}", stacklevel=2)
         return found
 
     def connect(self, peer, link, start=(0, 0, 0), show=(0.2, 0.6, 0.9, 0.7)):
         """Connects the remote user `peer`, whose hand starts at `start`; returns the remote's number,
-        from 0. `show`: colour of a sphere that shows its proxy and pushes what else is in PyBullet's
+        from 0. `show`: colour of a sphere that shows its proxy and pushes other bodies in PyBullet's
         world, or None."""
         remote = self._command("connect", peer=peer, link=link.number, start=start)
         proxy = self.read().proxies[remote].position
@@ -195,22 +196,22 @@ class Site:
 
     def simulated_link(self, name, delay=0.0, jitter=0.0, loss=0.0, duplicate=0.0, reorder=0.0,
                        seed=1):
-        """One end of the simulated way `name` between two clients of this process; the other user
-        calls this with the same arguments. `delay` and `jitter` in seconds, the others are
-        probabilities."""
+        """One end of the simulated link `name` between two clients of this process. The other user
+        calls this with the same arguments. `delay` and `jitter` are in seconds; `loss`, `duplicate`
+        and `reorder` are probabilities."""
         return Link(self, self._command("link", kind="simulated", name=name, delay=delay,
                                         jitter=jitter, loss=loss, duplicate=duplicate,
                                         reorder=reorder, seed=seed))
 
     def manual_link(self):
-        """A way of the script's own: Link.pop() what is to be sent, Link.push() what has come in."""
+        """A link that the script carries: send what Link.pop() returns, Link.push() what arrives."""
         return Link(self, self._command("link", kind="manual"))
 
     def mesh(self, self_id, bind, peers, agreements=None):
-        """Sealed UDP ways to all `peers` over one socket bound to `bind`, "0.0.0.0:7001". Returns
-        {peer's id: Link}. `agreements`: {key: value} that must be the same at all sites. Step in
-        real time."""
-        # All lines first: what cannot be said must not leave half of it waiting.
+        """Sealed UDP links to all `peers` over one socket bound to `bind`, "0.0.0.0:7001". Returns
+        {peer's id: Link}. `agreements`: {key: value} that must be equal at all sites. Step in real
+        time."""
+        # Make all lines first: an invalid one must not leave the others waiting in the plugin.
         lines = [_line("peer", {"id": peer.id, "key": peer.key, "address": peer.address})
                  for peer in peers]
         lines += [_line("agree", {"key": key, "value": value})
@@ -224,23 +225,23 @@ class Site:
     # In the loop.
 
     def push(self, force):
-        """The force of a simulated device's hand from now on [N]."""
+        """Sets the force of a simulated device's hand from now on [N]."""
         self._command("hand", force=force)
 
     def move(self, position, velocity=(0, 0, 0)):
-        """Where the hand is now [m], and its velocity [m/s]."""
+        """Sets the position [m] and velocity [m/s] of the hand."""
         self._command("hand", position=position, velocity=velocity)
 
     def step(self):
-        """p.stepSimulation(): the haptic ticks of this time run inside."""
+        """Calls p.stepSimulation(), which also runs the haptic ticks of this time."""
         pybullet.stepSimulation(physicsClientId=self._client)
 
     def force(self):
-        """The force on the hand that was rendered last [N]; zero after the site has ended."""
+        """Force on the hand that was rendered last [N]; zero after the site has ended."""
         return tuple(self._ask("force"))
 
     def read(self):
-        """A Reading of everything."""
+        """Reads the whole state as a Reading."""
         numbers = self._ask("read")
         objects, remotes = int(numbers[16]), int(numbers[17])
         states = [_state_of(numbers[at:at + 13])
@@ -255,7 +256,7 @@ class Site:
                        tuple(LINK_STATES[int(state)] for state in links))
 
     def states(self):
-        """The shared bodies' States, as the haptic island has them."""
+        """States of the shared bodies in the haptic island."""
         return self.read().objects
 
     def mesh_status(self, peer):
@@ -264,19 +265,19 @@ class Site:
         return PeerStatus(PHASES[int(phase)], silence, round_trip, loss)
 
     def mesh_explain(self, peer):
-        """Why a peer of the mesh does not become live, as far as is known: lines of text."""
+        """Known reasons why a peer of the mesh does not become live: lines of text."""
         answer = self._send(_line("mesh_explain", {"peer": peer}))
         self._check(answer)
         return answer[1].decode().splitlines()
 
     def warnings(self):
-        """What to know about what was attached, and what has happened since: lines of text."""
+        """Facts about the attached bodies and events since: lines of text."""
         answer = self._send("warnings")
         self._check(answer)
         return answer[1].decode().splitlines()
 
     def close(self):
-        """Gives PyBullet its bodies back as they were, and ends the site. The plugin stays loaded."""
+        """Restores PyBullet's bodies and ends the site. The plugin stays loaded."""
         if self._plugin < 0:
             return
         self._command("close")
@@ -289,7 +290,7 @@ class Site:
             except pybullet.error:
                 pass  # the script has removed it
 
-    # Inside.
+    # Private.
 
     def _show(self, remote, position, colour):
         radius = self._radius or 0.01
@@ -325,7 +326,7 @@ class Site:
         return self._command(name, **words)
 
     def _collides(self, body):
-        """Whether the base has a collision shape."""
+        """True if the base has a collision shape."""
         client = {"physicsClientId": self._client}
         if pybullet.getDynamicsInfo(body, -1, **client)[10] == _MULTIBODY:
             return bool(pybullet.getCollisionShapeData(body, -1, **client))
@@ -333,12 +334,12 @@ class Site:
         return low != high
 
     def _hull_of(self, body):
-        """Points of a body that is one mesh, which the plugin cannot ask for; else None, as of a
-        mesh whose points PyBullet does not tell."""
+        """Points of a body that is one mesh, because the plugin cannot ask for them. None for other
+        bodies, and if PyBullet does not tell the points."""
         client = {"physicsClientId": self._client}
         try:
             if pybullet.getDynamicsInfo(body, -1, **client)[10] != _MULTIBODY:
-                return None  # of others PyBullet does not tell the shape
+                return None  # PyBullet does not tell the shape of a btRigidBody
             pieces = pybullet.getCollisionShapeData(body, -1, **client)
             if len(pieces) != 1 or pieces[0][2] != pybullet.GEOM_MESH:
                 return None
@@ -348,7 +349,7 @@ class Site:
         return ("hull", sorted(set(points))) if points else None
 
     def _send_doubles(self, name, numbers, /, **words):
-        """A command with doubles, which PyBullet carries exactly only as pairs of 32-bit words."""
+        """Runs a command with doubles. PyBullet carries them exactly only as pairs of 32-bit words."""
         ints = array("i", array("d", numbers).tobytes()).tolist()
         while len(ints) > _WORDS_PER_COMMAND:
             self._check(self._send("data", ints[:_WORDS_PER_COMMAND]))
@@ -356,11 +357,11 @@ class Site:
         return self._check(self._send(_line(name, words), ints))
 
     def _command(self, name, /, **words):
-        """Runs a command; its number."""
+        """Runs a command and returns its number."""
         return self._check(self._send(_line(name, words)))
 
     def _ask(self, name, /, **words):
-        """Runs a command; its doubles."""
+        """Runs a command and returns its doubles."""
         answer = self._send(_line(name, words))
         self._check(answer)
         return array("d", answer[1])
@@ -373,12 +374,12 @@ class Site:
 
 
 def create_key(path, client=0):
-    """Makes a file with a new key for a pair of sites, that only its owner may read. Both need it."""
+    """Makes a file with a new key for a pair of sites; both need it. Only its owner may read it."""
     _check(_execute(_load(client), client, _line("key", {"path": path})))
 
 
 def find_plugin():
-    """Path of libtandem-pybullet.so; raises FileNotFoundError with where it was looked for."""
+    """Path of libtandem-pybullet.so. Raises FileNotFoundError with the searched places."""
     named = os.environ.get("TANDEM_PYBULLET_PLUGIN")
     here = os.path.dirname(os.path.abspath(__file__))
     name = "libtandem-pybullet.so"
@@ -401,8 +402,8 @@ def _load(client, plugin=None):
 
 
 def _execute(plugin, client, line, ints=()):
-    """Status and bytes of a command. PyBullet gives bytes as signed numbers, and none if there are
-    none."""
+    """Runs a command and returns its status and bytes. PyBullet gives bytes as signed numbers, or
+    only the status if there are none."""
     answer = pybullet.executePluginCommand(plugin, line, ints, physicsClientId=client)
     if isinstance(answer, int):
         return answer, b""
@@ -411,8 +412,8 @@ def _execute(plugin, client, line, ints=()):
 
 
 def _check(answer):
-    """The status of an answer; what was refused raises. Without words PyBullet says that it has no
-    such plugin, and the plugin that it has no memory for them."""
+    """Returns the status of an answer; raises if it was refused. Two errors have no text: PyBullet's
+    if the plugin is gone, and the plugin's if memory is."""
     status, text = answer
     if status < 0:
         otherwise = {_CLOSED: "the site is closed", _NO_MEMORY: "no memory is left"}
@@ -427,7 +428,7 @@ def _state_of(numbers):
 
 
 def _line(name, words):
-    """The text of a command: repr() of a float has all its digits."""
+    """Makes the text of a command; repr() keeps all digits of a float."""
     parts = [name]
     for key, value in words.items():
         if value is None:

@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& text) { throw Refusal(kBadCommand, text); }
 
-/// Cuts the next word off a line; spaces in double quotes belong to it, the quotes do not.
+/// Cuts the next word off a line. Double quotes keep spaces in a word and are dropped.
 std::string cutWord(std::string_view& line) {
   std::string word;
   bool is_quoted = false;

@@ -8,9 +8,9 @@
 
 namespace tandem::pybullet {
 
-/// A command as it comes in: a name, then words `key=value` apart by spaces. A value with spaces
-/// stands in double quotes. Numbers are decimal, several of one word apart by commas. What cannot
-/// be read throws Refusal(kBadCommand).
+/// Parses a command: a name, then words `key=value` separated by spaces. A value with spaces stands
+/// in double quotes. Numbers are decimal; commas separate several numbers. Throws
+/// Refusal(kBadCommand) if it cannot be parsed.
 class Words {
  public:
   explicit Words(std::string_view line);
@@ -18,7 +18,7 @@ class Words {
   const std::string& name() const { return name_; }
   bool has(std::string_view key) const;
 
-  // Each asks for the word of a key, and notes that the command knows it.
+  // Each reads the word of a key, and marks it as known.
   std::string text(std::string_view key);
   std::string text(std::string_view key, std::string_view otherwise);
   double number(std::string_view key);
@@ -26,13 +26,13 @@ class Words {
   int integer(std::string_view key);
   int integer(std::string_view key, int otherwise);
   std::uint64_t count(std::string_view key, std::uint64_t otherwise);
-  /// 0 or 1.
+  /// The value is 0 or 1.
   bool flag(std::string_view key, bool otherwise);
-  /// `size` finite numbers, to `out`.
+  /// Reads `size` finite numbers into `out`.
   void numbers(std::string_view key, double* out, std::size_t size);
   bool numbersIfThere(std::string_view key, double* out, std::size_t size);
 
-  /// Throws if a word is left that the command has not asked for.
+  /// Throws if the command has not read every word.
   void finish() const;
 
  private:

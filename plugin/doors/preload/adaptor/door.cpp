@@ -1,4 +1,4 @@
-// What an adaptor library shows: the functions of adaptor_door.h for one world of the process.
+// The exported functions of an adaptor library (adaptor_door.h), for one world of the process.
 
 #include <exception>
 #include <memory>
@@ -12,7 +12,7 @@
 namespace tandem::preload {
 namespace {
 
-/// Never destroyed: a world of static lifetime may end after everything here.
+/// Never destroyed: a static world may end after every other object here.
 struct State {
   PreloadConfig config;
   std::unique_ptr<SharedObject> shared;
@@ -26,7 +26,7 @@ const char* nameOfWidth(std::size_t bytes) {
   return bytes == sizeof(double) ? "8-byte (double)" : "4-byte (float)";
 }
 
-/// The interposer has read this key by itself.
+/// Checks `process`, which the interposer has read with its own parser.
 void checkProcess(const std::string& wanted, const char* config, const char* process) {
   if (wanted.empty() || wanted == process) return;
   throw Error(std::string(config) + ": process = \"" + wanted +

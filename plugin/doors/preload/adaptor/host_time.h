@@ -4,12 +4,12 @@
 
 namespace tandem::preload {
 
-/// A host's simulated time [s]: counted in steps of one length, not summed up.
+/// Simulated time of a host [s], counted in equal steps instead of summed.
 class HostTime {
  public:
-  /// As stepSimulation() was told, and what it said that it did.
+  /// Takes the arguments and the result of stepSimulation().
   void advance(double dt, int max_sub_steps, double fixed_step, int sub_steps) noexcept {
-    // Without sub-steps the whole of dt is one step.
+    // Without sub-steps Bullet makes one step of dt.
     if (max_sub_steps == 0) {
       add(dt, 1);
     } else {

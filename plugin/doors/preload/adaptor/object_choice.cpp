@@ -9,13 +9,13 @@
 
 #include "tandem/bullet_bridge/shapes.h"
 
-// Why by index, shape and mass: Bullet's bodies have no names of their own. What a host calls them
-// is kept in its own tables, and a user pointer is the host's to read.
+// Bodies are chosen by index, shape and mass, because Bullet's bodies have no names. A host keeps
+// names in its own tables, and only the host understands its user pointers.
 
 namespace tandem::preload {
 namespace {
 
-/// Calls `look(body, index)` for each dynamic body, until it says true.
+/// Calls `look(body, index)` for each dynamic body until it returns true.
 template <typename Look>
 void forEachMoving(const btDiscreteDynamicsWorld& world, Look look) {
   int index = 0;

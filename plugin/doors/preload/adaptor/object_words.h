@@ -9,25 +9,25 @@
 
 namespace tandem::preload {
 
-/// A shape as a config names it: "box 0.1 0.1 0.2", "sphere 0.05", or without sizes "box".
+/// A shape as written in a config: "box 0.1 0.1 0.2", "sphere 0.05", or just "box".
 struct ShapeWords {
   std::string kind;           ///< box, sphere, capsule, cylinder, hull
-  std::vector<double> sizes;  ///< [m]; empty: any
+  std::vector<double> sizes;  ///< [m]; empty: any size
 };
 
-/// The words of a text; nothing if they name no shape or not its number of sizes.
+/// Parses a text. Returns nothing if it names no shape or has a wrong number of sizes.
 [[nodiscard]] std::optional<ShapeWords> parseShapeWords(const std::string& text);
 
-/// The words of a shape: a box has its three edges, a sphere its radius, a capsule its radius and
-/// the length between its balls, a cylinder its radius and length, a hull no size. Empty for a
-/// shape that cannot be shared.
+/// Describes a shape by its sizes. A box has three edges, a sphere its radius. A capsule has its
+/// radius and the distance of its spheres' centres, a cylinder its radius and length. A hull has no
+/// size. Returns empty words for a shape that cannot be shared.
 [[nodiscard]] ShapeWords describeShape(const Shape& shape);
 [[nodiscard]] std::string toText(const ShapeWords& words);
 
-/// True if `words` have the same kind and, where they have sizes, the same within a thousandth.
+/// True if the kinds are equal and the sizes, if given, agree within a thousandth.
 [[nodiscard]] bool matches(const ShapeWords& words, const ShapeWords& of_body) noexcept;
 
-/// Equal within a thousandth: a host may have rounded to float, and a user to what is read easily.
+/// True within a thousandth: a host may round to float, and a user to few digits.
 [[nodiscard]] bool isNearly(double a, double b) noexcept;
 
 }  // namespace tandem::preload

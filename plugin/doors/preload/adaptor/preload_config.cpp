@@ -17,7 +17,7 @@ namespace {
 
 using Setter = std::function<bool(const toml::node&)>;
 
-/// A key, what it may be, and where its value goes; a setter says no to all else.
+/// A key, its allowed values and its setter. A setter returns false for any other value.
 struct Key {
   std::string name;
   std::string allowed;
@@ -118,7 +118,7 @@ Setter toWidth(std::size_t& bytes) {
   };
 }
 
-/// What makes a link needs all of it at once.
+/// Link settings, collected until all are known.
 struct LinkWords {
   PreloadLink link;
   std::string bind, address;
@@ -255,7 +255,7 @@ class Reader {
     if (!link_.address.empty())
       resolve("link.address", link_.address, [&](const Address& found) { link.address = found; });
     config_.link = link;
-    // A peer that has not been heard yet is not there.
+    // A peer that was never heard is not connected yet.
     config_.site.link_loss.start_live = false;
   }
 

@@ -12,23 +12,23 @@
 
 namespace tandem::preload {
 
-/// How another site is reached.
+/// Address and key of another site.
 struct PreloadLink {
   PeerId peer{2};
   Address bind;
-  std::optional<Address> address;  ///< nothing: it calls
-  std::string key;                 ///< file
+  std::optional<Address> address;  ///< empty: the other site calls
+  std::string key;                 ///< file name
   bool playout = true;
 };
 
-/// What a config file says; docs/preload.md has all keys.
+/// Contents of a config file; docs/preload.md lists all keys.
 struct PreloadConfig {
-  std::string process;           ///< name of the process that is meant; empty: any
-  std::size_t scalar_bytes = 0;  ///< width of btScalar that is expected; 0: any
-  int world = 1;                 ///< counted as they are made
-  std::optional<int> index;      ///< of the moving bodies, counted from 1; or
+  std::string process;           ///< name of the wanted process; empty: any
+  std::size_t scalar_bytes = 0;  ///< expected width of btScalar; 0: any
+  int world = 1;                 ///< number of the world, in order of creation
+  std::optional<int> index;      ///< among the moving bodies, from 1; or else the shape
   std::optional<ShapeWords> shape;
-  std::optional<double> mass;  ///< that the body must have [kg]
+  std::optional<double> mass;  ///< mass that the body must have [kg]
   double damping = 0.0;        ///< of the shared copy [N s/m]
   std::string log;             ///< CSV file; empty: none
   SiteSettings site;
@@ -38,8 +38,8 @@ struct PreloadConfig {
   std::optional<PreloadLink> link;
 };
 
-/// Reads a TOML file; files that it names are found from its folder. Throws tandem::Error, in one
-/// line with file, key, value and what is allowed.
+/// Reads a TOML file. File names in it are relative to its folder. Throws tandem::Error in one line
+/// with file, key, value and what is allowed.
 [[nodiscard]] PreloadConfig readPreloadConfig(const std::string& file);
 
 }  // namespace tandem::preload

@@ -9,7 +9,7 @@
 namespace tandem::preload {
 namespace {
 
-constexpr double kFarewell = 0.12;  ///< time to say it [s]
+constexpr double kFarewell = 0.12;  ///< time to send the farewell [s]
 
 UdpMeshSettings makeSettings(const PreloadConfig& config, Configuration agreement) {
   UdpMeshSettings settings;
@@ -62,7 +62,7 @@ std::optional<std::string> RemoteSite::reportChange() {
 
 void RemoteSite::send(const StatePacket& packet, double now) noexcept {
   StatePacket stamped = packet;
-  // A site begins anew when its object comes back; what it sends goes on.
+  // A site restarts when its object comes back; the sequence must go on.
   stamped.sequence = sequence_++;
   link_.send(stamped, now + ahead_);
 }

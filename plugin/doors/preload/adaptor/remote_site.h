@@ -11,27 +11,27 @@
 
 namespace tandem::preload {
 
-/// The way to the other site over UDP, for a site that goes by the host's simulated time.
+/// UDP link to the other site, for a site that runs in the host's simulated time.
 ///
-/// States are stamped as if the host ran in real time from the step that is being done, so a step's
-/// ticks, which run in one go, do not look like jitter. A host that stands still is silent, and the
+/// Times are stamped as if the host ran in real time from the current step on. The ticks of a step
+/// run in one go, and would look like jitter otherwise. A host that stands still is silent, and the
 /// other site fades it out.
 class RemoteSite final : public Link {
  public:
   /// Throws as readKeyFile() and UdpMesh do.
   RemoteSite(const PreloadConfig& config, Configuration agreement);
-  /// Says farewell, which takes a tenth of a second.
+  /// Says farewell, which takes 0.12 s.
   ~RemoteSite() override;
   RemoteSite(const RemoteSite&) = delete;
   RemoteSite& operator=(const RemoteSite&) = delete;
 
-  /// Before each step of the host, which begins at `site_time` [s].
+  /// Call it before each step of the host, which begins at `site_time` [s].
   void beginStep(double site_time) noexcept;
 
-  /// What has changed since it was asked last, in one line; nothing if nothing has. Allocates.
+  /// Describes the change since the last call in one line; empty if nothing changed. Allocates.
   [[nodiscard]] std::optional<std::string> reportChange();
 
-  // Link, in the site's time.
+  // Link in the site's time.
   void send(const StatePacket& packet, double now) noexcept override;
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override;
 

@@ -13,7 +13,7 @@
 namespace tandem::preload {
 namespace {
 
-/// What both sites must have alike.
+/// Values that must be equal at both sites.
 Configuration makeAgreement(const PreloadConfig& config, const ObjectChoice& object) {
   const SiteSettings& site = config.site;
   const auto number = [](double value) {
@@ -40,7 +40,7 @@ Configuration makeAgreement(const PreloadConfig& config, const ObjectChoice& obj
                             {"site.packet_rate", number(site.packet_rate)}});
 }
 
-/// What a new bit of the status asks of the user; others need nothing.
+/// Text for the user about new status bits; null if there is nothing to do.
 const char* describeStatus(std::uint32_t bits) {
   if (bits & kStateNotFinite) return "the motion is no longer finite; lower the gains";
   if (bits & kPacketRefused) return "the other site sends states that make no sense";
@@ -98,8 +98,8 @@ void SharedObject::attach(const ObjectChoice& choice) {
   for (const std::string& warning : site_->warnings()) say("note: %s", warning.c_str());
 }
 
-/// Bullet puts the last body where one was taken out, so an index is good for the first time only;
-/// after that the object is the next newcomer that is like it.
+/// Looks for the same object by shape and mass from now on. Its index is valid only once: Bullet
+/// moves the last body into the place of a removed one.
 void SharedObject::lookForTheSame(const ObjectChoice& choice) {
   config_.index.reset();
   config_.shape = choice.shape;
@@ -134,8 +134,8 @@ void SharedObject::report() {
   if (const auto change = remote_->reportChange()) say("%s", change->c_str());
 }
 
-/// A world has one slot for a callback before a step, and the program may have put its own there
-/// since.
+/// Attaches again if the program replaced the site's callback. A world has only one pre-tick
+/// callback.
 void SharedObject::attachAgainIfUnseated() {
   if (site_->counters().host_steps != seen_steps_) return;
   say("the program has set a tick callback of its own, which comes first now");
@@ -144,11 +144,11 @@ void SharedObject::attachAgainIfUnseated() {
 }
 
 void SharedObject::objectLeaves(const void* object) noexcept {
-  // Another body may get the same address.
+  // A new body may get the same address.
   std::erase(leave_alone_, object);
   const btCollisionObject* shared = body_;
   if (!site_ || object != shared) return;
-  // A site is not taken out of the step that it is part of.
+  // A site cannot end within its own step.
   has_left_ = true;
   if (!is_in_step_) letGo();
 }

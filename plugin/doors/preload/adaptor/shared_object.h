@@ -14,9 +14,9 @@
 
 namespace tandem::preload {
 
-/// The one world of a process that a config shares an object of: waits for the object, attaches a
-/// site when it comes, lets go when it leaves. What happens is said on stderr; nothing is thrown,
-/// and after trouble the host goes on without Tandem. Called by the thread that steps the world.
+/// Shares an object of one world of the process. Waits for the object, attaches a site when it
+/// appears and lets go when it leaves. Events are reported on stderr. Nothing is thrown: after
+/// trouble the host runs on without Tandem. For the thread that steps the world.
 class SharedObject {
  public:
   /// Throws tandem::Error if the log cannot be written.
@@ -25,16 +25,16 @@ class SharedObject {
   SharedObject(const SharedObject&) = delete;
   SharedObject& operator=(const SharedObject&) = delete;
 
-  /// The world may be a derived one that is not complete yet: nothing is asked of it here.
+  /// Sets the world. It may be an incomplete derived one, so nothing is read from it here.
   void setWorld(btDiscreteDynamicsWorld& world) noexcept { world_ = &world; }
 
   void beforeStep() noexcept;
   void afterStep(double dt, int max_sub_steps, double fixed_step, int sub_steps) noexcept;
   void objectLeaves(const void* object) noexcept;
-  /// The world ends: gives it everything back.
+  /// Restores the world before it ends.
   void endWorld() noexcept;
 
-  /// Null while the object is not there.
+  /// Null while the object is absent.
   [[nodiscard]] const Site* site() const noexcept { return site_.get(); }
 
  private:
@@ -54,7 +54,7 @@ class SharedObject {
   std::unique_ptr<Site> site_;
   ObjectChoice choice_;
   btRigidBody* body_ = nullptr;
-  std::vector<const void*> leave_alone_;  ///< others that were there when the object left
+  std::vector<const void*> leave_alone_;  ///< bodies that were present when the object left
   HostTime time_, site_time_;
   std::uint64_t steps_ = 0, seen_steps_ = 0;
   std::uint32_t reported_status_ = 0;

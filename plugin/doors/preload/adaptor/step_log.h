@@ -12,15 +12,15 @@ namespace tandem::preload {
 ///
 ///   t,x,y,z,force_x,force_y,force_z,link
 ///
-/// t: the host's time since the object was first shared [s]; where the object is after the step, in
-/// W [m]; force on the user's hand in the step's last tick [N]; share of the other site: its link's
-/// state, "none" without one.
+/// t is the host's time since the object was first shared [s]. x, y, z is the object's position
+/// after the step, in W [m]. The force acts on the user's hand in the step's last tick [N]. link is
+/// the state of the link to the other site, or "none".
 class StepLog {
  public:
   /// Throws tandem::Error if the file cannot be written.
   explicit StepLog(const std::string& file);
 
-  /// Says so once if the disk is full.
+  /// Adds a line. Reports the first failure to write on stderr, and stops the log.
   void add(double time, const Vec3& p_W, const Vec3& f_W, std::string_view link) noexcept;
 
  private:

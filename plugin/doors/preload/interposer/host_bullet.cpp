@@ -20,13 +20,13 @@ namespace {
 constexpr const char* kConstructComplete = "_ZN" WORLD "C1E" MADE_OF;
 
 struct Bullets {
-  static constexpr int kMost = 8;  // a process has one; two with plugins of both widths
+  static constexpr int kMost = 8;  // a process usually has one, or two with plugins of both widths
   HostBullet found[kMost];
   std::atomic<int> count{0};
 };
 Bullets bullets;
 
-/// A world of another Bullet than the first.
+/// A world of another Bullet than the first one found.
 struct OtherWorld {
   const void* world;
   const HostBullet* bullet;
@@ -63,7 +63,8 @@ void* findInScopeOf(const char* file, const char* name) {
   return symbol && !isOurs(symbol) ? symbol : nullptr;
 }
 
-/// A library without dependencies of its own may get Bullet from whoever loaded it.
+/// Searches all loaded objects: a library without dependencies of its own may use its loader's
+/// Bullet.
 void* findAnywhere(const char* name) {
   for (const link_map* map = mapOf(&bullets); map; map = map->l_next)
     if (void* symbol = findInScopeOf(map->l_name, name)) return symbol;
@@ -81,14 +82,15 @@ const char* sonameOf(const link_map& map) {
   const char* strings = nullptr;
   const ElfW(Dyn)* soname = nullptr;
   for (const ElfW(Dyn)* entry = map.l_ld; entry->d_tag != DT_NULL; ++entry) {
-    // The loader has made an address of it.
+    // The loader has converted it to an address.
     if (entry->d_tag == DT_STRTAB) strings = reinterpret_cast<const char*>(entry->d_un.d_ptr);
     if (entry->d_tag == DT_SONAME) soname = entry;
   }
   return strings && soname ? strings + soname->d_un.d_val : "";
 }
 
-/// Width of a btScalar that every libBulletDynamics defines, from its symbol table.
+/// Width of btScalar, from the symbol table's size of a scalar that every libBulletDynamics
+/// defines.
 std::size_t scalarBytesOf(void* object) {
   void* variable = dlsym(object, "gDeactivationTime");
   Dl_info info;
@@ -103,11 +105,11 @@ void take(void* object, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(object, name));
 }
 
-/// All functions are those of one file, whatever a host has put between us and it.
+/// Takes all functions from one file, whatever the host has loaded in between.
 void fill(HostBullet& bullet, void* constructor) {
   const link_map* map = mapOf(constructor);
   bullet.construct_complete = reinterpret_cast<Construct>(constructor);
-  // For ever: what is kept here must not go with a plugin that is unloaded.
+  // Never closed: these functions must survive the unloading of a plugin.
   void* object =
       map ? dlopen(*map->l_name ? map->l_name : nullptr, RTLD_LAZY | RTLD_NOLOAD) : nullptr;
   if (!object) return;
@@ -122,7 +124,7 @@ void fill(HostBullet& bullet, void* constructor) {
   take(object, "_ZN" WORLD "14stepSimulationEdid", bullet.step_double);
   take(object, "_ZN" WORLD "15removeRigidBodyEP11btRigidBody", bullet.remove_body);
   take(object, "_ZN" WORLD "21removeCollisionObjectEP17btCollisionObject", bullet.remove_object);
-  // A table of virtual functions begins with an offset and the type.
+  // The first two entries of a virtual table are an offset and the type.
   if (auto* table = static_cast<const void**>(dlsym(object, "_ZTV" WORLD)))
     bullet.first_virtual = table + 2;
 }
@@ -181,7 +183,7 @@ void forgetWorld(const void* world) noexcept {
 const HostBullet& bulletOf(const void* world, const void* caller) noexcept {
   const int count = bullets.count.load(std::memory_order_acquire);
   if (count == 1) return bullets.found[0];
-  // Made where we could not see it: by a library that calls its own Bullet directly.
+  // An unseen world: made by a library that calls its own Bullet directly.
   if (count == 0) return findHostBullet(caller);
   const Lock lock;
   for (const OtherWorld* other = other_worlds; other; other = other->next)

@@ -1,12 +1,12 @@
-// The functions of btDiscreteDynamicsWorld that are ours in a process with LD_PRELOAD: each finds
-// the one that the host would have called, calls it, and tells the adaptor if the world is shared.
+// Functions of btDiscreteDynamicsWorld that replace Bullet's in a process with LD_PRELOAD. Each one
+// finds and calls the original, and informs the adaptor if the world is shared.
 //
 //   host, its plugins, Bullet's virtual functions ──► here ──► the process's own libBulletDynamics
 //                                                      └─────► adaptor, for the one world of the
 //                                                      config
 //
-// No Bullet header: it would bring one width's types, and this serves both. `this` is the first
-// argument, as the C++ ABI of Linux has it.
+// No Bullet header is used, because it fixes one width and this library serves both. `this` is the
+// first argument, as in the C++ ABI of Linux.
 
 #include "host_bullet.h"
 #include "shared_world.h"
@@ -19,7 +19,7 @@
 
 namespace tandem::preload {
 
-// A world by itself, and as the base of another class.
+// C1, D1: a complete object; C2, D2: the base of another class; D0: deleting.
 void constructComplete(void* world, void* dispatcher, void* pairs, void* solver, void* settings)
     SHOWN_AS(WORLD "C1" MADE_OF);
 void constructBase(void* world, void* dispatcher, void* pairs, void* solver, void* settings)

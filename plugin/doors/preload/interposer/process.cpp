@@ -7,17 +7,17 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-// No TOML library here: this one is loaded into every child of a shell, and has the C library only.
-// The adaptor, which reads the whole file, refuses a `process` that this has read otherwise.
+// No TOML library: this library is loaded into every child of a shell, and uses the C library only.
+// The adaptor reads the whole file, and refuses a `process` that was read differently here.
 
 namespace tandem::preload {
 namespace {
 
-constexpr std::size_t kMostOfFile = 64 * 1024;  // the key stands near the beginning
+constexpr std::size_t kMostOfFile = 64 * 1024;  // the key is near the beginning
 
 const char* skipBlanks(const char* text) { return text + std::strspn(text, " \t"); }
 
-/// The value if the line is `process = "value"`.
+/// Reads the value if the line is `process = "value"`.
 bool readLine(const char* line, char* name, unsigned long size) {
   constexpr const char* kKey = "process";
   line = skipBlanks(line);

@@ -2,18 +2,19 @@
 
 namespace tandem::preload {
 
-/// The config file that TANDEM_PRELOAD names; null if it names none.
+/// Config file named by TANDEM_PRELOAD; null if there is none.
 [[nodiscard]] const char* findConfig() noexcept;
 
-/// This process's name, as argv[0] has it, without folders.
+/// Name of this process as in argv[0], without folders.
 [[nodiscard]] const char* processName() noexcept;
 
-/// Whether the config wants this process. LD_PRELOAD is inherited by every child, so a config may
-/// say `process = "name"`, on a line of its own before the first table; one that does not, or
-/// cannot be read, wants every process.
+/// True if the config wants this process. Every child inherits LD_PRELOAD, so a config may contain
+/// `process = "name"`, on its own line before the first table. A config without that line, or an
+/// unreadable one, wants every process.
 [[nodiscard]] bool isWanted(const char* config) noexcept;
 
-/// The value of such a line in a TOML text; false if there is none. At most `size` - 1 characters.
+/// Reads the value of that line in a TOML text, at most `size` - 1 characters. Returns false if
+/// there is none.
 [[nodiscard]] bool findProcessKey(const char* text, char* name, unsigned long size) noexcept;
 
 }  // namespace tandem::preload

@@ -18,7 +18,7 @@ void say(const char* format, ...) noexcept {
   va_end(values);
   if (size > static_cast<int>(sizeof line) - 2) size = static_cast<int>(sizeof line) - 2;
   line[size++] = '\n';
-  // In one go, so that lines of several threads stay whole. Nothing is to be done if it fails.
+  // One write() keeps the lines of several threads apart. A failure is ignored.
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, static_cast<size_t>(size));
   errno = error;
 }

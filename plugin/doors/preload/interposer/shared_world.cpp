@@ -14,12 +14,12 @@
 namespace tandem::preload {
 namespace {
 
-/// Bullet's name carries its version, and nothing else of it that a program could ask.
+/// File names of the supported Bullets. Only its name tells a Bullet's version.
 constexpr const char* kFloatBullet = "libBulletDynamics.so." TANDEM_BULLET_VERSION;
 constexpr const char* kDoubleBullet = "libBulletDynamics-float64.so." TANDEM_BULLET_VERSION;
 
 const char* config = nullptr;  ///< null: none, or for another process
-bool is_told = false;          ///< why there is nothing to be seen of us
+bool is_told = false;          ///< the reason for doing nothing was already reported
 
 pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 int worlds = 0;
@@ -31,7 +31,7 @@ const char* describe(std::size_t scalar_bytes) {
   return scalar_bytes == 8 ? "8-byte (double)" : scalar_bytes == 4 ? "4-byte (float)" : "unknown";
 }
 
-/// True for Debian's Bullet of the version that the adaptors are built for.
+/// True for Debian's Bullet of the adaptors' version.
 bool canAttachTo(const HostBullet& bullet) {
   const bool is_float = !std::strcmp(bullet.soname, kFloatBullet) && bullet.scalar_bytes == 4;
   const bool is_double = !std::strcmp(bullet.soname, kDoubleBullet) && bullet.scalar_bytes == 8;
@@ -51,8 +51,8 @@ bool canAttachTo(const HostBullet& bullet) {
   return true;
 }
 
-/// The end of a world must be seen, else its site would outlive it: not so in a Bullet linked with
-/// -Bsymbolic-functions, whose virtual functions nobody comes between.
+/// True if the end of a world can be intercepted, so that its site does not outlive it. A Bullet
+/// linked with -Bsymbolic-functions calls its virtual functions directly.
 bool isSeenEnding(const HostBullet& bullet) {
   const auto* const* functions = static_cast<const void* const*>(bullet.first_virtual);
   if (functions[0] != reinterpret_cast<const void*>(bullet.destroy_complete)) return true;
@@ -62,7 +62,7 @@ bool isSeenEnding(const HostBullet& bullet) {
   return false;
 }
 
-/// tandem/preload-float.so or -float64.so beside this library.
+/// Path of tandem/preload-float.so or -float64.so beside this library.
 bool findAdaptor(std::size_t scalar_bytes, char* path, std::size_t size) {
   Dl_info own;
   if (dladdr(reinterpret_cast<const void*>(&findAdaptor), &own) == 0) return false;
@@ -76,7 +76,7 @@ bool findAdaptor(std::size_t scalar_bytes, char* path, std::size_t size) {
 const TandemPreloadDoor* loadAdaptor(const HostBullet& bullet) {
   char path[4096];
   if (!findAdaptor(bullet.scalar_bytes, path, sizeof path)) return nullptr;
-  // With symbols of its own, so that the host's are never bound to ours.
+  // RTLD_LOCAL keeps the adaptor's symbols away from the host.
   void* library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   const void* symbol = library ? dlsym(library, kTandemPreloadDoor) : nullptr;
   if (!symbol) {
@@ -96,7 +96,7 @@ const TandemPreloadDoor* loadAdaptor(const HostBullet& bullet) {
   return nullptr;
 }
 
-/// With the first world; once, whatever comes of it.
+/// Opens the adaptor with the first world; tries only once.
 void open(const HostBullet& bullet) {
   was_opened = true;
   is_told = true;
@@ -129,7 +129,7 @@ void sayIfNothingCame() noexcept {
 
 void offerWorld(void* world, const HostBullet& bullet) noexcept {
   if (!config) {
-    if (is_told || findConfig()) return;  // for another process
+    if (is_told || findConfig()) return;  // the config is for another process
     is_told = true;
     say("%s makes a Bullet world, but TANDEM_PRELOAD names no config: it runs without Tandem",
         processName());
@@ -149,8 +149,8 @@ const TandemPreloadDoor* adaptorOf(const void* world) noexcept {
 
 void endWorld(void* world, const HostBullet& bullet) noexcept {
   if (!adaptorOf(world)) return;
-  // What Bullet's destructor does first: from here on no function of a derived class, whose members
-  // are gone already, is called.
+  // Bullet's destructor does this first. No function of a derived class may be called now, because
+  // its members are gone.
   *static_cast<const void**>(world) = bullet.first_virtual;
   door->endWorld();
   taken.store(nullptr, std::memory_order_release);

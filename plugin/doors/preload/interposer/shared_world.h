@@ -5,18 +5,18 @@
 
 namespace tandem::preload {
 
-/// A world was made: if the config wants it, the adaptor for its width takes it over from here.
-/// Loads that adaptor with the first world of the process. Thread safe.
+/// Offers a new world to the adaptor, which takes it if the config wants it. Loads the adaptor with
+/// the first world of the process. Thread safe.
 void offerWorld(void* world, const HostBullet& bullet) noexcept;
 
-/// The adaptor if it has taken this world, else null. One comparison.
+/// Adaptor of this world; null if it is not shared. One comparison.
 [[nodiscard]] const TandemPreloadDoor* adaptorOf(const void* world) noexcept;
 
-/// A world ends. If the adaptor has it, it lets go now, while the world is still whole as a
+/// Tells the adaptor that a world of its ends, while the world is still a complete
 /// btDiscreteDynamicsWorld.
 void endWorld(void* world, const HostBullet& bullet) noexcept;
 
-/// What can be said of the process before it runs, and at its end.
+/// Reports at the start and at the end of the process.
 void lookAtProgram() noexcept;
 void sayIfNothingCame() noexcept;
 

@@ -7,11 +7,11 @@
 namespace tandem::preload {
 namespace {
 
-// In two halves: the whole must not stand in this library.
+// Two halves, so that this library does not contain the whole name.
 constexpr char kFirstHalf[] = "23btDiscrete";
 constexpr char kSecondHalf[] = "DynamicsWorld";
 
-/// A name of a type stands by itself; as a part of a symbol's name letters come before it.
+/// Finds the type name by itself; as part of a symbol name a letter precedes it.
 bool hasTypeName(const char* begin, std::size_t size) {
   char name[sizeof kFirstHalf + sizeof kSecondHalf];
   std::strcpy(name, kFirstHalf);
@@ -33,7 +33,7 @@ bool isBulletItself(const char* file) {
   return std::strncmp(slash ? slash + 1 : file, kName, std::strlen(kName)) == 0;
 }
 
-/// Looks through what is mapped to be read and not to be written.
+/// Searches the read-only segments of one loaded object.
 int look(dl_phdr_info* info, std::size_t, void* found) {
   if (isBulletItself(info->dlpi_name)) return 0;
   for (int i = 0; i < info->dlpi_phnum; ++i) {
