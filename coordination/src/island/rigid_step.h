@@ -14,9 +14,9 @@ namespace tandem {
 /// friction at the contacts found after the step's smooth motion.
 ///
 /// A contact's impulse in one step acts as a force in the smooth motion of the next; only the
-/// change is solved. A cube pressed against a wall thus stands still also for the damper that
-/// presses it. The change P acts when the contact closes, a share gamma of the step h before its
-/// end:
+/// change is solved. A cube pressed against a wall thus keeps zero velocity, and the damper that
+/// presses it sees no motion. The change P acts when the contact closes, a share gamma of the step
+/// h before its end:
 ///
 ///   gamma = d / (h u)     d: distance, u: normal velocity, both at the end of the smooth motion
 ///   v += P / m,   p += gamma h P / m

@@ -339,7 +339,8 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
   }
 }
 
-/// Finds the bodies that may touch something rigid, and wakes those at rest that are touched.
+/// Finds the bodies that may touch something rigid. Wakes those at rest that an awake one may
+/// touch.
 void SpatialMotion::lookAround(IslandModel& model) noexcept {
   std::fill(rigid_near_.begin(), rigid_near_.end(), char{0});
   if (!model.finder) return;

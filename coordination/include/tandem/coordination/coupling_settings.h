@@ -38,7 +38,7 @@ enum class LinkState {
 struct LinkLossSettings {
   bool enabled = true;         ///< false: the last state pulls forever
   bool start_live = true;      ///< a peer is live at its start pose until its first packet arrives
-  double stale_after = 0.025;  ///< age at which targets stand [s]
+  double stale_after = 0.025;  ///< age at which targets stand still [s]
   double fade_after = 0.1;     ///< age at which gains begin to fall [s]
   double lost_after = 0.25;    ///< age at which gains are zero [s]
   double hold_decay = 0.02;    ///< time constant with which a stale velocity decays [s]
