@@ -49,7 +49,7 @@ struct HapticLoop::Impl {
 void HapticLoop::Impl::waitForBegin() noexcept {
   const double first = latest.load(std::memory_order_relaxed);
   while (!is_stopping.load(std::memory_order_acquire)) {
-    const double next = readMonotonicClock() + site.period();
+    const double next = readMonotonicClock() + site.timeline.period();
     if (next >= first) return;
     sleepUntil(next);
     site.desk.serve();
@@ -58,7 +58,7 @@ void HapticLoop::Impl::waitForBegin() noexcept {
 
 /// Makes the tick whose moment it is: `due`, unless that has passed. Returns the next one.
 std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
-  const double period = site.period();
+  const double period = site.timeline.period();
   sleepUntil(begin + static_cast<double>(due) * period);
   const double start = readMonotonicClock();
   const double late = start - (begin + static_cast<double>(due) * period);
@@ -73,9 +73,9 @@ std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
   latest.store(start, std::memory_order_relaxed);
 
   // One gap is made up for; who is late again and again has too much to do already.
-  site.makes_up = !was_late;
+  const double most_made_up = was_late ? 0.0 : kMostMadeUp;
   was_late = passed > 0;
-  site.tick(static_cast<double>(due) * period);
+  site.tick(static_cast<double>(due) * period, most_made_up);
 
   const double length = readMonotonicClock() - start;
   tick_times.add(length);
@@ -88,20 +88,22 @@ std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
 void HapticLoop::Impl::run() noexcept {
   rights.take(settings.priority, settings.locks_memory);
   // A site that has ticked before goes on from there.
-  auto due = static_cast<std::uint64_t>(std::llround(site.island_time / site.period()));
+  auto due =
+      static_cast<std::uint64_t>(std::llround(site.timeline.time() / site.timeline.period()));
   const double first = settings.begin.value_or(readMonotonicClock());
-  begin = first - static_cast<double>(due) * site.period();
+  begin = first - static_cast<double>(due) * site.timeline.period();
   latest.store(first, std::memory_order_relaxed);
   has_begun.store(true, std::memory_order_release);
-  const double periods = std::min(settings.duration / site.period(), 1e18);
+  const double periods = std::min(settings.duration / site.timeline.period(), 1e18);
   const std::uint64_t end = due + static_cast<std::uint64_t>(std::llround(periods));
   waitForBegin();
   while (due < end && !is_stopping.load(std::memory_order_acquire)) due = tickAt(due);
-  site.lets_go = true;
-  const std::uint64_t last = due + static_cast<std::uint64_t>(kLongestFade / site.period());
-  while (due < last && site.force_W != Vec3::Zero()) due = tickAt(due);
-  site.device.write(Vec3::Zero());
-  site.lets_go = false;
+  site.hand.setFading(true);
+  const std::uint64_t last =
+      due + static_cast<std::uint64_t>(kLongestFade / site.timeline.period());
+  while (due < last && site.hand.force() != Vec3::Zero()) due = tickAt(due);
+  site.hand.letGo();
+  site.hand.setFading(false);
   // What is asked from here on is taken back by whoever asks.
   site.desk.serve();
   site.desk.close();
@@ -111,9 +113,9 @@ void HapticLoop::Impl::run() noexcept {
 HapticLoop::HapticLoop(Site& site, const HapticLoopSettings& settings)
     : impl_(std::make_unique<Impl>(*site.impl_, settings)) {
   Site::Impl& own = *site.impl_;
-  if (own.settings.tick_source != TickSource::kCaller)
+  if (own.ticksInHostStep())
     throw std::invalid_argument("a haptic loop needs a site with TickSource::kCaller");
-  if (!own.isHandoff())
+  if (!own.handsOff())
     throw std::invalid_argument(
         "a haptic loop needs a site whose island hands off: ContactModel::kIsland and "
         "Injection::kHandoff");

@@ -39,10 +39,10 @@ struct LoopReport {
 ///
 /// From start to stop this thread alone owns the site's island. The host steps its world from its
 /// own thread in real time, at its own 60 to 240 Hz. A host step requests the island and waits to
-/// get it between two ticks. It does so two to four times per step, and up to eight when bodies
-/// come and go. Each wait takes at most a period. The haptic thread waits only for its next tick.
-/// It takes no lock, allocates nothing and makes no system call but sleep, apart from the device
-/// and the links. Use Site::betweenTicks() for everything else about the site.
+/// get it between two ticks. It does so once on the way in and once on the way out. Each wait takes
+/// at most a period. The haptic thread waits only for its next tick. It takes no lock, allocates
+/// nothing and makes no system call but sleep, apart from the device and the links. Use
+/// Site::betweenTicks() for everything else about the site.
 ///
 /// A late tick runs at once. Ticks whose whole period has passed are skipped and counted. The next
 /// tick advances the island over them, by at most 50 ms, unless that tick would make the following

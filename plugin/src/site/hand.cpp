@@ -1,0 +1,73 @@
+#include "site/hand.h"
+
+#include <algorithm>
+
+namespace tandem {
+
+Hand::Hand(HapticDevice& device, const SiteSettings& settings, Island& island, bool island_moves)
+    : device_(device),
+      island_(island),
+      period_(1.0 / settings.haptic_rate),
+      guard_(device.capabilities().max_force,
+             std::min(settings.max_slew, device.capabilities().max_slew) / settings.haptic_rate,
+             settings.fault_slew / settings.haptic_rate),
+      energy_(settings.passivity, island_moves) {
+  read(0.0);
+  if (!isThere())
+    throw Error("the device gives no position; check its cable, or wait until it is homed");
+  IslandBody body;
+  body.shape = Sphere{settings.hip_radius};
+  body.motion = Motion::kPrescribed;
+  body.feels_obstacles = true;
+  body.start.p_W = sample_.hip.p_W;
+  hip_ = island.addBody(body);
+}
+
+void Hand::place() noexcept {
+  RigidState state = island_.state(hip_);
+  if (isThere()) {
+    state.p_W = sample_.hip.p_W;
+    state.v_W = sample_.hip.v_W;
+  } else {
+    state.v_W.setZero();
+  }
+  island_.setState(hip_, state);
+}
+
+void Hand::lead(double duration) noexcept {
+  if (!isThere()) return;
+  RigidState state = island_.state(hip_);
+  state.v_W = (sample_.hip.p_W - state.p_W) / duration;
+  island_.setState(hip_, state);
+}
+
+void Hand::countWork() noexcept {
+  if (!isThere()) return p_before_W_.reset();
+  if (p_before_W_) energy_.countHand(force_W_, sample_.hip.p_W - *p_before_W_);
+  p_before_W_ = sample_.hip.p_W;
+}
+
+const Vec3& Hand::computeContactForce() noexcept {
+  if (!contact_rest_.holds(island_)) {
+    contact_W_ = island_.computeContactForce(hip_);
+    contact_rest_.set(island_);
+  }
+  return contact_W_;
+}
+
+void Hand::render(const Vec3& contact_W, bool shares_energy, bool fault) noexcept {
+  contact_W_ = contact_W;
+  Vec3 allowed_W = guard_.clamp(contact_W_);
+  if (shares_energy) allowed_W = energy_.limit(allowed_W, island_.state(hip_).v_W, period_);
+  force_W_ = guard_.follow(allowed_W, fault || fades_);
+}
+
+PointState Hand::pointAt(double time, double tick_start) noexcept {
+  if (time > tick_start && device_.capabilities().is_continuous) {
+    const DeviceSample between = device_.read(time);
+    if (between.valid && isFinite(between.hip)) return between.hip;
+  }
+  return island_.state(hip_).point();
+}
+
+}  // namespace tandem

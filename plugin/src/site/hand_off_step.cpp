@@ -1,0 +1,156 @@
+#include "site/hand_off_step.h"
+
+#include <algorithm>
+
+// The tick, and what the host's step asks of whoever ticks. hand_off_host.cpp has the host's
+// thread.
+
+namespace tandem {
+
+HandOffStep::HandOffStep(SiteParts& parts) : IslandStep(parts) {
+  site_.surroundings.addSphere(site_.hand.hip(), site_.settings.hip_radius);
+  site_.island.setContactFinder(&site_.surroundings.contactFinder());
+  if (!site_.settings.guide) site_.surroundings.addSlots(site_.settings.max_neighbours);
+}
+
+void HandOffStep::addObject(SharedObject& object) {
+  if (!site_.settings.guide) site_.surroundings.addBody(object.body.index, *object.rigid);
+  IslandStep::addObject(object);
+}
+
+void HandOffStep::finishSetUp() {
+  site_.bodies.forEach(
+      [&](SiteBody& body) { site_.forces.setWeight(body, body.bullet->gravityForce()); });
+  const double step = site_.clock.expectedStep();
+  makeRoomFor(step);
+  lookAround(step);
+}
+
+/// Ticks that the caller has left out: the island moves on over them, and does what was due, but
+/// nothing is felt. The hand goes steadily to where it is now.
+void HandOffStep::makeUp(double now, double most) noexcept {
+  Timeline& timeline = site_.timeline;
+  if (now - timeline.time() <= kSameTime || site_.log.hasStopped()) return;
+  if (now - timeline.time() > most + kSameTime) loseTime(now - most);
+  if (now - timeline.time() > kSameTime) site_.hand.lead(now - timeline.time());
+  while (now - timeline.time() > kSameTime) {
+    const double start = timeline.time();
+    timeline.startTick(start);
+    site_.peers.takeInUntil(start, start);
+    site_.peers.followLinks(start, timeline.period(), *this);
+    timeline.keepStart();
+    advance(start, std::min(start + timeline.period(), now));
+    ++site_.log.counters.ticks_made_up;
+  }
+}
+
+/// Time that nobody has had: nothing moves, nothing is sent, and no host's step ends in it.
+void HandOffStep::loseTime(double until) noexcept {
+  site_.forces.settle();
+  site_.timeline.lose(until);
+  site_.forces.skip();
+  site_.sender.skipTo(until);
+}
+
+/// Events inside the period split it: packets, host steps that end, the end of the host's own
+/// force, sends.
+void HandOffStep::advance(double now, double end) noexcept {
+  for (;;) {
+    const double event = std::min({site_.peers.nextArrival(now, end), site_.timeline.announcedEnd(),
+                                   site_.forces.nextEnd(), site_.sender.due()});
+    if (event >= end - kSameTime) break;
+    moveTo(event);
+    site_.peers.takeInUntil(event, now);
+    site_.sender.sendIfDue(event, true);
+  }
+  moveTo(end);
+  site_.hand.energy().countWorld(site_.island, site_.timeline);
+}
+
+void HandOffStep::moveTo(double until) noexcept {
+  site_.timeline.moveTo(until);
+  site_.forces.endIfDue();
+}
+
+/// The way in.
+void HandOffStep::goIn(double dt, bool looks_quiet) noexcept {
+  if (site_.rest.begin(looks_quiet, site_.island)) return restOn(dt);
+  site_.surroundings.takeLeaving();
+  site_.followHostClock(dt);
+  step_end_ = site_.clock.time() + dt;
+  site_.clock.setStep(dt);
+  site_.timeline.announce(step_end_, dt);
+  passHostChanges(dt);
+  if (site_.ticksInHostStep()) {
+    site_.surroundings.lookAtDriven(step_end_);
+    site_.surroundings.steerDriven(true);
+    site_.runTicksUntil(step_end_);
+  }
+  findEnds();
+  site_.surroundings.mirror();
+}
+
+/// The way in of a step in which nothing moves, as far as is known. Its own ticks may end that.
+void HandOffStep::restOn(double dt) noexcept {
+  site_.followHostClock(dt);
+  step_end_ = site_.clock.time() + dt;
+  site_.forces.skip();
+  if (!site_.ticksInHostStep()) return;
+  site_.runTicksUntil(step_end_);
+  if (site_.rest.stays(site_.island)) return;
+  findEnds();
+  site_.surroundings.mirror();
+}
+
+/// What the host did to its bodies goes to the island.
+void HandOffStep::passHostChanges(double dt) noexcept {
+  site_.bodies.forEach([&](SiteBody& body) {
+    if (body.step.is_told && body.step.change.moved) moveBody(body, body.step.change);
+  });
+  site_.forces.pass(dt, site_.ticksInHostStep());
+  site_.surroundings.followDamping();
+}
+
+/// A body that the host has put elsewhere: the island's body goes along, and so does what is kept
+/// for the host's steps to come.
+void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexcept {
+  site_.timeline.changeAfter(site_.clock.time() + kClockTolerance, body.index,
+                             [&](RigidState state) {
+                               state.p_W += change.offset_W;
+                               state.q_WB = (change.rotation_W * state.q_WB).normalized();
+                               return state;
+                             });
+  site_.hand.energy().refill();
+}
+
+/// Where bodies are at the end of the host's step.
+void HandOffStep::findEnds() noexcept {
+  const std::vector<RigidState>* states = site_.timeline.findStates(step_end_);
+  site_.bodies.forEach([&](SiteBody& body) {
+    body.step.end = states ? (*states)[static_cast<std::size_t>(body.index)]
+                           : site_.timeline.stateAt(body.index, step_end_);
+    body.step.is_ghost = site_.island.isGhost(body.index);
+    body.step.may_park = body.load.isSettled();
+  });
+}
+
+/// The way out.
+void HandOffStep::goOut(double dt) noexcept {
+  site_.clock.endStep(dt);
+  site_.bodies.forEach([&](SiteBody& body) { receive(body); });
+  site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
+  if (!site_.ticksInHostStep()) site_.surroundings.steerDriven(false);
+  if (!site_.desk.isOpen()) makeRoomFor(dt);
+  site_.surroundings.take();
+  if (!site_.timeline.hasBegun()) return;
+  site_.rest.mark(site_.island, site_.island.state(site_.hand.hip()).p_W);
+  if (site_.island.isAsleep()) site_.surroundings.mirror();
+}
+
+void HandOffStep::receive(SiteBody& body) noexcept {
+  if (!body.step.was_parked) site_.forces.forgetLate(body);
+  site_.forces.give(body, body.step.hit);
+  body.seen = body.step.end;
+}
+
+}  // namespace tandem

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "site/island_step.h"
+
+namespace tandem {
+
+/// Bullet moves the bodies: with impulses under the forces of each tick's start, at the haptic
+/// rate. For comparison, and for worlds where everything runs at 1 kHz anyway.
+class ImpulseStep final : public IslandStep {
+ public:
+  explicit ImpulseStep(SiteParts& parts);
+
+  void checkObject(double mass) const override;
+  void addProxy(Peer& peer, const Vec3& start_W) override;
+  void finishSetUp() override;
+  void makeUp(double, double) noexcept override {}
+  void advance(double now, double end) noexcept override;
+  void showProxy(Peer& peer) noexcept override;
+  void before(double dt) noexcept override;
+  void after(double dt) noexcept override;
+
+ private:
+  struct Wrench {
+    Vec3 f_W = Vec3::Zero(), t_W = Vec3::Zero();
+  };
+
+  void checkStable(const char* what, double mass) const;
+
+  std::vector<Wrench> wrenches_;  ///< by body, for the coming host step
+};
+
+}  // namespace tandem

@@ -1,0 +1,87 @@
+#include "site/island_step.h"
+
+namespace tandem {
+namespace {
+
+/// So far from where was searched last everything that stands is known [m].
+constexpr double kKnownAround = 0.02;
+
+/// States kept besides those that a host as late as it may be asks for.
+constexpr std::size_t kSpareMoments = 4;
+
+/// While nobody ticks what stands is looked at once in so many steps.
+constexpr int kStepsBetweenLooks = 64;
+
+}  // namespace
+
+void IslandStep::addObject(SharedObject& object) {
+  const CouplerGains& contact = site_.settings.contact;
+  site_.surroundings.exclude(*object.rigid);
+  site_.island.addContact(site_.hand.hip(), object.body.index, contact);
+  for (Peer& peer : site_.peers) {
+    if (!peer.proxy.sphere) continue;
+    site_.island.addContact(*peer.user.body, object.body.index, contact);
+    filterNativeContact(site_.host_world.world(), peer.proxy.sphere->rigid(), *object.rigid, true);
+  }
+}
+
+void IslandStep::addProxy(Peer& peer, const Vec3& start_W) {
+  const ProxySettings& proxy = site_.settings.proxy;
+  const CouplerGains& contact = site_.settings.contact;
+  const BodyIndex index = *peer.user.body;
+  peer.proxy.sphere =
+      std::make_unique<SphereBody>(site_.host_world.world(), proxy.radius, proxy.mass, start_W);
+  site_.surroundings.exclude(peer.proxy.sphere->rigid());
+  peer.proxy.body.bullet = &peer.proxy.sphere->haptic();
+  peer.proxy.body.index = index;
+  site_.surroundings.addSphere(index, proxy.radius);
+  site_.island.addContact(site_.hand.hip(), index, contact);
+  for (SharedObject& object : site_.bodies.objects) {
+    site_.island.addContact(index, object.body.index, contact);
+    filterNativeContact(site_.host_world.world(), peer.proxy.sphere->rigid(), *object.rigid, true);
+  }
+}
+
+bool IslandStep::isPlaceFree(const Peer& peer, double unknown) const noexcept {
+  if (!site_.settings.guide && unknown > kKnownAround) return false;
+  return site_.island.computeOverlap(*peer.user.body) <= site_.settings.link_loss.rejoin_overlap;
+}
+
+void IslandStep::leaveNeighbours() {
+  site_.rest.disturb();
+  site_.surroundings.leaveAll();
+  site_.desk.run([&] { site_.surroundings.takeLeaving(); });
+  site_.surroundings.giveBack();
+}
+
+/// With a haptic thread the count of ticks is not to be read here.
+bool IslandStep::isWaiting() const noexcept {
+  return !site_.desk.isOpen() && !site_.timeline.hasBegun() && site_.isBare() &&
+         !site_.ticksInHostStep();
+}
+
+void IslandStep::wait(double dt) {
+  site_.clock.endStep(dt);
+  site_.clock.setStep(dt);
+  site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
+  if (++waited_ % kStepsBetweenLooks == 0) lookAround(dt);
+}
+
+void IslandStep::lookAround(double dt) {
+  Surroundings& around = site_.surroundings;
+  site_.desk.run([&] { around.mirror(); });
+  around.look(dt, site_.clock.time(), 0.0, true);
+  site_.desk.run([&] { around.take(); });
+  around.giveBack();
+  if (!around.mustLookFarther()) return;
+  around.lookFarther();
+  site_.desk.run([&] { around.takeObstacles(); });
+}
+
+void IslandStep::makeRoomFor(double dt) {
+  if (dt > 0.0)
+    site_.timeline.makeRoom(static_cast<std::size_t>(site_.surroundings.computeHorizon(dt) / dt) +
+                            kSpareMoments);
+}
+
+}  // namespace tandem

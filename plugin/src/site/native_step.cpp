@@ -1,0 +1,104 @@
+#include "site/native_step.h"
+
+#include <algorithm>
+
+namespace tandem {
+
+NativeStep::NativeStep(SiteParts& parts)
+    : site_(parts),
+      model_(std::make_unique<NativeModel>(parts.host_world.world(), parts.settings,
+                                           parts.hand.sample().hip.p_W)) {}
+
+void NativeStep::addObject(SharedObject& object) {
+  model_->addObject(*object.bullet, object.damping);
+}
+
+void NativeStep::addProxy(Peer& peer, const Vec3& start_W) {
+  const BodyIndex index = *peer.user.body;
+  if (!peer.user.coupler) {
+    peer.proxy.held = &model_->addHeldProxy(index, start_W);
+    return;
+  }
+  const ProxySettings& proxy = site_.settings.proxy;
+  peer.proxy.sphere = std::make_unique<SphereBody>(site_.host_world.world(), proxy.radius,
+                                                   proxy.mass, start_W, SphereMeets::kAllBodies);
+  peer.proxy.body.bullet = &peer.proxy.sphere->haptic();
+  peer.proxy.body.index = index;
+  model_->addProxy(index, *peer.proxy.sphere);
+  model_->addCoupler(peer.proxy.sphere->rigid(), *peer.user.coupler,
+                     {site_.settings.coordination, {}});
+}
+
+void NativeStep::addCoupler(SharedObject& object, CouplerIndex index,
+                            const CouplerSettings& coupler) {
+  model_->addCoupler(*object.rigid, index, coupler);
+}
+
+Vec3 NativeStep::computeContactForce() noexcept {
+  return model_ ? model_->handForce() : Vec3(Vec3::Zero());
+}
+
+void NativeStep::advance(double now, double end) noexcept {
+  site_.sender.sendIfDue(now, false);
+  site_.timeline.passTo(end);
+}
+
+bool NativeStep::isPlaceFree(const Peer& peer, double unknown) const noexcept {
+  const btRigidBody* rigid = peer.proxy.findRigid();
+  return rigid && computeNativeOverlap(site_.host_world.world(), *rigid) + unknown <=
+                      site_.settings.link_loss.rejoin_overlap;
+}
+
+void NativeStep::showProxy(Peer& peer) noexcept {
+  btRigidBody* rigid = peer.proxy.findRigid();
+  if (!rigid) return;
+  const BodyIndex index = *peer.user.body;
+  const bool is_ghost = site_.island.isGhost(index);
+  setNativeGhost(*rigid, is_ghost);
+  // Bullet moves it from here.
+  if (!is_ghost && peer.proxy.sphere) peer.proxy.body.bullet->setState(site_.island.state(index));
+}
+
+void NativeStep::before(double dt) noexcept {
+  if (!areBodiesPresent()) return site_.passStepWithout(dt);
+  site_.followHostClock(dt);
+  const double end = site_.clock.time() + dt;
+  if (site_.ticksInHostStep()) site_.runTicksUntil(end);
+  site_.clock.setStep(dt);
+  // The hand goes on from its latest sample, as it does in the island.
+  const RigidState& hand = site_.island.state(site_.hand.hip());
+  const double ahead = std::max(0.0, end - site_.timeline.tickStart());
+  if (site_.settings.link_loss.enabled) model_->followShares(site_.island);
+  holdGhosts();
+  model_->beginStep(site_.island, hand.p_W + ahead * hand.v_W, dt);
+}
+
+void NativeStep::after(double dt) noexcept {
+  site_.clock.endStep(dt);
+  if (!areBodiesPresent()) return;
+  model_->endStep(dt);
+  holdGhosts();
+  site_.bodies.forEach(
+      [&](SiteBody& body) { site_.island.setState(body.index, body.bullet->state()); });
+  site_.peers.noteSearched();
+}
+
+bool NativeStep::areBodiesPresent() noexcept {
+  if (!model_->isPresent()) {
+    site_.log.raiseFromHost(kBodyMissing);
+    return false;
+  }
+  return site_.areBodiesPresent();
+}
+
+/// Bullet would move them on.
+void NativeStep::holdGhosts() noexcept {
+  for (Peer& peer : site_.peers) {
+    if (!peer.proxy.sphere || !site_.island.isGhost(peer.proxy.body.index)) continue;
+    RigidState state = site_.island.state(peer.proxy.body.index);
+    state.v_W.setZero();
+    peer.proxy.body.bullet->setState(state);
+  }
+}
+
+}  // namespace tandem

@@ -1,0 +1,44 @@
+#include "site/neighbour.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem {
+namespace {
+
+/// Rate of decay of a velocity that Bullet multiplies by (1 - d)^dt [1/s].
+double computeDecay(double damping) {
+  constexpr double kFastest = 1e3;
+  return damping < 1.0 ? std::min(-std::log1p(-damping), kFastest) : kFastest;
+}
+
+}  // namespace
+
+void Neighbour::becomeEmpty() {
+  const BodyIndex index = body.index;
+  *this = {};
+  body.index = index;
+  body.load.makeRoom();
+}
+
+bool Neighbour::hasChanged() const noexcept {
+  return rigid->getCollisionShape() != shape || rigid->isKinematicObject() != (driven != nullptr) ||
+         (bullet && !bullet->hasItsMass());
+}
+
+void Neighbour::lookAtDamping() noexcept {
+  if (!bullet) return;
+  linear_damping = bullet->linearDamping();
+  angular_damping = bullet->angularDamping();
+}
+
+bool Neighbour::followDamping() noexcept {
+  const double damping = settings.mass * computeDecay(linear_damping);
+  const double angular = computeDecay(angular_damping);
+  if (damping == settings.damping && angular == settings.angular_damping) return false;
+  settings.damping = damping;
+  settings.angular_damping = angular;
+  return true;
+}
+
+}  // namespace tandem

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+
+#include "site/surroundings.h"
+
+// Whoever ticks: what the host's thread has found acts, and newcomers catch up with the island.
+
+namespace tandem {
+namespace {
+
+/// A kinematic body was guessed off the host's way by a little, and gets back in this time [s].
+/// Longer leaves it off for longer; shorter hits what it touches harder.
+constexpr double kMendingTime = 0.1;
+
+}  // namespace
+
+void Surroundings::mirror() noexcept {
+  if (settings_.guide) return;
+  mirror_.island_time = timeline_.time();
+  for (std::size_t b = 0; b < mirror_.states.size(); ++b)
+    mirror_.states[b] = island_.state(static_cast<BodyIndex>(b));
+  std::fill(mirror_.moves.begin(), mirror_.moves.end(), char{0});
+  for (const BodyIndex b : island_.awakeBodies()) mirror_.moves[static_cast<std::size_t>(b)] = 1;
+}
+
+void Surroundings::takeLeaving() noexcept {
+  if (leaving_.empty() && !has_more_) return;
+  takeObstacles();
+  for (Neighbour* neighbour : leaving_) takeOut(*neighbour);
+}
+
+void Surroundings::take() noexcept {
+  if (settings_.guide) return;
+  takeObstacles();
+  for (Neighbour* neighbour : leaving_) takeOut(*neighbour);
+  takeNewcomers();
+  spring_speed_ = island_.isAsleep() ? 0.0 : computeSpeedInSprings();
+  catchUp();
+  peers_.noteSearched();
+}
+
+void Surroundings::takeObstacles() noexcept {
+  obstacles_.commit();
+  island_.setObstacles(obstacles_.nearSpheres());
+  if (has_changed_) island_.wake();
+  has_changed_ = has_more_ = false;
+}
+
+void Surroundings::takeOut(Neighbour& neighbour) noexcept {
+  const BodyIndex index = neighbour.body.index;
+  std::erase(newcomers_, index);
+  if (neighbour.body.is_held) {
+    hand_.energy().countNeighbour(neighbour.settings, island_.state(index), -1.0);
+    neighbour.owed = forces_.computeOwed(neighbour.body);
+  }
+  island_.clear(index);
+  neighbour.body.is_held = false;
+  neighbour.is_new = false;
+}
+
+void Surroundings::takeNewcomers() noexcept {
+  for (Neighbour& neighbour : neighbours_) {
+    if (!neighbour.is_new) continue;
+    neighbour.is_new = false;
+    SiteBody& body = neighbour.body;
+    body.is_held = neighbour.bullet != nullptr;
+    if (neighbour.driven) neighbour.settings.start = neighbour.driven->at(timeline_.time());
+    island_.fill(body.index, neighbour.settings);
+    if (neighbour.bullet) {
+      body.seen = neighbour.settings.start;
+      forces_.setWeight(body, body.step.f_gravity_W);
+      newcomers_.push_back(body.index);
+    }
+    timeline_.setStart(body.index, neighbour.settings.start);
+  }
+}
+
+/// Newcomers come in the state of the host's time; the island may be ahead of it.
+void Surroundings::catchUp() noexcept {
+  if (newcomers_.empty()) return;
+  double time = clock_.time();
+  std::fill(asides_.begin(), asides_.end(), Aside{});
+  readStates(time, from_states_);
+  while (timeline_.time() - time > kClockTolerance) {
+    // They stop where the host's next steps end: it will ask for their states there.
+    const double stop = std::min(timeline_.time(), timeline_.nextKeptAfter(time + kClockTolerance));
+    readStates(stop, to_states_);
+    island_.catchUp(newcomers_, from_states_, to_states_, stop - time, asides_);
+    if (auto* states = timeline_.findStates(stop))
+      for (const BodyIndex b : newcomers_)
+        (*states)[static_cast<std::size_t>(b)] = island_.state(b);
+    time = stop;
+    from_states_.swap(to_states_);
+  }
+  for (const BodyIndex b : newcomers_) {
+    timeline_.setStart(b, island_.state(b));
+    hand_.energy().countNeighbour(island_.body(b), island_.state(b), 1.0);
+  }
+  newcomers_.clear();
+  // Whom they touched in the past gets the momentum now.
+  bodies_.forEach([&](SiteBody& body) {
+    const Aside& aside = asides_[static_cast<std::size_t>(body.index)];
+    const RigidState& now = island_.state(body.index);
+    const IslandBody& own = island_.body(body.index);
+    forces_.give(body, {own.mass * aside.v_W,
+                        now.q_WB * own.inertia_B.cwiseProduct(now.q_WB.conjugate() * aside.w_W)});
+  });
+}
+
+/// States of all bodies at a moment.
+void Surroundings::readStates(double time, std::vector<RigidState>& states) noexcept {
+  timeline_.readStates(time, states);
+  for (const Neighbour& neighbour : neighbours_)
+    if (neighbour.driven && !neighbour.body.is_leaving)
+      states[static_cast<std::size_t>(neighbour.body.index)] = neighbour.driven->at(time);
+}
+
+/// What springs that are stretched now can add to the speed of any body at the most [m/s]: a spring
+/// K stretched by x moves m no faster than x sqrt(K / m).
+double Surroundings::computeSpeedInSprings() const noexcept {
+  double most = 0.0;
+  bodies_.forEach([&](const SiteBody& body) {
+    const BodyIndex b = body.index;
+    if (body.bullet->isParked() || !island_.isDynamic(b)) return;
+    const double mass = island_.body(b).mass;
+    double speed = 0.0;
+    if (settings_.contact.stiffness > 0.0)
+      speed +=
+          island_.computeContactForce(b).norm() / std::sqrt(settings_.contact.stiffness * mass);
+    for (CouplerIndex c = 0; c < island_.couplerCount(); ++c) {
+      if (island_.follower(c) != b) continue;
+      const RigidState& target = island_.target(c);
+      const double way = (target.p_W - island_.state(b).p_W).norm();
+      const double stiffness =
+          island_.couplerShare(c) * island_.couplerSettings(c).linear.stiffness;
+      speed += target.v_W.norm() + way * std::sqrt(stiffness / mass);
+    }
+    most = std::max(most, speed);
+  });
+  return most;
+}
+
+/// The host may change a body's damping while the island holds it.
+void Surroundings::followDamping() noexcept {
+  for (Neighbour& neighbour : neighbours_) {
+    if (!neighbour.body.is_held || !neighbour.followDamping()) continue;
+    neighbour.settings.start = island_.state(neighbour.body.index);
+    island_.fill(neighbour.body.index, neighbour.settings);
+    forces_.renew(neighbour.body);
+  }
+}
+
+/// The step that kinematic bodies were seen in is still to come for an island whose ticks run
+/// inside of it: then they are there in time. Else it is over, what was guessed was wrong by a
+/// little, and is mended slowly.
+void Surroundings::steerDriven(bool ticks_in_step) noexcept {
+  for (Neighbour& neighbour : neighbours_) {
+    if (!neighbour.driven || neighbour.is_new || neighbour.body.is_leaving) continue;
+    DrivenBody& driven = *neighbour.driven;
+    const BodyIndex index = neighbour.body.index;
+    const double within = ticks_in_step ? driven.seenAt() - timeline_.time() : kMendingTime;
+    const RigidState state = driven.steer(island_.state(index), timeline_.time(), within);
+    if (driven.motion() != neighbour.settings.motion) {
+      neighbour.settings.motion = driven.motion();
+      neighbour.settings.start = state;
+      island_.fill(index, neighbour.settings);
+    }
+    island_.setState(index, state);
+    if (state.v_W != Vec3::Zero() || state.w_W != Vec3::Zero()) hand_.energy().refill();
+  }
+}
+
+}  // namespace tandem

@@ -1,0 +1,94 @@
+#include "site/packet_sender.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem {
+namespace {
+
+/// Slower bodies do not move [m/s]; a free island has the same limit.
+constexpr double kStill = 1e-9;
+
+/// Without motion for so long, a site is idle [s].
+constexpr double kIdleAfter = 0.5;
+/// States that say so at the full rate, before they become rare: some may be lost.
+constexpr int kIdleNotices = 5;
+
+bool isSame(const RigidState& a, const RigidState& b) noexcept {
+  return a.p_W == b.p_W && a.v_W == b.v_W && a.w_W == b.w_W && a.q_WB.coeffs() == b.q_WB.coeffs();
+}
+
+}  // namespace
+
+PacketSender::PacketSender(const SiteSettings& settings, const Island& island,
+                           const Timeline& timeline, const Bodies& bodies, Hand& hand, Peers& peers,
+                           SiteLog& log) noexcept
+    : settings_(settings),
+      island_(island),
+      timeline_(timeline),
+      bodies_(bodies),
+      hand_(hand),
+      peers_(peers),
+      log_(log),
+      idle_stride_(std::max<std::uint64_t>(
+          static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1)) {}
+
+void PacketSender::setObjectCount(std::size_t count) {
+  turns_.setObjectCount(count);
+  sent_.resize(count);
+}
+
+void PacketSender::sendIfDue(double until, bool is_exact) noexcept {
+  for (;;) {
+    const double moment = due();
+    if (moment > until + kSameTime) return;
+    const bool is_rare = is_idle_ && idle_notices_ == 0;
+    if (!is_rare || packets_due_ % idle_stride_ == 0) send(is_exact ? moment : until);
+    if (is_idle_ && idle_notices_ > 0) --idle_notices_;
+    ++packets_due_;
+  }
+}
+
+void PacketSender::skipTo(double until) noexcept {
+  const double packets = std::ceil((until - timeline_.start()) * settings_.packet_rate);
+  packets_due_ = std::max(packets_due_, static_cast<std::uint64_t>(packets));
+}
+
+void PacketSender::lookForIdleness(double now) noexcept {
+  const bool rests = hand_.contact() == Vec3::Zero() && isStill();
+  if (!rests || !timeline_.hasBegun()) busy_until_ = now;
+  const bool was_idle = is_idle_;
+  is_idle_ = settings_.thins_when_idle && now - busy_until_ >= kIdleAfter - kSameTime;
+  if (!is_idle_) idle_notices_ = kIdleNotices;
+  if (was_idle && !is_idle_) send(now);
+}
+
+/// A guided island never sleeps: its maps cost the same whatever moves.
+bool PacketSender::isStill() const noexcept {
+  if (!settings_.guide) return island_.isAsleep();
+  for (BodyIndex b = 0; b < island_.bodyCount(); ++b)
+    if (island_.state(b).v_W.squaredNorm() > kStill * kStill) return false;
+  return true;
+}
+
+void PacketSender::send(double time) noexcept {
+  StatePacket packet;
+  packet.sender = settings_.self;
+  packet.sequence = sequence_++;
+  packet.is_idle = is_idle_;
+  if (hand_.energy().isKept()) packet.port_energy = hand_.energy().observer().own();
+  packet.time = time;
+  packet.user = hand_.pointAt(time, timeline_.tickStart());
+  const auto state = [&](std::size_t i) -> const RigidState& {
+    return island_.state(bodies_.objects[i].body.index);
+  };
+  for (const std::size_t i :
+       turns_.choose([&](std::size_t i) { return !isSame(sent_[i], state(i)); })) {
+    sent_[i] = state(i);
+    packet.objects[packet.object_count++] = {bodies_.objects[i].id, sent_[i]};
+  }
+  peers_.send(packet, time);
+  ++log_.counters.packets_sent;
+}
+
+}  // namespace tandem

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "site/bodies.h"
+#include "site/hand.h"
+#include "site/packet_turns.h"
+#include "site/peers.h"
+#include "site/timeline.h"
+
+namespace tandem {
+
+/// Sends this site's state to all peers: packet n leaves at start + n / packet_rate, with the
+/// island's state of exactly that moment. While nothing moves or touches packets are rare, and say
+/// so. Real-time safe.
+class PacketSender {
+ public:
+  PacketSender(const SiteSettings& settings, const Island& island, const Timeline& timeline,
+               const Bodies& bodies, Hand& hand, Peers& peers, SiteLog& log) noexcept;
+
+  /// After set-up. Allocates.
+  void setObjectCount(std::size_t count);
+
+  /// When the next packet is due [s].
+  [[nodiscard]] double due() const noexcept {
+    return timeline_.start() + static_cast<double>(packets_due_) / settings_.packet_rate;
+  }
+  /// Sends what is due until then. `is_exact`: the island is at the moment of each packet, else at
+  /// `until` for all.
+  void sendIfDue(double until, bool is_exact) noexcept;
+  /// Nothing is sent for time that was lost.
+  void skipTo(double until) noexcept;
+
+  /// Once a tick: after half a second without motion and touch packets become rare. The first
+  /// motion is sent at once.
+  void lookForIdleness(double now) noexcept;
+
+ private:
+  [[nodiscard]] bool isStill() const noexcept;
+  void send(double time) noexcept;
+
+  const SiteSettings& settings_;
+  const Island& island_;
+  const Timeline& timeline_;
+  const Bodies& bodies_;
+  Hand& hand_;
+  Peers& peers_;
+  SiteLog& log_;
+  std::uint64_t packets_due_ = 0, sequence_ = 0;
+  std::uint64_t idle_stride_;  ///< one in so many is sent while they are rare
+  int idle_notices_ = 0;       ///< to be sent before packets become rare
+  bool is_idle_ = false;
+  double busy_until_ = 0.0;  ///< since then nothing has moved or touched [s]
+  PacketTurns turns_;
+  std::vector<RigidState> sent_;  ///< by object, as in the latest packet that had it
+};
+
+}  // namespace tandem

@@ -1,0 +1,132 @@
+#include <algorithm>
+
+#include "site/host_step.h"
+#include "site/peers.h"
+
+// What is left of a remote peer that falls silent. LinkHealth decides, here it is applied.
+
+namespace tandem {
+
+void Peers::followLinks(double now, double period, HostStep& host_step) noexcept {
+  if (!settings_.link_loss.enabled) return;
+  for (Peer& peer : peers_)
+    if (peer.is_restrained || !peer.health.staysLive(now)) followLink(peer, now, period, host_step);
+}
+
+void Peers::followLink(Peer& peer, double now, double period, HostStep& host_step) noexcept {
+  LinkHealth& health = peer.health;
+  if (health.isProxyOut() && health.state() == LinkState::kRejoining) carryGhost(peer, now);
+  health.update(now, !health.isProxyOut() || mayComeIn(peer, host_step));
+  const LinkState state = health.state(), before = peer.acted_on;
+  peer.acted_on = state;
+  if (state != before) countLinks();
+
+  const bool is_silent = state == LinkState::kLost || state == LinkState::kWaiting;
+  const bool is_heard = state == LinkState::kLive || state == LinkState::kRejoining;
+  if (is_heard && peer.is_detouring) followDetours(peer, period);
+  const bool is_calm =
+      state == LinkState::kLive && !peer.track.isMakingUp(now) && !peer.is_detouring;
+  if (peer.is_restrained ? is_silent && state == before : is_calm) return;
+  peer.is_restrained = !is_calm;
+
+  slowTargets(peer);
+  if (!health.isProxyOut())
+    scheme_.follow(island_, peer.user, peer.track.at(now, health.velocityShare()));
+  restrainTies(peer);
+  restrainProxy(peer, host_step);
+}
+
+void Peers::countLinks() noexcept {
+  SiteCounters& counters = log_.counters;
+  counters.links_faded = counters.links_lost = counters.links_rejoined = 0;
+  for (const Peer& peer : peers_) {
+    const LinkCounters& of_link = peer.health.counters();
+    counters.links_faded += of_link.faded;
+    counters.links_lost += of_link.lost;
+    counters.links_rejoined += of_link.rejoined;
+  }
+}
+
+/// Nothing is where the proxy is, as far as that is known, and objects are where the user has them.
+/// Else the proxy might come in on the wrong side of one, and hold it off its target.
+bool Peers::mayComeIn(const Peer& peer, const HostStep& host_step) const noexcept {
+  if (!peer.user.body) return true;
+  const bool may_yet_agree = peer.health.objectShare() < 1.0 || peer.is_detouring;
+  if (may_yet_agree && !doCopiesAgree(peer)) return false;
+  const double unknown = (island_.state(*peer.user.body).p_W - peer.searched_W).norm();
+  return host_step.isPlaceFree(peer, unknown);
+}
+
+bool Peers::doCopiesAgree(const Peer& peer) const noexcept {
+  return std::all_of(
+      bodies_.objects.begin(), bodies_.objects.end(), [&](const SharedObject& object) {
+        const Tie& tie = peer.ties[object.id];
+        const Vec3& ours_W = island_.state(object.body.index).p_W;
+        return peer.isRenewed(tie) && (tie.theirs.p_W - ours_W).norm() < settings_.proxy.radius;
+      });
+}
+
+/// A ghost that may come back is where the user is.
+void Peers::carryGhost(const Peer& peer, double now) noexcept {
+  if (!peer.user.body) return;
+  const PointState user = peer.track.at(now, peer.health.velocityShare());
+  RigidState state = island_.state(*peer.user.body);
+  state.p_W = user.p_W;
+  state.v_W = user.v_W;
+  island_.setState(*peer.user.body, state);
+}
+
+/// The velocities of what shared objects are pulled to die away. A target of another packet than
+/// the latest keeps what it has lost already.
+void Peers::slowTargets(Peer& peer) noexcept {
+  const double share = peer.health.velocityShare();
+  if (share == peer.velocity_share) return;
+  const double ratio = peer.velocity_share > 0.0 ? share / peer.velocity_share : 0.0;
+  peer.velocity_share = share;
+  for (const Tie& tie : peer.ties) {
+    RigidState target = island_.target(tie.coupler);
+    target.v_W *= ratio;
+    target.w_W *= ratio;
+    island_.setTarget(tie.coupler, target);
+  }
+}
+
+void Peers::followDetours(Peer& peer, double period) noexcept {
+  peer.is_detouring = false;
+  for (Tie& tie : peer.ties) {
+    if (tie.detour.isOver()) continue;
+    tie.detour.advance(period);
+    peer.is_detouring |= !tie.detour.isOver();
+    island_.setTarget(tie.coupler, tie.detour.apply(tie.theirs));
+  }
+}
+
+void Peers::restrainTies(const Peer& peer) noexcept {
+  const double share = peer.health.objectShare();
+  for (const Tie& tie : peer.ties)
+    island_.setCouplerShare(tie.coupler, peer.isRenewed(tie) ? share : 0.0);
+}
+
+void Peers::restrainProxy(Peer& peer, HostStep& host_step) noexcept {
+  if (!peer.user.body) return;
+  const BodyIndex body = *peer.user.body;
+  const LinkHealth& health = peer.health;
+  const bool is_out = health.isProxyOut();
+  if (is_out != island_.isGhost(body)) {
+    island_.setGhost(body, is_out);
+    if (is_out) {
+      RigidState state = island_.state(body);
+      state.v_W.setZero();
+      island_.setState(body, state);
+    }
+    host_step.showProxy(peer);
+  }
+  island_.setContactShare(body, health.proxyShare());
+  if (!peer.user.coupler) return;
+  const double rest_damping = computeRestDamping(settings_.coordination, settings_.proxy.mass,
+                                                 settings_.link_loss.hold_decay);
+  island_.setCouplerShare(*peer.user.coupler, health.proxyShare());
+  island_.setExtraDamping(body, is_out ? 0.0 : health.silence() * rest_damping);
+}
+
+}  // namespace tandem

@@ -1,0 +1,141 @@
+#include "site/peers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "site/energy_port.h"
+#include "site/moments.h"
+
+namespace tandem {
+
+Peers::Peers(const SiteSettings& settings, Island& island, Bodies& bodies, EnergyPort& energy,
+             SiteLog& log)
+    : settings_(settings),
+      scheme_(settings.scheme ? *settings.scheme : findScheme("remote_dynamic_proxy")),
+      island_(island),
+      bodies_(bodies),
+      energy_(energy),
+      log_(log) {}
+
+Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
+  Peer peer;
+  peer.id = id;
+  peer.place = count();
+  peer.link = &link;
+  peer.health = LinkHealth(settings_.link_loss, 1.0 / settings_.packet_rate);
+  peer.acted_on = peer.health.state();
+  peer.track.jump({start_W, Vec3::Zero()});
+  peer.searched_W = start_W;
+  peer.user = scheme_.makeRemoteUser(island_, settings_.proxy, settings_.coordination,
+                                     {start_W, Vec3::Zero()});
+  return peer;
+}
+
+CouplerSettings Peers::makeCoupler(const SharedObject& object) const noexcept {
+  const CouplerGains& linear = settings_.coordination;
+  const double radius_squared = object.bullet->inertia().maxCoeff() / object.bullet->mass();
+  return {linear, settings_.angular_coordination.value_or(CouplerGains{
+                      linear.stiffness * radius_squared, linear.damping * radius_squared})};
+}
+
+double Peers::nextArrival(double now, double until) noexcept {
+  double earliest = kNever;
+  for (Peer& peer : peers_) {
+    if (!peer.pending) peer.pending = peer.link->receive(now, until);
+    if (peer.pending) earliest = std::min(earliest, std::max(peer.pending->time, now));
+  }
+  return earliest;
+}
+
+void Peers::takeInUntil(double time, double now) noexcept {
+  while (nextArrival(now, std::nextafter(time, kNever)) <= time) {
+    for (Peer& peer : peers_) {
+      if (!peer.pending || peer.pending->time > time) continue;
+      takeIn(peer, *peer.pending, std::max(peer.pending->time, now));
+      peer.pending.reset();
+    }
+  }
+}
+
+void Peers::takeIn(Peer& peer, const Arrival& arrival, double time) noexcept {
+  const StatePacket& packet = arrival.packet;
+  log_.recordArrival(peer.place, arrival);
+  if (!isSane(packet) || packet.sender != peer.id) {
+    ++log_.counters.packets_refused;
+    log_.raise(kPacketRefused);
+    return;
+  }
+  const bool is_latest = !peer.is_heard || packet.sequence > peer.latest.sequence;
+  if (is_latest) {
+    peer.is_heard = true;
+    peer.latest = packet;
+    hear(peer, packet, time);
+    hearEnergy(peer, packet);
+  }
+  const bool has_news = hearObjects(peer, packet) || is_latest;
+  ++(has_news ? log_.counters.packets_taken : log_.counters.packets_stale);
+}
+
+/// A state newer than all before.
+void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
+  LinkHealth& health = peer.health;
+  const double silence = health.isOverdue(time) ? health.computeAge(time) : 0.0;
+  if (health.hear(time, packet.is_idle)) {
+    peer.track.jump(packet.user);
+    peer.rejoined_by = packet.sequence;
+    peer.reported.reset();
+  } else {
+    peer.track.hear(packet.user, time, silence);
+  }
+  peer.velocity_share = 1.0;
+  scheme_.follow(island_, peer.user, peer.track.at(time, 1.0));
+}
+
+/// Only what a packet says of energy beyond the one before counts. The first after a silence says
+/// where the peer is, not what it did meanwhile. Of three sites that do not all hear each other,
+/// one would see what another took and not what the third gave: then takings do not count.
+void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
+  const std::optional<double> before = std::exchange(peer.reported, packet.port_energy);
+  if (!before || !packet.port_energy) return;
+  const double more = *packet.port_energy - *before;
+  const auto is_live = [&](const Peer& other) {
+    return &other == &peer || other.health.state() == LinkState::kLive;
+  };
+  if (more > 0.0 || std::all_of(peers_.begin(), peers_.end(), is_live)) energy_.addReported(more);
+}
+
+/// A packet that was overtaken may still have the newest state of some object.
+bool Peers::hearObjects(Peer& peer, const StatePacket& packet) noexcept {
+  bool has_news = false;
+  for (std::uint32_t i = 0; i < packet.object_count; ++i) {
+    const ObjectState& copy = packet.objects[i];
+    if (copy.id >= peer.ties.size()) continue;
+    Tie& tie = peer.ties[copy.id];
+    if (tie.sequence && packet.sequence <= *tie.sequence) continue;
+    const bool was_renewed = peer.isRenewed(tie);
+    tie.sequence = packet.sequence;
+    has_news = true;
+    if (!was_renewed && peer.isRenewed(tie)) {
+      tie.detour.start(island_.state(bodies_.objects[copy.id].body.index), copy.state);
+      peer.is_detouring |= !tie.detour.isOver();
+    }
+    tie.theirs = copy.state;
+    island_.setTarget(tie.coupler, tie.detour.apply(copy.state));
+  }
+  return has_news;
+}
+
+void Peers::noteSearched() noexcept {
+  for (Peer& peer : peers_)
+    if (peer.user.body) peer.searched_W = island_.state(*peer.user.body).p_W;
+}
+
+bool Peers::keepAccounts() const noexcept {
+  const auto keeps_none = [](const Peer& peer) {
+    return peer.is_heard && !peer.latest.port_energy;
+  };
+  return !peers_.empty() && std::none_of(peers_.begin(), peers_.end(), keeps_none);
+}
+
+}  // namespace tandem

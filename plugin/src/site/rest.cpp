@@ -1,0 +1,64 @@
+#include "site/rest.h"
+
+#include <algorithm>
+
+namespace tandem {
+namespace {
+
+/// A body that has stood for so many host steps may sleep.
+constexpr int kStepsToPark = 4;
+
+/// Bodies at rest do not stand on what is farther away than this [m].
+constexpr double kWatchMargin = 0.04;
+
+}  // namespace
+
+void Rest::parkIfItStood(SiteBody& body) noexcept {
+  HandOver& step = body.step;
+  if (step.was_parked) return;
+  step.steps_stood = step.stands && step.hit.isZero() ? step.steps_stood + 1 : 0;
+  if (step.steps_stood < kStepsToPark || !step.may_park) return;
+  body.bullet->park();
+  if (body.bullet->isParked()) ++log_.counters.bodies_parked;
+}
+
+void Rest::unpark(SiteBody& body) noexcept {
+  body.bullet->unpark();
+  noteWoken(body);
+}
+
+void Rest::noteWoken(SiteBody& body) noexcept {
+  body.step.steps_stood = 0;
+  ++log_.counters.bodies_woken;
+}
+
+bool Rest::looksQuiet() const noexcept {
+  return may_be_quiet_ && (sleepers_.empty() || watch_.isGravityUnchanged()) &&
+         std::all_of(sleepers_.begin(), sleepers_.end(), [](const HapticBody* body) {
+           return body->isInWorld() && body->isUndisturbed();
+         });
+}
+
+bool Rest::staysQuiet() noexcept {
+  if (!is_quiet_) return false;
+  may_be_quiet_ = std::all_of(sleepers_.begin(), sleepers_.end(),
+                              [](const HapticBody* body) { return body->isAsleep(); }) &&
+                  watch_.isUnchanged();
+  return may_be_quiet_;
+}
+
+void Rest::mark(const Island& island, const Vec3& hand_W) noexcept {
+  mark_.set(island);
+  is_marked_ = island.isAsleep();
+  hand_W_ = hand_W;
+}
+
+void Rest::fallQuiet(const Bodies& bodies) {
+  may_be_quiet_ = is_marked_;
+  if (!may_be_quiet_) return;
+  sleepers_.clear();
+  bodies.forEach([&](const SiteBody& body) { sleepers_.push_back(body.bullet); });
+  watch_.remember(sleepers_, hand_W_, hip_radius_ + kWatchMargin);
+}
+
+}  // namespace tandem

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "tandem/plugin/recording.h"
+#include "tandem/plugin/site.h"
+
+#include "site/bodies.h"
+#include "site/rest_mark.h"
+#include "site/state_hash.h"
+
+namespace tandem {
+
+class Hand;
+class Peers;
+
+/// Status bits that stay, and stop the island.
+inline constexpr std::uint32_t kForGood = kBodyMissing | kStateNotFinite | kWorldGone;
+
+/// What a site reports: status bits, counters, the hash of its states, a recording, warnings.
+class SiteLog {
+ public:
+  SiteCounters counters;
+  Recording* recording = nullptr;
+  std::vector<std::string> warnings;  ///< of bodies that the site has let go
+
+  // Status. The haptic thread raises bits of the present tick, the host's thread bits that stay.
+  void startTick() noexcept { now_ = (ever_ | of_host_) & kForGood; }
+  void raise(std::uint32_t bits) noexcept { now_ |= bits; }
+  std::uint32_t endTick() noexcept {
+    ever_ |= now_;
+    return now_;
+  }
+  void raiseFromHost(std::uint32_t bits) noexcept { of_host_ |= bits; }
+  [[nodiscard]] std::uint32_t status() const noexcept { return ever_ | of_host_; }
+  [[nodiscard]] bool isWorldGone() const noexcept { return (of_host_ & kWorldGone) != 0; }
+  /// True if this tick has no usable force: the force fades.
+  [[nodiscard]] bool hasFault() const noexcept { return (now_ & (kDeviceInvalid | kForGood)) != 0; }
+  /// True if the island stands still for good.
+  [[nodiscard]] bool hasStopped() const noexcept { return (now_ & kForGood) != 0; }
+
+  /// The states of the island at the start of a tick, where something has moved.
+  void addToHash(double now, const Vec3& force_W, const Island& island) noexcept;
+  [[nodiscard]] std::uint64_t hash() const noexcept { return hash_.value(); }
+
+  void countForces(const Hand& hand) noexcept;
+
+  void recordArrival(int peer, const Arrival& arrival) noexcept {
+    if (recording) recording->addArrival({peer, arrival});
+  }
+  /// `reads_bullet`: no other thread steps the world now.
+  void recordTick(double now, const Hand& hand, const Bodies& bodies, const Peers& peers,
+                  const Island& island, bool reads_bullet) noexcept;
+
+  /// After set-up. Allocates.
+  void makeRoom(std::size_t objects, std::size_t peers);
+
+ private:
+  std::uint32_t now_ = kTickOk, ever_ = kTickOk;
+  std::atomic<std::uint32_t> of_host_{kTickOk};
+  StateHash hash_;
+  RestMark hash_rest_;  ///< its states went into the hash
+  std::vector<BodyRecord> objects_, proxies_;
+};
+
+/// True if all states that may have changed are numbers.
+[[nodiscard]] bool areAwakeFinite(const Island& island) noexcept;
+
+}  // namespace tandem

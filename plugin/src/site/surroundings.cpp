@@ -1,0 +1,251 @@
+#include "site/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tandem/bullet_bridge/shapes.h"
+
+// The host's thread: what is near, and who comes and goes. neighbours_coming.cpp has what whoever
+// ticks does with it.
+
+namespace tandem {
+namespace {
+
+/// The host may be this many of its periods late.
+constexpr double kLatePeriods = 2.5;
+/// Margin of the search for standing objects besides what speed needs [m].
+constexpr double kStandingMargin = 0.04;
+constexpr double kSafety = 1.5;
+
+/// Around bodies that sleep with nothing awake near them one look in so many is enough.
+constexpr int kLooksToFull = 8;
+
+NeighbourSeed makeSphereSeed(const RigidState& state, double radius) {
+  const Vec3 half = Vec3::Constant(radius);
+  return {state.p_W - half, state.p_W + half, state.v_W};
+}
+
+}  // namespace
+
+Surroundings::Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& settings,
+                           Island& island, Timeline& timeline, const HostClock& clock,
+                           Bodies& bodies, Peers& peers, Hand& hand, HostForces& forces,
+                           SiteLog& log)
+    : world_(world),
+      settings_(settings),
+      island_(island),
+      timeline_(timeline),
+      clock_(clock),
+      bodies_(bodies),
+      peers_(peers),
+      hand_(hand),
+      forces_(forces),
+      log_(log),
+      obstacles_(world),
+      search_(world, static_cast<std::size_t>(settings.max_neighbours)) {}
+
+void Surroundings::addSlots(int count) {
+  neighbours_.resize(static_cast<std::size_t>(count));
+  for (Neighbour& neighbour : neighbours_) neighbour.body.index = island_.addSlot();
+}
+
+void Surroundings::makeRoom() {
+  const auto count = static_cast<std::size_t>(island_.bodyCount());
+  mirror_.states.resize(count);
+  mirror_.moves.resize(count);
+  from_states_.resize(count);
+  to_states_.resize(count);
+  asides_.resize(count);
+  newcomers_.reserve(neighbours_.size());
+  leaving_.reserve(neighbours_.size());
+  for (Neighbour& neighbour : neighbours_) neighbour.body.load.makeRoom();
+}
+
+int Surroundings::neighbourCount() const noexcept {
+  const auto is_filled = [](const Neighbour& neighbour) { return neighbour.rigid != nullptr; };
+  return static_cast<int>(std::count_if(neighbours_.begin(), neighbours_.end(), is_filled));
+}
+
+void Surroundings::findMissing() {
+  for (Neighbour& neighbour : neighbours_) {
+    if (!neighbour.rigid || neighbour.body.is_leaving) continue;
+    if (neighbour.isInWorld() && !neighbour.hasChanged()) continue;
+    // Nothing more is heard of it.
+    neighbour.body.step.hit = {};
+    neighbour.body.step.was_parked = true;
+    leave(neighbour);
+  }
+}
+
+void Surroundings::look(double dt, double step_end, double age, bool everywhere) {
+  if (settings_.guide) return;
+  if (!everywhere) everywhere = isTurnOfFullLook();
+  horizon_ = computeHorizon(dt) + age;
+  lookForNeighbours(horizon_, step_end, everywhere);
+  way_by_springs_ = 0.0;
+  searchObstacles(everywhere);
+}
+
+double Surroundings::computeHorizon(double dt) const noexcept {
+  return kLatePeriods * dt + settings_.host_stall;
+}
+
+bool Surroundings::isTurnOfFullLook() noexcept {
+  const bool is_turn = looks_to_full_ == 0;
+  looks_to_full_ = is_turn ? kLooksToFull - 1 : looks_to_full_ - 1;
+  return is_turn;
+}
+
+bool Surroundings::mustLookFarther() const noexcept {
+  return kSafety * spring_speed_ * horizon_ > std::max(kStandingMargin, way_by_springs_);
+}
+
+void Surroundings::lookFarther() {
+  way_by_springs_ = kSafety * spring_speed_ * horizon_;
+  searchObstacles(true);
+  has_more_ = true;
+}
+
+void Surroundings::searchObstacles(bool everywhere) {
+  const double margin =
+      kStandingMargin + kSafety * mirror_.computeSpeed() * horizon_ + way_by_springs_;
+  has_changed_ |= obstacles_.search(mirror_.states, margin, everywhere ? nullptr : &mirror_.moves);
+}
+
+std::size_t Surroundings::countHapticBodies() const noexcept {
+  const auto has_body = [](const Peer& peer) { return peer.proxy.sphere != nullptr; };
+  const auto proxies = std::count_if(peers_.begin(), peers_.end(), has_body);
+  return 1 + bodies_.objects.size() + static_cast<std::size_t>(proxies);
+}
+
+void Surroundings::collectSeeds(bool everywhere) {
+  const auto is_calm = [&](const SiteBody& body) {
+    return !everywhere && body.bullet->isParked() && !body.step.was_near_awake;
+  };
+  const auto state = [&](BodyIndex b) { return mirror_.states[static_cast<std::size_t>(b)]; };
+  seeds_.clear();
+  seeds_.push_back(makeSphereSeed(state(hand_.hip()), settings_.hip_radius));
+  for (const Peer& peer : peers_)
+    if (peer.proxy.sphere && !is_calm(peer.proxy.body))
+      seeds_.push_back(makeSphereSeed(state(peer.proxy.body.index), settings_.proxy.radius));
+  for (const SharedObject& object : bodies_.objects)
+    if (!is_calm(object.body))
+      seeds_.push_back(makeSphereSeed(state(object.body.index), object.bounding_radius));
+}
+
+void Surroundings::lookForNeighbours(double horizon, double step_end, bool everywhere) {
+  // A hand alone feels what stands, and takes nothing of the host's.
+  if (neighbours_.empty() || (bodies_.objects.empty() && peers_.isEmpty())) return;
+  collectSeeds(everywhere);
+  const std::vector<btRigidBody*>& near = search_.find(seeds_, horizon);
+  // A body that is not found by a search around some of ours may be near the others.
+  const bool is_whole = seeds_.size() == countHapticBodies();
+  for (Neighbour& neighbour : neighbours_) {
+    if (!is_whole || !neighbour.rigid || neighbour.body.is_leaving) continue;
+    if (std::find(near.begin(), near.end(), neighbour.rigid) != near.end()) continue;
+    leave(neighbour);
+  }
+  for (btRigidBody* rigid : near) {
+    const auto holds = [&](const Neighbour& neighbour) { return neighbour.rigid == rigid; };
+    if (std::any_of(neighbours_.begin(), neighbours_.end(), holds)) continue;
+    const auto slot = std::find_if(neighbours_.begin(), neighbours_.end(),
+                                   [](const Neighbour& neighbour) { return !neighbour.rigid; });
+    if (slot != neighbours_.end()) promote(*rigid, *slot, step_end);
+  }
+}
+
+/// Not the island's before takeNewcomers().
+void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step_end) {
+  ++log_.counters.promoted;
+  const BodyIndex index = neighbour.body.index;
+  neighbour.rigid = &rigid;
+  neighbour.shape = rigid.getCollisionShape();
+  neighbour.is_new = true;
+  neighbour.settings = {};
+  neighbour.settings.is_rigid = true;
+  const std::optional<Shape> shape = convertShape(*rigid.getCollisionShape());
+  if (shape) neighbour.settings.shape = *shape;
+  neighbour.settings.touches_spheres = shape.has_value();
+  if (rigid.isKinematicObject()) {
+    neighbour.driven = std::make_unique<DrivenBody>(world_, rigid, step_end);
+    neighbour.settings.motion = neighbour.driven->motion();
+    neighbour.settings.start = neighbour.driven->at(mirror_.island_time);
+  } else {
+    hold(rigid, neighbour);
+  }
+  mirror_.set(index, neighbour.settings.start, true);
+  obstacles_.addBody(index, rigid);
+  for (Peer& peer : peers_)
+    if (peer.proxy.sphere) filterNativeContact(world_, peer.proxy.sphere->rigid(), rigid, true);
+}
+
+void Surroundings::hold(btRigidBody& rigid, Neighbour& neighbour) {
+  neighbour.bullet = std::make_unique<HapticBody>(world_, rigid, 1.0, Sleep::kAsHost);
+  const HapticBody& bullet = *neighbour.bullet;
+  IslandBody& own = neighbour.settings;
+  own.mass = bullet.mass();
+  own.inertia_B = bullet.inertia();
+  own.start = bullet.state();
+  neighbour.lookAtDamping();
+  neighbour.followDamping();
+  neighbour.body.bullet = neighbour.bullet.get();
+  neighbour.body.step.f_gravity_W = bullet.gravityForce();
+}
+
+/// Native contact is the host's again.
+void Surroundings::leave(Neighbour& neighbour) {
+  neighbour.body.is_leaving = true;
+  leaving_.push_back(&neighbour);
+  const bool is_present = neighbour.isInWorld();
+  for (Peer& peer : peers_) {
+    if (!peer.proxy.sphere || !peer.proxy.sphere->isAlive()) continue;
+    btRigidBody& proxy = peer.proxy.sphere->rigid();
+    if (is_present) {
+      filterNativeContact(world_, proxy, *neighbour.rigid, false);
+    } else {
+      proxy.setIgnoreCollisionCheck(neighbour.rigid, false);
+    }
+  }
+  obstacles_.removeBody(neighbour.body.index);
+  mirror_.set(neighbour.body.index, RigidState{}, false);
+}
+
+void Surroundings::leaveAll() {
+  for (Neighbour& neighbour : neighbours_) {
+    if (!neighbour.rigid || neighbour.body.is_leaving) continue;
+    leave(neighbour);
+  }
+}
+
+void Surroundings::giveBack() {
+  for (Neighbour* neighbour : leaving_) {
+    ++log_.counters.demoted;
+    if (neighbour->bullet && neighbour->isInWorld())
+      neighbour->bullet->applyWrench(neighbour->owed.linear_W, neighbour->owed.angular_W, 1.0);
+    neighbour->becomeEmpty();
+  }
+  leaving_.clear();
+}
+
+void Surroundings::lookAtDamping() noexcept {
+  for (Neighbour& neighbour : neighbours_)
+    if (!neighbour.body.is_leaving) neighbour.lookAtDamping();
+}
+
+void Surroundings::lookAtDriven(double step_end) noexcept {
+  for (Neighbour& neighbour : neighbours_)
+    if (neighbour.driven && !neighbour.body.is_leaving) neighbour.driven->look(step_end);
+}
+
+void Surroundings::Mirror::set(BodyIndex body, const RigidState& state, bool is_awake) noexcept {
+  states[static_cast<std::size_t>(body)] = state;
+  moves[static_cast<std::size_t>(body)] = is_awake;
+}
+
+double Surroundings::Mirror::computeSpeed() const noexcept {
+  double speed = 0.0;
+  for (const RigidState& state : states) speed = std::max(speed, state.v_W.norm());
+  return speed;
+}
+
+}  // namespace tandem

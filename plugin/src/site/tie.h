@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "coordination/src/island/island.h"
+#include "site/detour.h"
+
+namespace tandem {
+
+/// What ties our copy of one shared object to one peer's: eqs (9), (10).
+struct Tie {
+  CouplerIndex coupler = 0;
+  RigidState theirs;                      ///< the peer's copy as heard last
+  Detour detour;                          ///< on which the coupler's target is led there
+  std::optional<std::uint64_t> sequence;  ///< of the packet that brought it
+};
+
+}  // namespace tandem
