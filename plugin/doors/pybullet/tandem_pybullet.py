@@ -165,7 +165,7 @@ class Site:
         self._obstacles.add(body)
 
     def obstacles(self):
-        """Makes obstacles of all static bodies without joints that are none yet; returns their numbers.
+        """Makes obstacles of all other static bodies without joints; returns their numbers.
         Skips bodies without collision shape. Skips unsuitable bodies with a warning that names the
         reason."""
         found = []

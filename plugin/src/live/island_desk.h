@@ -7,15 +7,16 @@
 
 namespace tandem {
 
-/// Where other threads ask for the island.
+/// Lets other threads work on the island.
 ///
-/// Before there is a haptic thread the island belongs to one thread, and what is asked is done at
-/// once. While there is one, it alone touches the island: it does what is asked between two of its
-/// ticks, and whoever asked waits for that, a period at the most. The haptic thread never waits: it
-/// looks at one word, and what it finds there is done or is not there.
+/// Without a haptic thread the island belongs to one thread, and requests run at once. With one,
+/// only the haptic thread touches the island. It runs requests between two ticks, and the
+/// requesting thread waits for at most a period. The haptic thread never waits: it checks one word
+/// per tick.
 class IslandDesk {
  public:
-  /// From any thread but the haptic one. `work` must not throw, wait or ask again.
+  /// Runs `work` on the island. For any thread but the haptic one. `work` must not throw, wait or
+  /// call run().
   template <typename Work>
   void run(Work&& work) {
     if (!was_ever_open_.load(std::memory_order_acquire)) return work();
@@ -32,16 +33,16 @@ class IslandDesk {
 
   [[nodiscard]] bool isOpen() const noexcept { return is_open_.load(std::memory_order_acquire); }
 
-  /// Before the haptic thread begins; not by itself.
+  /// Opens the desk before the haptic thread begins. Not for the haptic thread.
   void open() {
     was_ever_open_.store(true, std::memory_order_release);
     const std::lock_guard one_at_a_time(asking_);
     is_open_.store(true, std::memory_order_release);
   }
-  /// By the haptic thread, which does not touch the island any more.
+  /// Closes the desk. The haptic thread calls it when it leaves the island.
   void close() noexcept { is_open_.store(false, std::memory_order_release); }
 
-  /// By the haptic thread, between two ticks. Real-time safe.
+  /// Runs a waiting request between two ticks. For the haptic thread. Real-time safe.
   void serve() noexcept {
     Order* order = order_.exchange(nullptr, std::memory_order_acquire);
     if (!order) return;
@@ -57,14 +58,14 @@ class IslandDesk {
   };
   static constexpr std::chrono::microseconds kPause{50};
 
-  /// True if nobody has begun with it.
+  /// Withdraws a request. Returns true if it has not been started.
   bool takeBack(Order& order) noexcept {
     Order* expected = &order;
     return order_.compare_exchange_strong(expected, nullptr, std::memory_order_acquire);
   }
 
   std::atomic<bool> is_open_{false};
-  std::atomic<bool> was_ever_open_{false};  ///< since then several threads may ask
+  std::atomic<bool> was_ever_open_{false};  ///< from then on several threads may call run()
   std::atomic<Order*> order_{nullptr};
   std::mutex asking_;
 };

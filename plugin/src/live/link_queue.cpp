@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-/// Half a second at the haptic rate of one site, or 60 ms from seven others.
+/// Capacity each way: half a second of packets at 1 kHz.
 constexpr std::size_t kRoom = 512;
 
 }  // namespace

@@ -6,14 +6,13 @@
 
 namespace tandem {
 
-/// Values from one thread to another, in order; a full ring takes no more. Wait-free, and without
-/// allocation after it is made.
+/// Queue from one thread to another with fixed capacity. Wait-free; allocates only at construction.
 template <typename Value>
 class SpscRing {
  public:
   explicit SpscRing(std::size_t capacity) : places_(capacity + 1) {}
 
-  /// By the one thread that writes. False: there is no room.
+  /// Appends a value. Returns false if the queue is full. For the one writing thread.
   bool push(const Value& value) noexcept {
     const std::size_t at = end_.load(std::memory_order_relaxed), next = follow(at);
     if (next == begin_.load(std::memory_order_acquire)) return false;
@@ -22,7 +21,8 @@ class SpscRing {
     return true;
   }
 
-  /// By the one thread that reads: the oldest value, null if there is none; stays until drop().
+  /// Returns the oldest value, null if there is none; it stays until drop(). For the one reading
+  /// thread.
   [[nodiscard]] const Value* peek() const noexcept {
     const std::size_t at = begin_.load(std::memory_order_relaxed);
     return at == end_.load(std::memory_order_acquire) ? nullptr : &places_[at];

@@ -71,7 +71,7 @@ Address resolveAddress(const std::string& text) {
   if (error != 0 || !found)
     throw std::invalid_argument("host \"" + parts.host + "\" is not known (" + gai_strerror(error) +
                                 "); check its name" + kForm);
-  // IPv4 first: what most networks between two sites have.
+  // Prefer IPv4: most networks between two sites support it.
   const addrinfo* best = found;
   for (const addrinfo* one = found; one; one = one->ai_next) {
     const auto* in = reinterpret_cast<const sockaddr_in6*>(one->ai_addr);

@@ -30,7 +30,7 @@ void Agreement::onAnswer(const AgreeAnswer& answer) {
   acknowledged_ |= answer.parts_received;
   const std::uint32_t all =
       parts_.size() == kMaxAgreeParts ? ~std::uint32_t{0} : (std::uint32_t{1} << parts_.size()) - 1;
-  // Answers may overtake each other: what was known of some parts says nothing of all.
+  // Answers may overtake each other: one about some parts does not withdraw one about all.
   if (answer.verdict == AgreeVerdict::kIncomplete) return;
   is_heard_ = (acknowledged_ & all) == all;
   is_equal_there_ = answer.verdict == AgreeVerdict::kEqual;

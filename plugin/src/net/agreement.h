@@ -7,28 +7,28 @@
 
 namespace tandem::net {
 
-/// Compares this site's configuration with a peer's, in both directions, part by part.
+/// Compares the configurations of this site and a peer, in both directions, part by part.
 class Agreement {
  public:
   /// Throws std::invalid_argument if the configuration is too long to be sent.
   explicit Agreement(const Configuration& here);
 
-  /// The peer is to be told again: it may have begun anew.
+  /// Sends all parts again, because the peer may have restarted.
   void restart() noexcept;
 
-  /// The peer's part; gives the payload size of our answer, 0 if there is none. For set-up:
-  /// allocates.
+  /// Takes a part of the peer's configuration. Returns the payload size of our answer, 0 if there
+  /// is none. For set-up: allocates.
   [[nodiscard]] std::size_t onAgree(const AgreePart& part, ByteSpan answer);
   void onAnswer(const AgreeAnswer& answer);
 
-  /// Part after part that the peer has not acknowledged, and then 0.
+  /// Writes the next part that the peer has not acknowledged. Returns 0 after the last one.
   [[nodiscard]] std::size_t nextPart(ByteSpan payload);
   /// True until the peer has acknowledged all parts.
   [[nodiscard]] bool hasMoreToSay() const noexcept { return !is_heard_; }
 
-  /// Both have said that both are equal.
+  /// True if both sites found the configurations equal.
   [[nodiscard]] bool isEqual() const noexcept { return is_equal_here_ && is_equal_there_; }
-  /// The first item that differs, as either side found it.
+  /// First item that differs, as found by either site.
   [[nodiscard]] const std::optional<ConfigurationDifference>& difference() const noexcept {
     return difference_;
   }

@@ -10,19 +10,19 @@
 
 namespace tandem::net {
 
-/// The responder's half of a handshake, once the cookie was right.
+/// The responder's half of a handshake, after the cookie was accepted.
 class Answerer {
  public:
   Answerer(const Pair& pair, const SecretKey& key) noexcept : pair_(pair), key_(key) {}
 
-  /// Answers OPEN with ACCEPT, and gives the keys that come into use when something opens under
-  /// them. The same OPEN again gets the same answer, and no keys. Nothing is kept of one that does
-  /// not open. An older one, which somebody has kept, gets none. Takes locked memory.
+  /// Answers OPEN with ACCEPT and returns the new keys, which come into use when a datagram opens
+  /// under them. A repeated OPEN gets the same answer and no keys. An OPEN that fails leaves no
+  /// state. An older OPEN, as in a replay, gets no answer. Takes locked memory.
   [[nodiscard]] std::optional<SessionKeys> onOpen(const OpenMessage& message, const Address& from,
                                                   double now, Outlet& outlet,
                                                   Outcome& outcome) noexcept;
 
-  /// The keys of the latest answer are gone without having been used: it is not given again.
+  /// Stops repeating the latest answer, because its keys expired unused.
   void forget() noexcept { has_newest_ = false; }
 
  private:
@@ -31,7 +31,7 @@ class Answerer {
 
   Pair pair_;
   const SecretKey& key_;
-  /// Of the latest OPENs that were answered.
+  /// One of the latest answered OPENs.
   struct Answered {
     std::uint64_t nonce = 0;
     NoiseMessage noise{};
@@ -43,7 +43,7 @@ class Answerer {
 
   std::array<Answered, kRemembered> answered_{};
   std::size_t answers_ = 0;
-  bool has_newest_ = false;  ///< its keys are still there
+  bool has_newest_ = false;  ///< the keys of the newest answer still exist
   AcceptMessage accept_;
 };
 

@@ -8,10 +8,10 @@
 namespace tandem::net {
 namespace {
 
-/// After which a handshake begins anew: a cookie is good for 10 s at least. A round trip may take
-/// as long [s].
+/// A handshake restarts after this time [s]; a cookie is valid for at least 10 s. A round trip may
+/// take as long.
 constexpr double kOpenFor = 8.5;
-constexpr double kMostTook = 5.0;  // [s]
+constexpr double kMostTook = 5.0;  // upper limit of took() [s]
 
 }  // namespace
 
@@ -61,7 +61,7 @@ Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
   return {};
 }
 
-/// All of OPEN but the cookie.
+/// Writes all of OPEN except the cookie.
 Outcome Caller::writeOpen() noexcept {
   try {
     const NoisePrologue prologue = writeNoisePrologue(pair_.self, pair_.peer);
@@ -73,7 +73,7 @@ Outcome Caller::writeOpen() noexcept {
     if (!noise_->writeMessage(terms, open_.noise)) return Refusal::kOutOfTurn;
   } catch (const std::exception&) {
     noise_.reset();
-    return Refusal::kTooMany;  // no memory to lock: HELLO will be said again
+    return Refusal::kTooMany;  // no memory to lock: HELLO is sent again
   }
   return {};
 }
@@ -116,8 +116,8 @@ Outcome Caller::onRefuse(ByteView datagram) noexcept {
   if (!message) return message.refusal();
   if (!isAnswer(message->route)) return Refusal::kOutOfTurn;
   refused_ = *message;
-  // It may be forged: the same OPEN may still be accepted, and only another cookie is asked for;
-  // not at once, or a forger could make us say HELLO as often as it likes.
+  // The refusal may be forged, so the same OPEN may still be accepted: only ask for another cookie.
+  // Wait for the retry, so that a forger cannot make us flood HELLO.
   if (message->code == RefuseCode::kCookie) stage_ = Stage::kHello;
   return {};
 }

@@ -10,32 +10,32 @@
 
 namespace tandem::net {
 
-/// The initiator's half of a handshake: HELLO until a cookie comes, OPEN until the other accepts.
+/// The initiator's half of a handshake: HELLO until a cookie comes, OPEN until the peer accepts.
 class Caller {
  public:
   Caller(const Pair& pair, const SecretKey& key) noexcept : pair_(pair), key_(key) {}
 
-  /// Begins anew, with this epoch.
+  /// Starts a handshake for this key epoch.
   void start(std::uint16_t epoch, double now) noexcept;
   void stop() noexcept;
   [[nodiscard]] bool isActive() const noexcept { return stage_ != Stage::kIdle; }
 
-  /// Says again what was not answered, to both addresses.
+  /// Repeats the unanswered message, to both addresses.
   void advance(double now, const Address& to, const std::optional<Address>& also,
                Outlet& outlet) noexcept;
 
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
-  /// The new keys; nothing, and `outcome` says why, if this is no answer to our OPEN. Takes locked
-  /// memory.
+  /// Returns the new keys. Returns nothing, with the reason in `outcome`, if this does not answer
+  /// our OPEN. Takes locked memory.
   [[nodiscard]] std::optional<SessionKeys> onAccept(ByteView datagram, double now,
                                                     Outcome& outcome) noexcept;
-  /// Remembered for the user; for a wrong cookie another is asked for.
+  /// Stores the refusal for the user. Asks for a new cookie if the cookie was wrong.
   [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
 
-  /// How long the first OPEN waited for the last ACCEPT, at least a round trip; or 5 s [s].
+  /// Time from the first OPEN to the last ACCEPT, at least a round trip and at most 5 s [s].
   [[nodiscard]] double took() const noexcept { return took_; }
 
-  /// What the other side refused with last, if it did since start(); not authentic.
+  /// Latest refusal of the other side until a handshake succeeds; not authentic.
   [[nodiscard]] const std::optional<RefuseMessage>& refused() const noexcept { return refused_; }
 
  private:
@@ -51,7 +51,7 @@ class Caller {
   double opened_at_ = 0.0, took_ = 0.0;
   std::uint64_t nonce_ = 0;
   std::uint16_t epoch_ = 0;
-  std::uint32_t session_ = 0;  ///< ours
+  std::uint32_t session_ = 0;  ///< our session number
   std::optional<secure::Initiator> noise_;
   OpenMessage open_;
   std::optional<RefuseMessage> refused_;

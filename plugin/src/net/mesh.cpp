@@ -8,9 +8,9 @@ namespace tandem::net {
 namespace {
 
 constexpr double kHellosPerSecond = 200.0;  ///< each costs a hash and a datagram of 48 bytes
-constexpr double kOpensPerSecond = 50.0;    ///< each costs two X25519
+constexpr double kOpensPerSecond = 50.0;    ///< each costs two X25519 operations
 constexpr double kRefusalsPerSecond = 5.0;
-// So that they do not all fall into one tick.
+// Burst limits, so that the work does not all fall into one tick.
 constexpr double kAtOnce = 10.0;
 constexpr double kOpensAtOnce = 2.0;
 
@@ -43,7 +43,7 @@ void checkIds(PeerId self, const std::vector<Mesh::Peer>& peers) {
 
 }  // namespace
 
-/// One pair's states, for a Site.
+/// The link of one pair, for a Site.
 class Mesh::PeerLink final : public Link {
  public:
   PeerLink(PeerSession& session, Outlet& outlet) noexcept : session_(session), outlet_(outlet) {}
@@ -174,7 +174,7 @@ Outcome Mesh::handleOpen(ByteView datagram, const Address& from, double now) noe
 
 Outcome Mesh::handleSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
                            double now) noexcept {
-  // Each pair draws its session numbers by itself, so two may be the same: the sender tells which.
+  // Pairs choose session numbers independently, so two may be equal: the sender decides.
   PeerSession* session = find(header.sender);
   if (!session) return Refusal::kUnknownSession;
   return session->onSealed(header, datagram, from, now, outlet_);

@@ -10,38 +10,39 @@
 
 namespace tandem::net {
 
-/// All pairs of one site over one socket: finds whom a datagram is for, and answers strangers
-/// without keeping anything of them. Time and bytes are passed in. One thread.
+/// All pairs of one site over one socket. Finds the pair of a datagram, and answers strangers
+/// without keeping state. The caller passes time and bytes. One thread.
 class Mesh {
  public:
   struct Peer {
     PeerId id{};
-    std::optional<Address> address;  ///< nothing: it is to call us
+    std::optional<Address> address;  ///< empty: the peer calls us
     SecretKey key;
   };
 
-  /// Throws std::invalid_argument for ids outside 1 to 8, twice or our own, and for a configuration
-  /// that cannot be sent. `outlet` must outlive the mesh.
+  /// Throws std::invalid_argument for an id outside 1 to 8, a repeated id or our own. Throws it
+  /// also for a configuration that is too long to send. `outlet` must outlive the mesh.
   Mesh(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common, Outlet& outlet);
   ~Mesh();
   Mesh(const Mesh&) = delete;
   Mesh& operator=(const Mesh&) = delete;
 
-  /// A datagram that came in; its bytes may be changed. Never trusts it, never throws.
+  /// Processes a received datagram; may change its bytes. Checks everything and never throws.
   void receive(ByteSpan datagram, const Address& from, double now) noexcept;
-  /// Says what is due.
+  /// Sends what is due.
   void advance(double now) noexcept;
   void leave(ByeReason reason, double now) noexcept;
 
-  /// The way to a peer, as a Site wants it. It lives as long as the mesh. Throws
-  /// std::invalid_argument for an id that is no peer.
+  /// Link to a peer, for a Site; lives as long as the mesh. Throws std::invalid_argument for an
+  /// unknown id.
   [[nodiscard]] Link& link(PeerId peer);
   [[nodiscard]] PeerStatus status(PeerId peer, double now) const;
   [[nodiscard]] const DatagramCounts& counts() const noexcept { return counts_; }
 
  private:
   class PeerLink;
-  /// From the addresses of peers, and from all others: strangers use up only their own.
+  /// Rate limits. Peers' addresses and all others have separate ones, so strangers cannot use up
+  /// those of peers.
   struct Limits {
     RateLimit hellos, opens;
   };

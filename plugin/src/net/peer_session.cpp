@@ -8,14 +8,14 @@
 namespace tandem::net {
 namespace {
 
-constexpr double kSilence = 1.0;       ///< after which a peer is called again [s]
-constexpr double kGone = 5.0;          ///< after which it counts as not there [s]
-constexpr double kPreviousKeys = 2.0;  ///< for which both sides' replaced keys still open [s]
+constexpr double kSilence = 1.0;       ///< a silent peer is called again after this [s]
+constexpr double kGone = 5.0;          ///< a silent peer counts as gone after this [s]
+constexpr double kPreviousKeys = 2.0;  ///< replaced keys still open datagrams for this long [s]
 constexpr double kAgreePeriod = 0.25;  // [s]
 constexpr double kByePeriod = 0.01;    // [s]
 constexpr int kByes = 10;
 
-/// Room for a whole datagram, and for a payload in its place.
+/// Space for a whole datagram, and for its payload in place.
 struct Room {
   std::array<std::uint8_t, kMaxDatagramSize> bytes;
   [[nodiscard]] ByteSpan datagram() noexcept { return {bytes.data(), bytes.size()}; }
@@ -49,7 +49,7 @@ void PeerSession::advance(double now, Outlet& outlet) noexcept {
 }
 
 void PeerSession::dropOldKeys(double now) noexcept {
-  // Until something came under the present keys, the peer may still seal with the previous ones.
+  // Until a datagram opens under the present keys, the peer may still use the previous ones.
   const bool is_replaced = has_heard_present_ && now >= previous_until_;
   if (previous_ && (is_replaced || previous_->age(now) == secure::KeyAge::kExpired))
     previous_.reset();
@@ -57,7 +57,7 @@ void PeerSession::dropOldKeys(double now) noexcept {
     coming_.reset();
     answerer_.forget();
   }
-  // Silence alone takes no keys: what comes first after an outage shall count.
+  // Silence alone keeps the keys, so that the first datagram after an outage is accepted.
   if (!keys_ || keys_->age(now) != secure::KeyAge::kExpired) return;
   keys_.reset();
   previous_.reset();
@@ -72,7 +72,7 @@ void PeerSession::forgetKeys() noexcept {
 
 void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
   if (!pair_.isInitiator() || !address_) return;
-  // Under new keys nothing comes before a round trip is over.
+  // Nothing can come under new keys before a round trip is over.
   const double silence = has_heard_present_ ? kSilence : kSilence + caller_.took();
   const bool is_needed =
       !keys_ || keys_->age(now) == secure::KeyAge::kDue || now - heard_at_ > silence;
@@ -80,9 +80,9 @@ void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
     epoch_ = static_cast<std::uint16_t>(epoch_ == 65535 ? 1 : epoch_ + 1);
     caller_.start(epoch_, now);
   }
-  // It was silent for a while, and is the same.
+  // The peer was silent for a while, and still has the same keys.
   if (!is_needed) caller_.stop();
-  // One that was followed to another address may have begun anew at the one that was given.
+  // A peer at a new address may have restarted at its configured one: call both.
   caller_.advance(now, *address_, configured_, outlet);
 }
 
@@ -97,7 +97,7 @@ void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
       (void)sendSealed(MessageType::kAgree, size, room.datagram(), outlet);
     }
   } catch (const std::bad_alloc&) {
-    // Next time.
+    // Retry at the next period.
   }
 }
 
@@ -168,7 +168,7 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
     install(std::move(*coming_), now);
     coming_.reset();
   }
-  std::optional<std::uint64_t> sequence;  // under the present keys
+  std::optional<std::uint64_t> sequence;  // empty unless sealed under the present keys
   if (is_coming || is_current) {
     heard_at_ = now;
     if (!has_heard_present_) previous_until_ = now + kPreviousKeys;
@@ -187,14 +187,14 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
   try {
     return handle(header.type, sequence, payload, now, outlet);
   } catch (const std::bad_alloc&) {
-    return Refusal::kTooMany;  // of a configuration: it comes again
+    return Refusal::kTooMany;  // no memory for a configuration: it comes again
   }
 }
 
 Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> sequence,
                             ByteView payload, double now, Outlet& outlet) {
   if (bye_reason_) return Refusal::kAfterBye;
-  // Of a peer that has begun anew, what it said before is past.
+  // Messages from before a peer's restart are ignored.
   const bool is_past = !sequence && (type != MessageType::kBye || has_heard_present_);
   if (is_past && type != MessageType::kState) return Refusal::kExpired;
   Room room;

@@ -12,19 +12,20 @@
 
 namespace tandem::net {
 
-/// One pair's life: handshake, comparison of configurations, states, new keys, silence, farewell.
+/// Connection of one pair: handshake, comparison of configurations, states, new keys, silence,
+/// farewell.
 ///
 ///   calling --keys--> agreeing --both equal--> live --5 s silence--> calling
 ///                        |                       |
 ///                    different (said why)        +--BYE--> left
 ///
-/// In an outage the keys stay, so that the first datagram after it counts; the initiator calls
-/// after a second of silence, in case that the peer has begun anew or has another address.
-/// Time and bytes are passed in, so a test's network drives it as a socket does. Handling of states
-/// never allocates; handshakes (at the start and every two minutes) and configurations do.
+/// The keys survive an outage, so the first datagram after it counts. The initiator calls after one
+/// second of silence, because the peer may have restarted or moved. The caller passes time and
+/// bytes, so a test's network works like a socket. States never allocate. Handshakes (at the start
+/// and every two minutes) and configurations do.
 class PeerSession {
  public:
-  /// What both sides of all pairs of a site have alike.
+  /// Settings common to all pairs of a site.
   struct Common {
     Configuration configuration;
     PlayoutSettings playout;
@@ -36,30 +37,30 @@ class PeerSession {
   PeerSession(const PeerSession&) = delete;
   PeerSession& operator=(const PeerSession&) = delete;
 
-  /// Says what is due: handshakes, configuration, farewells. Drops keys that are too old.
+  /// Sends due handshakes, configurations and farewells. Drops expired keys.
   void advance(double now, Outlet& outlet) noexcept;
 
-  // What came in, by type. Bytes may be changed.
+  // Handlers of received datagrams, by type. They may change the bytes.
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
   [[nodiscard]] Outcome onAccept(ByteView datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
-  /// The cookie was right.
+  /// Called after the cookie was accepted.
   [[nodiscard]] Outcome onOpen(const OpenMessage& message, const Address& from, double now,
                                Outlet& outlet) noexcept;
   [[nodiscard]] Outcome onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
                                  double now, Outlet& outlet) noexcept;
 
-  /// Sends a state if there is somebody to send it to.
+  /// Sends a state if the peer's keys and address are known.
   void send(const StatePacket& packet, double now, Outlet& outlet) noexcept;
   [[nodiscard]] std::optional<Arrival> pop(double from, double until) noexcept {
     return stream_.pop(from, until);
   }
 
-  /// Says farewell ten times, one every ten milliseconds.
+  /// Sends farewell ten times, every 10 ms.
   void leave(ByeReason reason, double now) noexcept;
 
   [[nodiscard]] PeerStatus status(double now) const;
-  /// Whether this is where the peer is, as far as we know.
+  /// True for the peer's configured address and the one last heard from.
   [[nodiscard]] bool knows(const Address& address) const noexcept {
     return address_ == address || configured_ == address;
   }
@@ -69,7 +70,7 @@ class PeerSession {
   [[nodiscard]] Outcome handle(MessageType type, std::optional<std::uint64_t> sequence,
                                ByteView payload, double now, Outlet& outlet);
   void install(SessionKeys keys, double now) noexcept;
-  /// False if the key is used up or it is not known where the peer is.
+  /// Returns false if the key is used up or the peer's address is unknown.
   bool sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                   Outlet& outlet) noexcept;
   void callIfNeeded(double now, Outlet& outlet) noexcept;
@@ -79,28 +80,28 @@ class PeerSession {
   void forgetKeys() noexcept;
 
   Pair pair_;
-  std::optional<Address> address_;           ///< where it was heard from last
-  const std::optional<Address> configured_;  ///< that was given
+  std::optional<Address> address_;           ///< last one heard from
+  const std::optional<Address> configured_;  ///< given at set-up
   SecretKey key_;
   Caller caller_;
   Answerer answerer_;
   Agreement agreement_;
   StateStream stream_;
 
-  std::optional<SessionKeys> keys_;      ///< sealed with
-  std::optional<SessionKeys> coming_;    ///< responder's: until something opens under them
-  std::optional<SessionKeys> previous_;  ///< open what is still on its way
+  std::optional<SessionKeys> keys_;      ///< present keys, used for sealing
+  std::optional<SessionKeys> coming_;    ///< of a responder, until a datagram opens under them
+  std::optional<SessionKeys> previous_;  ///< open datagrams that are still under way
   double previous_until_ = 0.0;
   std::uint16_t epoch_ = 0;
 
-  double heard_at_ = 0.0;  ///< under the present keys, or until then under those before
+  double heard_at_ = 0.0;  ///< last datagram under the present or, before any, previous keys
   bool has_heard_present_ = false;
   std::uint64_t newest_sequence_ = 0;
   double agree_at_ = 0.0;
-  std::optional<ByeReason> bye_reason_;  ///< ours
+  std::optional<ByeReason> bye_reason_;  ///< our reason
   int byes_left_ = 0;
   double bye_at_ = 0.0;
-  std::optional<ByeReason> left_;  ///< the peer's
+  std::optional<ByeReason> left_;  ///< the peer's reason
   std::uint64_t states_sent_ = 0, states_unsent_ = 0;
 };
 

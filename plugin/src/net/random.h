@@ -4,7 +4,7 @@
 
 namespace tandem::net {
 
-/// Random and not 0.
+/// Random number other than 0.
 template <typename Unsigned>
 [[nodiscard]] Unsigned drawNumber() noexcept {
   Unsigned number = 0;

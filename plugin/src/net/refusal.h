@@ -8,30 +8,30 @@
 
 namespace tandem::net {
 
-/// Why a datagram was dropped, besides not being of the standard's form (WireRefusal).
+/// Reasons to drop a datagram, besides a wrong form (WireRefusal).
 enum class Refusal : std::uint8_t {
   kNone,
   kForm,            ///< see DatagramCounts::form
   kNotForMe,        ///< another receiver, or a sender that is no peer of this site
-  kOutOfTurn,       ///< an answer to nothing that was asked
-  kTooMany,         ///< more handshakes than are answered in a second
-  kCookie,          ///< wrong or too old
-  kKey,             ///< Noise message does not open: another pre-shared key
-  kUnknownSession,  ///< no key of this session, sender and epoch
-  kExpired,         ///< key older than it may be
-  kReplayed,        ///< taken before, or too far behind
-  kForged,          ///< does not open
-  kNotAgreed,       ///< a state before both configurations were compared, or of another one
+  kOutOfTurn,       ///< an answer without a question
+  kTooMany,         ///< above the rate limit of handshakes
+  kCookie,          ///< wrong or expired cookie
+  kKey,             ///< the Noise message does not open: another pre-shared key
+  kUnknownSession,  ///< no key for this session, sender and epoch
+  kExpired,         ///< the key is too old
+  kReplayed,        ///< received before, or too far behind
+  kForged,          ///< fails authentication
+  kNotAgreed,       ///< state before the configurations agree, or of another one
   kAfterBye,
 };
 inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::kAfterBye) + 1;
 
-/// Datagrams that came in, by what became of them.
+/// Counts of received datagrams by result.
 struct DatagramCounts {
   std::uint64_t received = 0;
   std::uint64_t taken = 0;
   std::array<std::uint64_t, kRefusals> refused{};
-  std::array<std::uint64_t, kWireRefusals> form{};  ///< of refused[kForm]
+  std::array<std::uint64_t, kWireRefusals> form{};  ///< parts of refused[kForm]
 
   [[nodiscard]] std::uint64_t of(Refusal refusal) const noexcept {
     return refused[static_cast<std::size_t>(refusal)];
@@ -48,7 +48,7 @@ struct DatagramCounts {
   }
 };
 
-/// What handling a datagram came to.
+/// Result of handling a datagram.
 struct Outcome {
   Refusal refusal = Refusal::kNone;
   WireRefusal form = WireRefusal::kNone;

@@ -4,15 +4,15 @@
 
 namespace tandem::net {
 
-/// When to say something again that was not answered: after 250 ms, then each time after twice as
-/// long, at most 1 s.
+/// Times to repeat an unanswered message: after 250 ms, then after twice the last wait, at most 1
+/// s.
 class Retry {
  public:
   void start(double now) noexcept {
     next_ = now;
     wait_ = kFirst;
   }
-  /// True if it is time, and then the next wait begins.
+  /// True if the message is due; starts the next wait.
   [[nodiscard]] bool isDue(double now) noexcept {
     if (now < next_) return false;
     next_ = now + wait_;
@@ -25,7 +25,7 @@ class Retry {
   double next_ = 0.0, wait_ = kFirst;
 };
 
-/// So many a second, and no more than `depth` at once.
+/// Allows `rate` events per second, at most `depth` at once.
 class RateLimit {
  public:
   RateLimit(double rate, double depth) noexcept : rate_(rate), depth_(depth), left_(depth) {}

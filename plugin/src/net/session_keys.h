@@ -12,15 +12,15 @@
 
 namespace tandem::net {
 
-/// Who talks to whom.
+/// This site and one peer.
 struct Pair {
   PeerId self{}, peer{};
-  /// The peer with the lower id begins.
+  /// The site with the lower id starts the handshake.
   [[nodiscard]] bool isInitiator() const noexcept { return self < peer; }
 };
 
-/// What one handshake gave: a key for each direction, the numbers by which both sides name the
-/// session, and which datagrams were taken under it. All but making one is real-time safe.
+/// Result of one handshake: a key for each direction, both sides' session numbers, and the window
+/// of received datagrams. Real-time safe except for construction.
 class SessionKeys {
  public:
   SessionKeys(const Pair& pair, secure::TransportKeys keys, std::uint32_t mine,
@@ -41,12 +41,12 @@ class SessionKeys {
     return policy_.age(now, sealer_.nextSequence());
   }
 
-  /// Writes header and tag around a payload that stands at `datagram.data + kHeaderSize`; gives the
-  /// whole size, 0 if the key is used up or there is no room.
+  /// Writes header and tag around the payload at `datagram.data + kHeaderSize`. Returns the whole
+  /// size, 0 if the key is used up or there is no room.
   [[nodiscard]] std::size_t seal(MessageType type, std::size_t payload_size,
                                  ByteSpan datagram) noexcept;
 
-  /// Opens a datagram of this session in place, once only.
+  /// Opens a datagram of this session in place; each datagram only once.
   [[nodiscard]] Refusal open(const ClearHeader& header, ByteSpan datagram, double now) noexcept;
 
  private:

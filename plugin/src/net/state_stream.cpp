@@ -18,7 +18,7 @@ double toSeconds(std::int64_t microseconds) noexcept {
 std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan payload) noexcept {
   StateMessage message;
   message.packet = packet;
-  // It names the datagram, so it goes up whatever the clock does.
+  // The time stamp identifies the datagram, so it increases whatever the clock does.
   message.send_time_us = std::max(toMicroseconds(now), last_sent_us_ + 1);
   last_sent_us_ = message.send_time_us;
   if (has_news_) {

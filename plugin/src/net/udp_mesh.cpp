@@ -9,7 +9,8 @@
 namespace tandem {
 namespace {
 
-/// A flood must not starve the tick, nor crowd out the peer: 128,000 a second at 1 kHz.
+/// Most datagrams per poll, 128,000 per second at 1 kHz: a flood must not delay the tick, and the
+/// peer's datagrams must still fit.
 constexpr int kMostPerPoll = 128;
 
 const char* name(net::Refusal refusal) noexcept {
@@ -70,7 +71,7 @@ UdpMesh::~UdpMesh() = default;
 Link& UdpMesh::link(PeerId peer) { return impl_->mesh.link(peer); }
 
 void UdpMesh::poll(double now) noexcept {
-  // One byte more than the longest, so that a longer one is seen as such.
+  // One byte more than the longest datagram reveals a longer one.
   std::array<std::uint8_t, kMaxDatagramSize + 1> room;
   for (int i = 0; i < kMostPerPoll; ++i) {
     const auto received = impl_->socket.receive({room.data(), room.size()});

@@ -15,7 +15,7 @@
 namespace tandem::net {
 namespace {
 
-/// Room for some hundred datagrams: a tick takes in at most 128.
+/// Room for some hundred datagrams; a tick takes at most 128 [bytes].
 constexpr int kBufferSize = 256 * 1024;
 
 constexpr std::array<std::uint8_t, 12> kMappedIpv4 = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
@@ -28,7 +28,7 @@ bool isAny(const Address& address) noexcept {
   return std::all_of(address.ip.begin(), address.ip.end(), [](auto byte) { return byte == 0; });
 }
 
-/// What the system's calls want.
+/// An address in the form of the system's calls.
 struct SystemAddress {
   sockaddr_storage storage{};
   socklen_t size = 0;
@@ -77,7 +77,7 @@ Address fromSystem(const sockaddr_storage& storage) noexcept {
 }
 
 void setOption(int socket, int level, int name, int value) noexcept {
-  // Each makes it better, none is needed.
+  // The options are useful but not necessary, so errors are ignored.
   (void)setsockopt(socket, level, name, &value, sizeof value);
 }
 
@@ -119,7 +119,7 @@ UdpSocket::UdpSocket(const Address& bind_to) {
 UdpSocket::~UdpSocket() { ::close(socket_); }
 
 void UdpSocket::send(ByteView datagram, const Address& to) noexcept {
-  if (is_ipv4_ && !isMappedIpv4(to)) {  // no way there from this machine
+  if (is_ipv4_ && !isMappedIpv4(to)) {  // unreachable from a machine without IPv6
     ++unsent_;
     return;
   }
@@ -131,7 +131,7 @@ void UdpSocket::send(ByteView datagram, const Address& to) noexcept {
 
 std::optional<UdpSocket::Received> UdpSocket::receive(ByteSpan room) noexcept {
   sockaddr_storage storage{};
-  // An error that a past send brought back (no such port) says nothing of what waits here.
+  // An error of an earlier send (no such port) does not concern the waiting datagrams.
   for (int tries = 0; tries < 8; ++tries) {
     socklen_t size = sizeof storage;
     const ssize_t got =

@@ -9,7 +9,7 @@
 namespace tandem {
 namespace {
 
-/// A text that grows by numbers and commas.
+/// Appends numbers and commas to a text.
 class Row {
  public:
   explicit Row(std::string& text) : text_(text) {}
@@ -27,7 +27,7 @@ class Row {
   std::string& text_;
 };
 
-/// "_" and the number of a second, third ... body; the first has none.
+/// Appends the number of the second and further bodies to a name; the first body has none.
 std::string numbered(const char* name, int index) {
   return index == 0 ? std::string(name) : std::string(name) + std::to_string(index + 1);
 }
@@ -47,7 +47,7 @@ void addBodyHeader(std::string& header, const char* name, int index) {
 
 Recording::Recording(std::size_t ticks, std::size_t arrivals, int objects, int proxies)
     : object_count_(objects), proxy_count_(proxies) {
-  // Filled once and emptied: the pages are there before the first tick.
+  // Resizing touches the pages, so that no tick has to.
   ticks_.resize(ticks);
   objects_.resize(ticks * static_cast<std::size_t>(objects));
   proxies_.resize(ticks * static_cast<std::size_t>(proxies));
@@ -75,7 +75,7 @@ void Recording::addArrival(const ArrivalRecord& record) noexcept {
 }
 
 void Recording::writeCsv(const std::filesystem::path& path, const Quat& q_WS) const {
-  // The contract's columns are there for one object and one proxy even where a scene has none.
+  // The file has the columns of one object and one proxy even if the scene has none.
   const int objects = std::max(1, object_count_), proxies = std::max(1, proxy_count_);
   std::string text = "t,";
   for (const char* name : {"device", "device_v", "force"}) {

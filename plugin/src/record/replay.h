@@ -9,16 +9,16 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// A device that gives a recording's samples again, one per tick. The recording must outlive it.
+/// Device that replays the samples of a recording, one per tick. The recording must outlive it.
 class ReplayDevice final : public HapticDevice {
  public:
-  /// `capabilities`: of the recorded device, as its force limit is part of what was rendered.
+  /// `capabilities` are those of the recorded device: its force limit affected the rendered force.
   explicit ReplayDevice(const Recording& recording, DeviceCapabilities capabilities = {"replay"})
       : recording_(recording), capabilities_(std::move(capabilities)) {}
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
     return capabilities_;
   }
-  /// The first recorded sample at or after `now`; invalid after the end.
+  /// Returns the first recorded sample at or after `now`; an invalid one after the end.
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3&) noexcept override {}
 
@@ -28,8 +28,7 @@ class ReplayDevice final : public HapticDevice {
   std::size_t next_ = 0;
 };
 
-/// A link that delivers a recording's packets of one remote again, at the same times; sends go
-/// nowhere.
+/// Link that replays the recorded packets of one remote at their times. It discards what is sent.
 class ReplayLink final : public Link {
  public:
   ReplayLink(const Recording& recording, int remote) : recording_(recording), remote_(remote) {}

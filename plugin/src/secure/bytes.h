@@ -12,7 +12,7 @@ namespace tandem::secure {
 using ByteView = std::span<const std::uint8_t>;
 using Bytes = std::span<std::uint8_t>;
 
-/// Secret bytes of a short life, on the stack: wiped at their end.
+/// Short-lived secret bytes on the stack; the destructor wipes them.
 template <std::size_t kSize>
 struct WipedBytes : std::array<std::uint8_t, kSize> {
   WipedBytes() noexcept : std::array<std::uint8_t, kSize>{} {}

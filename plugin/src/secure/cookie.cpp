@@ -25,7 +25,7 @@ CookieMaker::CookieMaker(SecretKey secret, double slot_length)
 }
 
 std::int64_t CookieMaker::slotAt(double now) const noexcept {
-  // What no clock shows must not be undefined either.
+  // Guards against undefined conversion of extreme times.
   constexpr double kFarAway = 9e18;
   const double slot = std::floor(now / slot_length_);
   return std::abs(slot) < kFarAway ? static_cast<std::int64_t>(slot) : 0;

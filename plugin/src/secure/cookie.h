@@ -9,38 +9,38 @@
 
 namespace tandem::secure {
 
-/// What a responder sends back before it keeps anything of an initiator: who returns it can receive
-/// at the address that it sends from.
+/// A responder sends it before it stores anything about an initiator. An initiator that returns it
+/// can receive at its source address.
 using Cookie = std::array<std::uint8_t, 16>;
 
-/// Who asks. The address is as the socket gives it, up to 16 bytes (IPv6).
+/// The initiator's identity. The address is the socket's, up to 16 bytes (IPv6).
 struct CookieSubject {
   ByteView address;
   std::uint16_t port = 0;
-  std::uint16_t from = 0;  ///< site that says hello
-  std::uint16_t to = 0;    ///< site that it wants
+  std::uint16_t from = 0;  ///< site that sends HELLO
+  std::uint16_t to = 0;    ///< site that it calls
   std::uint64_t nonce = 0;
 };
 
-/// Makes cookies and knows its own again without remembering any.
+/// Makes cookies and recognises its own without storing any.
 ///
 ///   cookie = BLAKE2b-128 keyed by a secret of this maker alone, over
 ///            slot i64 | nonce u64 | port u16 | from u16 | to u16 | address size u8 | address
 ///
-/// The slot is the number of `slot_length`s that have passed, so the function is a new one in each,
-/// and a cookie holds for one to two of them. Pure functions of the time given; real-time safe.
+/// The slot is the number of full `slot_length`s, so the function changes with each slot. A cookie
+/// is valid for one to two slots. Pure functions of the given time; real-time safe.
 class CookieMaker {
  public:
   static constexpr double kSlotLength = 10.0;  ///< [s]; longer than a handshake with lost datagrams
 
-  /// Throws std::invalid_argument unless the length is positive and finite [s].
+  /// Throws std::invalid_argument unless `slot_length` [s] is positive and finite.
   explicit CookieMaker(SecretKey secret = SecretKey::generate(), double slot_length = kSlotLength);
 
-  /// The cookie at `now` [s, from any origin]; nothing else tells it. An address longer than 16
-  /// bytes counts by its first 16.
+  /// Makes the cookie at `now` [s, from any origin]. Of a longer address only the first 16 bytes
+  /// count.
   [[nodiscard]] Cookie make(const CookieSubject& subject, double now) const noexcept;
 
-  /// Whether this cookie was made for the same subject in this slot or the one before.
+  /// True if the cookie was made for this subject in this slot or the previous one.
   [[nodiscard]] bool accepts(const Cookie& cookie, const CookieSubject& subject,
                              double now) const noexcept;
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kProtocol = "Noise_NNpsk0_25519_ChaChaPoly_BLAKE2b";
 constexpr std::size_t kPublicSize = crypto_scalarmult_BYTES;
-constexpr std::size_t kLargestMessage = 65535;  // of the Noise specification
+constexpr std::size_t kLargestMessage = 65535;  // limit of the Noise specification
 
 static_assert(kProtocol.size() <= kHashSize);
 static_assert(SecretKey::kSize == kKeySize && SecretKey::kSize == crypto_scalarmult_SCALARBYTES);
@@ -33,10 +33,11 @@ HandshakeState::HandshakeState(const SecretKey& shared, ByteView prologue, Secre
   state.mixKeyAndHash(bytesOf(shared));
 }
 
-/// The tokens of one message whose sender has this public key. False for a point of low order.
+/// Mixes in the tokens of a message whose sender has this public key. Returns false for a point of
+/// low order.
 bool HandshakeState::mixTokens(Tokens tokens, ByteView sender) noexcept {
   State& state = both_->trial;
-  // With a pre-shared key e is mixed into the key, too (section 9.2).
+  // With a pre-shared key, e is mixed into the key, too (section 9.2).
   state.mixHash(sender);
   state.mixKey(sender);
   if (tokens == Tokens::kE) return true;

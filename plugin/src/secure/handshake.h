@@ -11,38 +11,38 @@
 #include "secure/symmetric_state.h"
 
 /// \file
-/// The handshake Noise_NNpsk0_25519_ChaChaPoly_BLAKE2b (Noise specification, revision 34): two
-/// sites that hold the same key agree on two fresh ones, which nobody learns who gets the key
-/// later.
+/// The handshake Noise_NNpsk0_25519_ChaChaPoly_BLAKE2b (Noise specification, revision 34). Two
+/// sites with the same key agree on two fresh keys. Forward secrecy: a key leaked later does not
+/// reveal them.
 ///
 ///     initiator                                           responder
 ///     writeMessage --- e, sealed payload ---------------> readMessage
 ///     readMessage  <-- e, sealed payload under e·e ------ writeMessage
 ///     split                                               split
 ///
-/// Making one and split() take locked memory and may throw std::bad_alloc: not real-time safe. What
-/// reads bytes from the network does not throw: bytes that do not fit, were not made with the same
-/// key and prologue, or bring a point of low order are refused, and leave everything as it was, so
-/// that forged bytes cannot end a handshake that is under way.
+/// Construction and split() take locked memory and may throw std::bad_alloc: not real-time safe.
+/// Functions that read network bytes do not throw. They refuse bytes of a wrong size, of another
+/// key or prologue, and with a point of low order. A refusal changes nothing, so forged bytes
+/// cannot end a running handshake.
 namespace tandem::secure {
 
-/// A handshake message is its payload and this much more [bytes].
+/// Size of a handshake message beyond its payload [bytes].
 inline constexpr std::size_t kHandshakeOverhead = crypto_scalarmult_BYTES + kTagSize;
 
-/// Keys of one direction each, for this side.
+/// This side's keys, one for each direction.
 struct TransportKeys {
   SecretKey send;
   SecretKey receive;
 };
 
-/// What both sides do alike: one ephemeral key pair, and a message in each direction.
+/// Common part of both sides: one ephemeral key pair, and a message in each direction.
 class HandshakeState {
  public:
-  /// Mixes in the prologue and the shared key, which is not kept.
+  /// Mixes in the prologue and the shared key. Does not keep the shared key.
   HandshakeState(const SecretKey& shared, ByteView prologue, SecretKey ephemeral);
 
-  /// Whether a message also mixes in what both ephemeral keys give (token `ee`), or its sender's
-  /// public key only (token `e`).
+  /// Tokens of a message: the sender's public key (`e`), and also the shared secret of both
+  /// ephemeral keys (`ee`).
   enum class Tokens { kE, kEAndEe };
 
   [[nodiscard]] std::optional<std::size_t> write(Tokens tokens, ByteView payload,
@@ -50,21 +50,21 @@ class HandshakeState {
   [[nodiscard]] std::optional<std::size_t> read(Tokens tokens, ByteView message,
                                                 Bytes payload) noexcept;
 
-  /// Wipes what no later message needs.
+  /// Wipes the ephemeral key once no later message needs it.
   void forgetEphemeral() noexcept;
 
   [[nodiscard]] const std::array<std::uint8_t, kHashSize>& hash() const noexcept {
     return both_->current.hash;
   }
 
-  /// Keys from initiator to responder and back; the state is wiped but for its hash.
+  /// Returns the keys from initiator to responder and back. Wipes the state except its hash.
   [[nodiscard]] std::array<SecretKey, 2> split();
 
  private:
   struct State : SymmetricState {
     std::array<std::uint8_t, crypto_scalarmult_BYTES> remote;  ///< the other side's public key
   };
-  /// A message works on the trial, which becomes the current state when all of it is right.
+  /// A message works on the trial, which replaces the current state only if all of it is valid.
   struct Both {
     State current, trial;
   };
@@ -76,28 +76,28 @@ class HandshakeState {
   SecretKey ephemeral_;
 };
 
-/// The side that speaks first. Each function is for its turn and gives nothing out of turn.
+/// The side that sends first. A function called out of turn returns nothing.
 class Initiator {
  public:
-  /// `prologue`: what both sides must agree on beforehand. `ephemeral` is given by tests only.
-  /// Throws std::invalid_argument if a key was moved away.
+  /// `prologue` must be equal at both sides. Only tests give `ephemeral`. Throws
+  /// std::invalid_argument if a key was moved away.
   Initiator(const SecretKey& shared, ByteView prologue,
             SecretKey ephemeral = SecretKey::generate());
 
-  /// Writes message 1, once; to send it again keep the bytes. Gives its size; nothing if `message`
-  /// is too small for `payload` and kHandshakeOverhead. They must not overlap.
+  /// Writes message 1, once; keep the bytes to send it again. Returns its size, nothing if
+  /// `message` has no room for `payload` and kHandshakeOverhead. The two must not overlap.
   [[nodiscard]] std::optional<std::size_t> writeMessage(ByteView payload, Bytes message) noexcept;
 
-  /// Reads message 2 and gives the size of its payload; nothing if it is refused or `payload` is
-  /// too small. A refused message leaves `payload` as it was, or wiped.
+  /// Reads message 2 and returns the size of its payload. Returns nothing if it is refused or
+  /// `payload` is too small; `payload` is then unchanged or wiped.
   [[nodiscard]] std::optional<std::size_t> readMessage(ByteView message, Bytes payload) noexcept;
 
-  /// Once message 2 was read, and once only; nothing else.
+  /// Returns the keys once, after message 2 was read; otherwise nothing.
   [[nodiscard]] std::optional<TransportKeys> split();
 
   [[nodiscard]] bool isComplete() const noexcept { return turn_ == Turn::kComplete; }
 
-  /// Hash of all that was said, the same at both sides when complete; not secret.
+  /// Hash of the whole handshake, equal at both sides when complete; not secret.
   [[nodiscard]] const std::array<std::uint8_t, kHashSize>& hash() const noexcept {
     return state_.hash();
   }
@@ -109,8 +109,8 @@ class Initiator {
   Turn turn_ = Turn::kWrite;
 };
 
-/// The side that answers; see Initiator. A refused message 1 costs no X25519, and the responder is
-/// as new: one that was made beforehand may stand ready for whatever arrives.
+/// The side that answers; see Initiator. A refused message 1 costs no X25519 operation and leaves
+/// the responder as new. One made in advance can thus wait for any message.
 class Responder {
  public:
   Responder(const SecretKey& shared, ByteView prologue,
@@ -119,11 +119,11 @@ class Responder {
   /// Reads message 1.
   [[nodiscard]] std::optional<std::size_t> readMessage(ByteView message, Bytes payload) noexcept;
 
-  /// Writes message 2, once. Nothing also if message 1 brought a point of low order.
+  /// Writes message 2, once. Returns nothing also if message 1 had a point of low order.
   [[nodiscard]] std::optional<std::size_t> writeMessage(ByteView payload, Bytes message) noexcept;
 
-  /// Once message 2 was written, and once only. That the initiator has the keys, too, is known when
-  /// the first datagram opens under `receive`.
+  /// Returns the keys once, after message 2 was written. The initiator has its keys when the first
+  /// datagram opens under `receive`.
   [[nodiscard]] std::optional<TransportKeys> split();
 
   [[nodiscard]] bool isComplete() const noexcept { return turn_ == Turn::kComplete; }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kBlockSize = 128;
 
-/// BLAKE2b-512 over pieces, wiped at its end: under HMAC its state is as good as the key.
+/// BLAKE2b-512 over several pieces. Wiped at its end, because under HMAC its state equals the key.
 class Hash {
  public:
   Hash() noexcept { crypto_generichash_init(&state_, nullptr, 0, kHashSize); }
@@ -25,7 +25,7 @@ class Hash {
   crypto_generichash_state state_;
 };
 
-/// The key, filled up with zeros, XOR one value.
+/// The key, padded with zeros, XOR `value`.
 struct Pad : WipedBytes<kBlockSize> {
   Pad(ByteView key, std::uint8_t value) noexcept {
     std::copy(key.begin(), key.end(), begin());
@@ -33,7 +33,7 @@ struct Pad : WipedBytes<kBlockSize> {
   }
 };
 
-/// One of HKDF's outputs: HMAC(key, previous || number).
+/// Computes one output of HKDF: HMAC(key, previous || number).
 void computeOutput(ByteView key, ByteView previous, std::uint8_t number, Bytes out) noexcept {
   computeHmac(key, previous, ByteView(&number, 1), out);
 }

@@ -27,7 +27,7 @@ using secure::LockedBox;
 constexpr mode_t kOwnerOnly = S_IRUSR | S_IWUSR;
 constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
 
-/// An open file, closed at its end.
+/// A file descriptor that closes itself.
 class OpenFile {
  public:
   explicit OpenFile(int descriptor) noexcept : descriptor_(descriptor) {}
@@ -44,7 +44,7 @@ class OpenFile {
   int descriptor_;
 };
 
-/// One line, whatever the name holds.
+/// Makes a message of one line, whatever characters the name has.
 std::string makeMessage(const fs::path& path, const std::string& what) {
   std::string name = path.string();
   std::replace_if(
@@ -67,7 +67,7 @@ bool writeAll(const OpenFile& file, const char* text, std::size_t size) noexcept
   return true;
 }
 
-/// What is in a file, up to the size of the buffer. False if it cannot be read.
+/// Reads a file, up to the size of the buffer. Returns false on an error.
 bool readAll(const OpenFile& file, char* buffer, std::size_t room, std::size_t& size) noexcept {
   size = 0;
   while (size < room) {
@@ -80,7 +80,7 @@ bool readAll(const OpenFile& file, char* buffer, std::size_t room, std::size_t& 
   return true;
 }
 
-/// Nobody but the owner has a right to the file, and it is one.
+/// Throws unless it is a regular file that only the owner has rights to.
 void requirePrivateFile(const OpenFile& file, const fs::path& path) {
   struct stat status {};
   if (fstat(file.get(), &status) != 0) refuse(path, std::strerror(errno));
@@ -109,7 +109,7 @@ void makeKeyFile(const fs::path& path) {
     refuse(path, std::string("cannot be made: ") + std::strerror(errno) +
                      "; give a name in a folder that is there and may be written to");
   }
-  // The process's umask may have taken rights away.
+  // The process's umask may have removed rights.
   const bool is_written = fchmod(file.get(), kOwnerOnly) == 0 &&
                           writeAll(file, text->data(), text->size()) && fsync(file.get()) == 0;
   const int error = errno;
@@ -121,14 +121,14 @@ void makeKeyFile(const fs::path& path) {
 }
 
 SecretKey readKeyFile(const fs::path& path) {
-  // Without O_NONBLOCK a pipe would wait for its writer.
+  // Without O_NONBLOCK, opening a pipe would wait for its writer.
   const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (file.get() < 0)
     refuse(path, std::string("cannot be read: ") + std::strerror(errno) +
                      "; give a key file, or make one with tandem key new");
   requirePrivateFile(file, path);
 
-  // Room for one character more than the longest: more than that is cut off, and still too long.
+  // One character more than the longest text reveals a longer file.
   const LockedBox<std::array<char, secure::kLongestKeyText + 1>> text;
   std::size_t size = 0;
   if (!readAll(file, text->data(), text->size(), size))

@@ -8,16 +8,16 @@ namespace {
 constexpr std::string_view kFormat = "tandem-key-1";
 constexpr std::size_t kDigits = 2 * kKeySize;
 
-/// Size of the first line with its end; 0 if it is not that of a key.
+/// Size of the first line with its end; 0 if it is not a key's.
 std::size_t measureHeader(std::string_view text) noexcept {
   if (!text.starts_with(kFormat)) return 0;
   const std::size_t end = text.substr(0, kLongestKeyHeader).find('\n');
   if (end == std::string_view::npos) return 0;
-  if (end != kFormat.size() && text[kFormat.size()] != ' ') return 0;  // "tandem-key-10" is another
+  if (end != kFormat.size() && text[kFormat.size()] != ' ') return 0;  // such as "tandem-key-10"
   return end + 1;
 }
 
-/// Value of a digit, or -1. Digits are secret, so neither branch nor table depends on them.
+/// Value of a digit, or -1. Digits are secret, so no branch or table depends on them.
 int valueOf(char digit) noexcept {
   const int c = static_cast<unsigned char>(digit), letter = c | 0x20;
   const int is_number = ((c - '0') | ('9' - c)) >= 0;
@@ -42,7 +42,7 @@ KeyTextFault readDigits(std::string_view line, Bytes key) noexcept {
 void writeKeyText(ByteView key, std::array<char, kKeyTextSize>& text) noexcept {
   char* const digits = std::copy(kKeyHeader.begin(), kKeyHeader.end(), text.begin());
   sodium_bin2hex(digits, kDigits + 1, key.data(), kKeySize);
-  text.back() = '\n';  // where bin2hex has put its 0
+  text.back() = '\n';  // overwrites the final 0 of bin2hex
 }
 
 KeyTextFault readKeyText(std::string_view text, Bytes key) noexcept {

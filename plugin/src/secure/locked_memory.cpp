@@ -19,7 +19,7 @@ LockedMemory takeLockedMemory(std::size_t size) {
   requireSodium();
   void* address = sodium_malloc(size);
   if (address == nullptr) throw std::bad_alloc();
-  // sodium_malloc has tried to lock it but does not tell; locking again costs no second lock.
+  // sodium_malloc() tries to lock the memory but does not report it. A second lock costs nothing.
   return {address, sodium_mlock(address, size) == 0};
 }
 

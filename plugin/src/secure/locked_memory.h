@@ -6,20 +6,21 @@
 
 namespace tandem::secure {
 
-/// Memory for secrets, and whether the system promised to keep it out of swap.
+/// Memory for secrets. `is_locked` tells whether the system keeps it out of swap.
 struct LockedMemory {
   void* address = nullptr;
   bool is_locked = false;
 };
 
-/// Memory of its own pages, between guard pages, out of core dumps. Also makes libsodium ready, so
-/// that whoever holds a key may call it. Throws std::bad_alloc; tandem::Error without randomness.
+/// Takes memory on its own pages, between guard pages, excluded from core dumps. Also initialises
+/// libsodium, so that the owner of a key can use it. Throws std::bad_alloc, or tandem::Error
+/// without randomness.
 [[nodiscard]] LockedMemory takeLockedMemory(std::size_t size);
 
-/// Wipes it and gives it back; null is fine.
+/// Wipes and frees the memory; ignores null.
 void giveBackLockedMemory(void* address) noexcept;
 
-/// One plain value in such memory, neither copied nor moved.
+/// One plain value in locked memory, neither copied nor moved.
 template <typename Value>
 class LockedBox {
   static_assert(std::is_trivially_copyable_v<Value> && std::is_trivially_destructible_v<Value>);

@@ -9,26 +9,25 @@
 #include "secure/symmetric_state.h"
 
 /// \file
-/// Sealed datagrams of one direction under one key: ChaCha20-Poly1305-IETF in place, the nonce made
-/// of a salt and a sequence number. All but construction is real-time safe.
+/// Sealed datagrams of one direction under one key: ChaCha20-Poly1305-IETF in place. The nonce
+/// combines a salt and a sequence number. Real-time safe except for construction.
 namespace tandem::secure {
 
-/// So many datagrams are sealed under one key at most.
+/// Most datagrams that are sealed under one key.
 inline constexpr std::uint64_t kSealLimit = std::uint64_t{1} << 32;
 
-/// Seals. It owns the sequence number, which only goes up: no nonce is used twice under its key, as
-/// long as no other Sealer is made from the same key. Moves, and what it was moved from seals
-/// nothing.
+/// Seals datagrams. It owns the increasing sequence number, so no nonce is used twice under a key,
+/// if no other Sealer has that key. It can be moved; a moved-from Sealer seals nothing.
 class Sealer {
  public:
   Sealer(SecretKey key, std::uint32_t salt, std::uint64_t limit = kSealLimit) noexcept;
 
-  /// The sequence number of the next datagram, from 0: it goes into the header in the clear.
+  /// Sequence number of the next datagram, from 0. The header carries it in the clear.
   [[nodiscard]] std::uint64_t nextSequence() const noexcept { return next_; }
 
-  /// Seals the text in all of `datagram` but its last kTagSize bytes, where the tag goes, and binds
-  /// it to `associated`, which must not overlap. False, and nothing is changed, when the limit is
-  /// reached, when there is no room for the tag, or when there is no key.
+  /// Seals `datagram` in place except its last kTagSize bytes, which receive the tag. Binds it to
+  /// `associated`, which must not overlap. Returns false and changes nothing if the limit is
+  /// reached, there is no room for the tag, or no key.
   [[nodiscard]] bool seal(ByteView associated, Bytes datagram) noexcept;
 
  private:
@@ -38,15 +37,14 @@ class Sealer {
   std::uint64_t next_ = 0;
 };
 
-/// Opens what the Sealer of the same key and salt has sealed. It remembers nothing: replays are the
-/// business of a window of sequence numbers.
+/// Opens datagrams sealed with the same key and salt. It keeps no state: a window of sequence
+/// numbers detects replays.
 class Opener {
  public:
   Opener(SecretKey key, std::uint32_t salt) noexcept;
 
-  /// Opens `datagram`, sealed text and tag, in place: the text is all but the last kTagSize bytes.
-  /// False if key, salt, sequence, `associated` or any byte is not what was sealed; then `datagram`
-  /// holds no text: it is as it was, or wiped.
+  /// Opens `datagram` in place; its last kTagSize bytes are the tag. Returns false if key, salt,
+  /// sequence, `associated` or any byte is wrong. `datagram` is then unchanged or wiped.
   [[nodiscard]] bool open(std::uint64_t sequence, ByteView associated,
                           Bytes datagram) const noexcept;
 

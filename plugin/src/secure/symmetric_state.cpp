@@ -20,7 +20,7 @@ void SymmetricState::mixHash(ByteView data) noexcept {
   crypto_generichash_update(&state, hash.data(), hash.size());
   crypto_generichash_update(&state, data.data(), data.size());
   crypto_generichash_final(&state, hash.data(), hash.size());
-  sodium_memzero(&state, sizeof state);  // it may have taken in what came from a key
+  sodium_memzero(&state, sizeof state);  // it may contain key material
 }
 
 void SymmetricState::mixKey(ByteView input) noexcept {

@@ -11,10 +11,10 @@ namespace tandem::secure {
 inline constexpr std::size_t kKeySize = crypto_aead_chacha20poly1305_ietf_KEYBYTES;
 inline constexpr std::size_t kTagSize = crypto_aead_chacha20poly1305_ietf_ABYTES;
 
-/// What both sides of a Noise handshake hash and encrypt with: CipherState and SymmetricState of
-/// the specification (revision 34, sections 5.1 and 5.2), with ChaChaPoly and BLAKE2b.
+/// Hashing and encryption of a Noise handshake: CipherState and SymmetricState of the specification
+/// (revision 34, sections 5.1 and 5.2), with ChaChaPoly and BLAKE2b.
 ///
-/// A plain value, secret, to be kept in locked memory. All functions are real-time safe.
+/// A plain secret value; keep it in locked memory. All functions are real-time safe.
 struct SymmetricState {
   std::array<std::uint8_t, kHashSize> chaining_key;
   std::array<std::uint8_t, kHashSize> hash;
@@ -29,11 +29,11 @@ struct SymmetricState {
   void mixKey(ByteView input) noexcept;
   void mixKeyAndHash(ByteView input) noexcept;
 
-  /// `sealed` has kTagSize bytes more than `text`, and they do not overlap.
+  /// `sealed` has kTagSize bytes more than `text`; they must not overlap.
   void encryptAndHash(ByteView text, Bytes sealed) noexcept;
 
-  /// False if `sealed` was not made by encryptAndHash in an equal state: then `text` is wiped and
-  /// this state is good for nothing more. `text` has kTagSize bytes less than `sealed`.
+  /// Returns false if `sealed` was not made by encryptAndHash() in an equal state. `text` is then
+  /// wiped and this state unusable. `text` has kTagSize bytes less than `sealed`.
   [[nodiscard]] bool decryptAndHash(ByteView sealed, Bytes text) noexcept;
 };
 
