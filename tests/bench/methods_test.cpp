@@ -1,6 +1,6 @@
-// Every way to simulate that the bench compares, on scenes whose end is known by a formula: what it
-// gets wrong in the bench is then the engine's, not the way it was asked. An engine that was not
-// found when Tandem was configured is skipped.
+// Every method that the bench compares, on scenes with a known closed form. An error in the bench
+// is then the engine's, not that of our set-up. Engines not found when Tandem was configured are
+// skipped.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr int kRate = 1000;  // [Hz]
 constexpr double kStep = 1.0 / kRate;
 constexpr double kGravity = 9.81;  // [m/s^2]
 
-/// A tool without a user, and nothing else.
+/// A scene with a tool without a user only.
 BenchScene makeScene(const Vec3& tool_W, double duration) {
   BenchScene scene;
   scene.name = "test";
@@ -45,14 +45,14 @@ class Methods : public ::testing::TestWithParam<const char*> {
     if (!method_) GTEST_SKIP() << GetParam() << " is not built in: its package is not installed";
   }
 
-  /// True for the scenes that a method cannot run, or is in no way different on.
+  /// True for scenes that a method cannot run, or treats like another method.
   [[nodiscard]] bool mayRefuse(const BenchScene& scene) const {
     if (is("Bullet 6DofSpring2") || is("Bullet Point2Point")) return !scene.tools[0].device;
     if (is("Bullet rigid")) return scene.bodies.empty();
     return is("Simbody") && !scene.is_smooth;
   }
 
-  /// The end of a scene, or nothing if the method cannot run it.
+  /// Final state of a scene; empty if the method cannot run it.
   std::optional<SceneState> run(const BenchScene& scene) const {
     SceneState state = startState(scene);
     try {
@@ -68,7 +68,7 @@ class Methods : public ::testing::TestWithParam<const char*> {
 
   [[nodiscard]] bool is(std::string_view name) const { return name == GetParam(); }
   [[nodiscard]] bool isBullet() const { return std::string_view(GetParam()).starts_with("Bullet"); }
-  /// What rounding may come to; the engines of others are double.
+  /// Tolerance for rounding; the other engines use double.
   [[nodiscard]] double rounding(double if_double, double if_float) const {
     return isBullet() || is("force injection") ? byWidth(if_double, if_float) : if_double;
   }
@@ -92,8 +92,8 @@ TEST_P(Methods, LetBodiesFall) {
   EXPECT_EQ(end->tools[0].p_W, scene.tools[0].start.p_W);  // weightless, and untouched
 }
 
-// 5 N on a tool that rests on a static cube: it sinks in by 5 N / K. What is left of the swing
-// after half a second of B / 2m = 50/s is 1e-11 of it.
+// 5 N act on a tool that rests on a static cube: it sinks by 5 N / K. After half a second of B / 2m
+// = 50/s, 1e-11 of the swing is left.
 TEST_P(Methods, SinkByForceOverStiffness) {
   BenchScene scene = makeScene(Vec3(-0.03, 0, 0), 0.5);
   scene.is_smooth = true;
@@ -101,12 +101,12 @@ TEST_P(Methods, SinkByForceOverStiffness) {
   scene.bodies = {makeCube(0.0, Vec3::Zero())};
   const auto end = run(scene);
   if (!end) return;
-  // Rigid contact gives way by nothing but what it pushes out later.
+  // Rigid contact sinks only by the overlap that it pushes out later.
   const double sink = is("Bullet rigid") ? 0.0 : 5.0 / scene.contact.stiffness;
   EXPECT_NEAR(end->tools[0].p_W.x(), -0.03 + sink, is("Bullet rigid") ? 1e-4 : 1e-6);
 }
 
-// A tool runs into a free cube, centre on centre, and bounces off; nothing else is there.
+// A tool hits a free cube, centre on centre, and bounces off; no other body is there.
 TEST_P(Methods, KeepMomentum) {
   BenchScene scene = makeScene(Vec3(-0.035, 0, 0), 0.2);
   scene.is_smooth = true;
@@ -117,10 +117,10 @@ TEST_P(Methods, KeepMomentum) {
   const double before = scene.tools[0].mass * 0.3;
   const double after = scene.tools[0].mass * end->tools[0].v_W.x() + 0.2 * end->bodies[0].v_W.x();
   EXPECT_NEAR(after, before, rounding(1e-12, 1e-7));
-  EXPECT_GT(end->bodies[0].v_W.x(), 0.09);  // they did meet: 0.1 m/s if they stay together
+  EXPECT_GT(end->bodies[0].v_W.x(), 0.09);  // they collided: together they would have 0.1 m/s
 }
 
-// A coupler alone: the closed form of a damped spring. First order in the step but for Simbody.
+// A coupler alone: the closed form of a damped spring. All but Simbody are first order in the step.
 TEST_P(Methods, SwingOnACoupler) {
   BenchScene scene = makeScene(Vec3(0.01, 0, 0), 0.05);
   scene.is_smooth = true;
@@ -128,7 +128,7 @@ TEST_P(Methods, SwingOnACoupler) {
   const auto end = run(scene);
   if (!end) return;
   if (is("Bullet Point2Point")) {
-    // Its CFM is 8 at this step: it diverges, and shows it.
+    // The CFM is 8 at this step: the run diverges visibly.
     EXPECT_FALSE(end->tools[0].p_W.norm() < 1.0);
     return;
   }
@@ -138,7 +138,7 @@ TEST_P(Methods, SwingOnACoupler) {
 }
 
 // A cube slides on the floor until friction stops it: v^2 / (2 mu g). An engine's contact needs a
-// few steps to carry the weight, and its friction then goes by a force that is one step old.
+// few steps to carry the weight. Its friction then uses a force that is one step old.
 TEST_P(Methods, SlideUntilFrictionStopsThem) {
   BenchScene scene = makeScene(Vec3(0, 0, 1), 0.5);
   scene.gravity_W = Vec3(0, 0, -kGravity);
@@ -157,7 +157,7 @@ TEST_P(Methods, SlideUntilFrictionStopsThem) {
   EXPECT_LT(end->bodies[1].v_W.norm(), 1e-3);
 }
 
-// A box of edges 40, 20 and 60 mm spins freely about its longest axis, which is a stable one.
+// A box of edges 40, 20 and 60 mm spins freely about its longest axis, a stable one.
 TEST_P(Methods, SpinBodiesFreely) {
   BenchScene scene = makeScene(Vec3(1, 0, 0), 0.2);
   scene.is_smooth = true;
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(All, Methods,
                            return name;
                          });
 
-// Numbers without bound must look so: no engine may start afresh, stop or leave in silence.
+// Diverging numbers must be visible. No engine may restart, stop or exit silently.
 TEST(EngineMethods, SayWhenTheyAreLost) {
   BenchScene scene = makeScene(Vec3(0.01, 0, 0), 1.0);
   scene.is_smooth = true;

@@ -1,4 +1,4 @@
-// What judges the cases of `tandem bench stress`.
+// The checks that judge the cases of `tandem bench stress`.
 
 #include "bench/stress/stress.h"
 
@@ -68,7 +68,7 @@ TEST(EnergyAccount, CountsATargetThatJumpsAndOneThatDrags) {
   EXPECT_LT(lone.account.unaccounted(), 1e-12);
 }
 
-// The account is no use if it cannot see a fault: a speed that grows by a thousandth.
+// The account must detect a fault: a speed that grows by a thousandth.
 TEST(EnergyAccount, SeesEnergyFromNowhere) {
   LoneBall lone;
   lone.advance(10);
@@ -81,7 +81,7 @@ TEST(EnergyAccount, SeesEnergyFromNowhere) {
   EXPECT_NEAR(lone.account.unaccounted(), 2e-3 * motion, 1e-5 * motion);
 }
 
-// Without damping nothing is lost either: what the hand gave is all there, and no more.
+// Without damping no energy is lost: the account holds exactly the hand's work.
 TEST(EnergyAccount, KnowsTheWorkOfAMovingHand) {
   Island island({});
   IslandBody hand = makeBall(0.0, Vec3::Zero());
@@ -106,7 +106,7 @@ TEST(EnergyAccount, KnowsTheWorkOfAMovingHand) {
               1e-6 * account.peak());
 }
 
-// A polynomial of the third degree, in both, is known exactly.
+// Polynomials of the third degree, in place and turn, are reproduced exactly.
 TEST(BetweenLooks, FollowsWhatFitsBothEnds) {
   const double dt = 0.02;  // [s]
   const Vec3 a(3.0, -1.0, 2.0), b(-40.0, 9.0, 5.0), axis = Vec3(1.0, 2.0, -2.0) / 3.0;
@@ -123,7 +123,7 @@ TEST(BetweenLooks, FollowsWhatFitsBothEnds) {
     const RigidState expected = at(0.01 + share * dt), found = way.at(share);
     EXPECT_LT((found.p_W - expected.p_W).norm(), 1e-15);
     EXPECT_LT((found.v_W - expected.v_W).norm(), 1e-13);
-    EXPECT_LT(found.q_WB.angularDistance(expected.q_WB), 1e-7);  // of rounding: acos near 1
+    EXPECT_LT(found.q_WB.angularDistance(expected.q_WB), 1e-7);  // rounding: acos near 1
     EXPECT_LT((found.w_W - expected.w_W).norm(), 1e-12);
   }
 }
@@ -160,9 +160,8 @@ TEST(StressCase, IsTheSameAlone) {
   EXPECT_EQ(first.steps, again.steps);
 }
 
-// A cube of 2.7 g between a proxy and a wall, on springs that turn by 3.7 rad in an inner step of
-// 0.25 ms. Before the step was shortened for them, they gained as much energy as there was, and
-// more.
+// A cube of 2.7 g between a proxy and a wall, on stiff springs. They turn by 3.7 rad in an inner
+// step of 0.25 ms. Without a shorter step the springs at least doubled the energy.
 TEST(StressCase, StiffSpringsAgainstRigidContactMakeNoEnergy) {
   StressCase one;
   one.kind = StressKind::kRigid;
@@ -198,8 +197,7 @@ TEST(StressCase, StiffSpringsAgainstRigidContactMakeNoEnergy) {
   EXPECT_LT(outcome.unaccounted, 0.01);
 }
 
-/// Cases of seed 1 that once failed though nothing was wrong but the judge, or that the library did
-/// wrong.
+/// Cases of seed 1 that once failed by an error of the checks or of the library.
 struct Judged {
   std::uint64_t index;
   const char* what;
@@ -223,8 +221,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Judged{15247, "LeapsOfATargetFeedAProxy"}),
     [](const auto& one) { return std::string(one.param.what); });
 
-// A cube of 1.2 g tumbles on a floor, on a spring of 6.6e5 N/m. In steps of 0.36 rad rigid contact,
-// of first order, gained a third of all energy.
+// A cube of 1.2 g tumbles on a floor, on a spring of 6.6e5 N/m. In steps of 0.36 rad, first-order
+// rigid contact gained a third of all energy.
 TEST(StressCase, TumblingOnAStiffSpringMakesNoEnergy) {
   EXPECT_LT(runStressCase(drawStressCase(1, 5073)).unaccounted, 0.01);
 }
