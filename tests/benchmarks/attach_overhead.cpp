@@ -1,5 +1,5 @@
-// What a host's step costs more with a site attached and nothing registered. One world, bare and
-// attached in turns, so that both find the same memory; medians over the turns.
+// Extra cost of a host's step with a site attached and nothing registered. One world runs bare and
+// attached in turns, so both use the same memory. Prints medians over the turns.
 
 #include <algorithm>
 #include <chrono>
@@ -16,10 +16,10 @@
 namespace tandem {
 namespace {
 
-constexpr int kSteps = 2000;  // of a block
+constexpr int kSteps = 2000;  // steps of a block
 constexpr double kStep = 1.0 / 240.0;
 
-/// A world with so many free cubes that never sleep.
+/// A world with `count` free cubes that never sleep.
 struct Host {
   explicit Host(int cubes) {
     world.setGravity(btVector3(0, 0, 0));
@@ -37,7 +37,7 @@ struct Host {
   ~Host() {
     for (const auto& body : bodies) world.removeRigidBody(body.get());
   }
-  /// Of a step, over a block [us].
+  /// Time of a step, over a block [us].
   double measure() {
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < kSteps; ++i) world.stepSimulation(static_cast<btScalar>(kStep), 0);
@@ -54,7 +54,7 @@ struct Host {
   std::vector<std::unique_ptr<btRigidBody>> bodies;
 };
 
-/// Who ticks, and whether it has begun.
+/// The source of ticks, and the number of ticks before the block.
 struct Way {
   const char* name;
   TickSource source;

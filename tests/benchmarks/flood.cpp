@@ -1,8 +1,8 @@
-// tandem_flood PORT RATE SECONDS: forged datagrams to 127.0.0.1:PORT, RATE a second; prints how
-// many it sent. For scripts/soak.sh.
+// tandem_flood PORT RATE SECONDS: sends RATE forged datagrams a second to 127.0.0.1:PORT and prints
+// how many it sent. For scripts/soak.sh.
 //
-// Kinds take turns: a STATE as if replayed, of a session that is not there; HELLO; OPEN with a
-// wrong cookie, which costs a site most; bytes that are nothing.
+// Kinds take turns: a STATE as if replayed, of an unknown session; HELLO; OPEN with a wrong cookie,
+// the most expensive for a site; invalid bytes.
 
 #include <array>
 #include <chrono>
@@ -19,7 +19,7 @@
 namespace tandem {
 namespace {
 
-constexpr auto kPeriod = std::chrono::milliseconds(1);  ///< a burst every so often
+constexpr auto kPeriod = std::chrono::milliseconds(1);  ///< period of bursts
 
 class Forger {
  public:
@@ -70,7 +70,7 @@ int flood(std::uint16_t port, double rate, double seconds) {
   for (double passed = 0.0; passed < seconds;) {
     passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const auto due = static_cast<std::uint64_t>(rate * passed);
-    // What a busy machine has missed is caught up with in bits.
+    // A busy machine catches up in small parts.
     for (int i = 0; i < 1000 && sent < due; ++i, ++sent) socket.send(forger.make(), to);
     next = std::max(next + kPeriod, std::chrono::steady_clock::now());
     std::this_thread::sleep_until(next);

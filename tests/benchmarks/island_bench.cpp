@@ -1,4 +1,4 @@
-// Cost of Island::advance for one haptic period, by what the scene needs.
+// Cost of Island::advance for one haptic period, by kind of scene.
 //
 //   tandem_benchmarks --benchmark_filter=Island --benchmark_repetitions=9
 

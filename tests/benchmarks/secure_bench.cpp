@@ -64,7 +64,7 @@ void SecureCookieAccept(benchmark::State& state) {
 }
 BENCHMARK(SecureCookieAccept);
 
-/// Both sides, from ephemeral keys to the split.
+/// Both sides of a handshake, from ephemeral keys to the split.
 void SecureHandshake(benchmark::State& state) {
   const SecretKey shared = makeKey();
   std::array<std::uint8_t, 100> first, second, payload;
@@ -84,7 +84,7 @@ void SecureHandshake(benchmark::State& state) {
 }
 BENCHMARK(SecureHandshake)->Unit(benchmark::kMicrosecond);
 
-/// What a forged message 1 costs a responder that stands ready.
+/// Cost of a forged message 1 for a waiting responder.
 void SecureRefuseHandshake(benchmark::State& state) {
   Responder responder(makeKey(), kHeader);
   const std::array<std::uint8_t, kHandshakeOverhead + 8> forged{};

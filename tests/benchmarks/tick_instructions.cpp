@@ -1,7 +1,7 @@
-// Fixed scenes whose ticks are counted in instructions, by scripts/instructions.sh:
+// Fixed scenes whose ticks scripts/instructions.sh counts in instructions:
 //
-//   tandem_tick_instructions about          what it was compiled with
-//   tandem_tick_instructions SCENE TICKS    runs the scene; measureTick() is called TICKS times
+//   tandem_tick_instructions about          prints the compiler and its options
+//   tandem_tick_instructions SCENE TICKS    runs the scene; calls measureTick() TICKS times
 
 #include <cstdio>
 #include <cstdlib>
@@ -16,19 +16,19 @@
 
 using namespace tandem::demos;
 
-/// Its name is known to the script; all else goes uncounted.
+/// The script finds this function by name; all other code is not counted.
 extern "C" [[gnu::noinline]] void measureTick(const std::function<void()>& tick) { tick(); }
 
 namespace {
 
-constexpr int kWarmUp = 3000;  // ticks: caches are filled, what can fall asleep sleeps
+constexpr int kWarmUp = 3000;  // ticks: caches fill, bodies that can sleep do
 
 void runIsland(bench::IslandChain chain, int ticks) {
   for (int i = 0; i < kWarmUp; ++i) chain.tick();
   for (int i = 0; i < ticks; ++i) measureTick([&] { chain.tick(); });
 }
 
-/// Ticks of a site in a world with a sleeping neighbourhood; the host's steps are not counted.
+/// Ticks of a site in a world with a sleeping neighbourhood. The host's steps are not counted.
 void runSite(const bench::SpeedScene& scene, int ticks) {
   bench::SpeedSite site(scene);
   int host_steps = 0;

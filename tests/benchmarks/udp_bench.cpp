@@ -1,5 +1,5 @@
-// What sealing adds to a datagram on its way through the loopback: send and receive raw, and write,
-// seal, send, receive, open and read a state of one device and one object, in one run.
+// Extra cost of sealing for a datagram through the loopback, in one run. Compares raw send and
+// receive with write, seal, send, receive, open and read of a state of one device and one object.
 
 #include <algorithm>
 #include <array>
@@ -18,14 +18,14 @@
 namespace tandem {
 namespace {
 
-constexpr std::size_t kStateSize = 172;  // of one device and one object, float32 [bytes]
+constexpr std::size_t kStateSize = 172;  // one device and one object, float32 [bytes]
 
 struct Sockets {
   net::UdpSocket first{resolveAddress("127.0.0.1:0")}, second{resolveAddress("127.0.0.1:0")};
 };
 
-/// Median of the time from `send` to the end of `receive` in another thread, one a millisecond:
-/// what a state waits for, with the waking of the receiver.
+/// Median time from `send` to the end of `receive` in another thread, at one datagram a
+/// millisecond. This is the delay of a state, including waking the receiver.
 template <typename Send, typename Receive>
 double measureOneWay(int count, Send send, Receive receive) {
   using Clock = std::chrono::steady_clock;
@@ -66,7 +66,7 @@ SecretKey makeKey() {
   return SecretKey::take(bytes);
 }
 
-/// A pair that is live.
+/// A live pair of sites.
 struct SealedPair {
   SealedPair() {
     common.playout.is_on = false;
@@ -121,7 +121,7 @@ BENCHMARK(sealedState);
 
 constexpr int kPaced = 2000;
 
-/// Both ways paced, in one run; counters in microseconds.
+/// Paces both variants in one run; counters are in microseconds.
 void oneWay(benchmark::State& state) {
   for (auto unused : state) {
     (void)unused;

@@ -8,8 +8,8 @@
 namespace tandem::bench {
 namespace {
 
-/// A critically damped observer of position and velocity with one memory, 0 to 1. Not in the
-/// library: it is here for comparison.
+/// A critically damped observer of position and velocity with one memory, 0 to 1. It is only here
+/// for comparison, not in the library.
 class AlphaBeta {
  public:
   explicit AlphaBeta(double memory) : memory_(memory) {}
@@ -73,7 +73,7 @@ CountedGrip::Reading CountedGrip::read(const Vec3& p_D) {
 }
 
 std::vector<Candidate> makeCandidates() {
-  constexpr double kStep = 40e-6;  // of the grip by one count, about the workspace's centre [m]
+  constexpr double kStep = 40e-6;  // step of the grip per count at the workspace's centre [m]
   constexpr double kStamps = 0.4e-3;
   const auto kEnds = WindowFit::kEnds, kBest = WindowFit::kBest;
   const auto window = [](double tolerance, double stamp_error, double longest, WindowFit fit) {

@@ -10,15 +10,15 @@
 
 namespace tandem::bench {
 
-/// A Falcon's encoders: what is left of a position once it is counted.
+/// A Falcon's encoders: rounds a position to whole counts.
 class CountedGrip {
  public:
   struct Reading {
-    Vec3 counts = Vec3::Zero();  ///< of the three legs
-    FalconPose pose;             ///< that belongs to them
+    Vec3 counts = Vec3::Zero();  ///< counts of the three legs
+    FalconPose pose;             ///< pose for these counts
   };
 
-  /// Throws tandem::Error for a position that is out of reach.
+  /// Throws tandem::Error for a position out of reach.
   [[nodiscard]] Reading read(const Vec3& p_D);
 
  private:
@@ -26,12 +26,12 @@ class CountedGrip {
   Vec3 guess_D_ = Vec3(0.0, 0.0, 0.125);
 };
 
-/// One way to the grip's velocity in D [m/s].
+/// A method that estimates the grip's velocity in D [m/s].
 using Estimate = std::function<Vec3(double time, const CountedGrip::Reading& reading)>;
 
 struct Candidate {
   std::string name;
-  std::string space;  ///< where it estimates: "counts" of the legs, or "point" of the grip
+  std::string space;  ///< space of the estimate: "counts" of the legs, or "point" of the grip
   std::function<Estimate()> make;
 };
 

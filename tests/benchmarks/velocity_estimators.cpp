@@ -1,10 +1,10 @@
-// Ways to a Falcon's velocity from its counted position, against each other:
+// Compares estimators of a Falcon's velocity from its counted position:
 //
 //   tandem_velocity_estimators           a table
 //   tandem_velocity_estimators --json    the same numbers, SI
 //
-// An adaptive window is named by its fit, its tolerance in counts, its stamp error [ms] and its
-// longest length [ms].
+// The name of an adaptive window contains its fit, its tolerance in counts, its stamp error [ms]
+// and its longest length [ms].
 
 #include <algorithm>
 #include <chrono>
@@ -35,7 +35,7 @@ struct Row {
   Accuracy known, unknown;          // of the stroke, with uneven readings
   double swing = 0.0;               // on a wall of 1000 N/m and 10 N s/m [m]
   Stiffest usual, best, best_late;  // at 10 N s/m; at the best damping; a period late
-  double nanoseconds = 0.0;         // of a reading, with the pose
+  double nanoseconds = 0.0;         // per reading, including the pose [ns]
 };
 
 Stiffest findBest(const Candidate* candidate, int late_by) {

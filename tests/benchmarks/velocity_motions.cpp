@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kPeriod = 1e-3;      // [s]
-constexpr double kJitter = 0.2e-3;    // [s], to either side
-constexpr double kSettling = 0.1;     // left out at the start [s]
-constexpr int kLines = 24;            // directions and places
-constexpr double kLongestLag = 0.03;  // looked for [s]
+constexpr double kJitter = 0.2e-3;    // to either side [s]
+constexpr double kSettling = 0.1;     // excluded at the start [s]
+constexpr int kLines = 24;            // number of directions and places
+constexpr double kLongestLag = 0.03;  // longest lag searched [s]
 constexpr double kLagStep = 0.05e-3;  // [s]
 
-// Standing with the tremor of a hand: 20 um at 9 Hz.
+// A hand at rest with a tremor of 20 um at 9 Hz.
 double restWay(double t) { return 20e-6 * std::sin(2.0 * kPi * 9.0 * t); }
 double restVelocity(double t) { return 20e-6 * 2.0 * kPi * 9.0 * std::cos(2.0 * kPi * 9.0 * t); }
 
@@ -35,7 +35,7 @@ double turnWay(double t) { return std::hypot(kTurnSpeed * t, kTurnRadius); }
 double turnVelocity(double t) { return kTurnSpeed * kTurnSpeed * t / turnWay(t); }
 
 struct Estimated {
-  double time;  // at which it should be true [s]
+  double time;  // time at which the estimate should be true [s]
   Vec3 along;   // unit vector of the line
   Vec3 v_D;
 };

@@ -7,31 +7,32 @@
 
 namespace tandem::bench {
 
-/// How a reading's time is off the even 1 kHz.
+/// Deviation of a reading's time from the even 1 kHz.
 enum class Timing {
   kEven,
-  kKnown,   ///< by up to 0.2 ms, and stamped with when it was taken
-  kUnknown  ///< the same, stamped as if it were even
+  kKnown,   ///< up to 0.2 ms, stamped with the time of the reading
+  kUnknown  ///< the same, stamped as if even
 };
 
-/// How far an estimate is from the true velocity.
+/// Difference between an estimate and the true velocity.
 struct Accuracy {
-  double error = 0.0;  ///< root of the mean square [m/s]
-  double lag = 0.0;    ///< by which it fits best [s]; where the velocity is constant, 0
-  double noise = 0.0;  ///< error that is left once the lag is taken away [m/s]
+  double error = 0.0;  ///< root mean square [m/s]
+  double lag = 0.0;    ///< lag of the best fit [s]; 0 for constant velocity
+  double noise = 0.0;  ///< error that is left without the lag [m/s]
 };
 
 struct Motion {
   std::string name;
-  double duration = 1.0;                   ///< [s], from -duration / 2
-  bool has_lag = false;                    ///< false: a constant velocity shows none
+  double duration = 1.0;                   ///< from -duration / 2 [s]
+  bool has_lag = false;                    ///< false: a constant velocity shows no lag
   double (*way)(double t) = nullptr;       ///< along a line [m]
   double (*velocity)(double t) = nullptr;  ///< [m/s]
 };
 
 [[nodiscard]] std::vector<Motion> makeMotions();
 
-/// Over lines of many directions and places in the middle of the workspace, the same for each call.
+/// Averages over lines of many directions and places in the middle of the workspace, the same in
+/// each call.
 [[nodiscard]] Accuracy measureAccuracy(const Candidate& candidate, const Motion& motion,
                                        Timing timing);
 

@@ -11,16 +11,16 @@ namespace tandem::bench {
 namespace {
 
 constexpr double kPeriod = 1e-3;          // [s]
-constexpr int kSubsteps = 20;             // of the handle's motion in a period
-constexpr int kTicks = 1500, kEnd = 500;  // of which the last are looked at
-constexpr int kPlaces = 10;               // in the middle of the workspace
+constexpr int kSubsteps = 20;             // sub-steps of the handle's motion in a period
+constexpr int kTicks = 1500, kEnd = 500;  // all ticks; the last ones are measured
+constexpr int kPlaces = 10;               // places in the middle of the workspace
 constexpr double kMass = 0.15;            // [kg]
 constexpr double kOwnDamping = 0.5;       // [N s/m]
 constexpr double kPress = 3.0;            // [N]
 constexpr double kCalm = 1e-4;            // [m]
 constexpr double kAway = 0.02;            // [m]
 
-/// The handle moves along the device's z axis; z = 0 is the wall's face, the wall is below.
+/// The handle moves along the device's z axis. The wall's face is at z = 0, the wall below.
 class Handle {
  public:
   double z = 0.5e-3, v = 0.0;

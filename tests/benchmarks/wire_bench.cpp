@@ -1,4 +1,4 @@
-// Cost of writing and of reading one STATE: gate, rounding and all, without sealing.
+// Cost of writing and of reading one STATE, with all checks and rounding but without sealing.
 //
 //   tandem_benchmarks --benchmark_filter=Wire --benchmark_repetitions=9
 
@@ -14,7 +14,7 @@
 namespace tandem {
 namespace {
 
-/// A state of as many objects as the benchmark's first argument says.
+/// A state with as many objects as the benchmark's first argument says.
 StateMessage makeMessage(const benchmark::State& state, WireProfile profile) {
   StateMessage message;
   message.packet.sender = PeerId{1};

@@ -8,7 +8,7 @@
 namespace tandem::bench {
 namespace {
 
-/// Ticks that were skipped at one site are left out of the coherency.
+/// The coherency excludes ticks that one site skipped.
 RunFigures describe(const Recording& one, const Recording& two, double duration, double rate) {
   RunFigures figures;
   std::size_t ticks = 0, pairs = 0, other = 0;

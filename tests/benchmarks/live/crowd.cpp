@@ -22,7 +22,7 @@ Crowd::Crowd(btDiscreteDynamicsWorld& world, int count)
     btRigidBody& box = add(box_shape_, kMass,
                            btVector3(kPitch * static_cast<btScalar>(i % side),
                                      kPitch * static_cast<btScalar>(i / side), kHalfEdge - kDepth));
-    // The scene may have no weight; the crowd has.
+    // The scene may be weightless; the crowd is not.
     box.setFlags(box.getFlags() | BT_DISABLE_WORLD_GRAVITY);
     box.setGravity(btVector3(0, 0, -kGravity));
     box.forceActivationState(DISABLE_DEACTIVATION);

@@ -7,8 +7,8 @@
 
 namespace tandem::bench {
 
-/// Boxes of 4 cm that stand in a square on a plane, far below the scene, and never sleep: what a
-/// host's world has to do besides.
+/// Boxes of 4 cm that stand in a square on a plane, far below the scene, and never sleep. They are
+/// the other load of a host's world.
 class Crowd {
  public:
   /// The world must outlive this.
@@ -26,7 +26,7 @@ class Crowd {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-/// A host's world with a crowd and nothing of Tandem.
+/// A host's world with a crowd and without Tandem.
 class BareHost {
  public:
   explicit BareHost(int boxes) : crowd_(world_, boxes) {}

@@ -6,14 +6,14 @@
 
 namespace tandem::bench {
 
-/// How a host fared.
+/// Timing of a host.
 struct HostReport {
   std::uint64_t steps = 0;
-  double step_median = 0.0, step_longest = 0.0;  ///< with what the host waits for in them [s]
+  double step_median = 0.0, step_longest = 0.0;  ///< includes the host's waits in a step [s]
 };
 
-/// A host in the calling thread: from `begin` [s, monotonic clock] on it takes all steps of
-/// `seconds`, each at its moment; one that is late makes up for it.
+/// Runs a host in the calling thread from `begin` [s, monotonic clock]. It takes all steps of
+/// `seconds`, each at its moment; a late one is made up for.
 [[nodiscard]] HostReport runHost(double begin, double seconds, double rate,
                                  const std::function<void()>& step);
 

@@ -1,13 +1,13 @@
-// The live loop, measured: how punctual a site's haptic thread is while its host steps a world of
-// 1000 active boxes. scripts/live_bench.sh sets it beside a bare periodic thread.
+// Measures the live loop: how punctual a site's haptic thread is while its host steps a world of
+// 1000 active boxes. scripts/live_bench.sh compares it with a bare periodic thread.
 //
 //   tandem_live_bench              Experiment I for a minute
-//   tandem_live_bench --load       the host with its boxes only, for something else to be measured
-//   tandem_live_bench --compare    one second of it, beside the same in virtual time
+//   tandem_live_bench --load       only the host with its boxes, as a load for other measurements
+//   tandem_live_bench --compare    one second of it, compared with the same in virtual time
 //
-// The hand pushes with 5 N all the time, as in the paper, and what it pushes comes to 5 m/s and
-// goes on for 300 m: contact, couplers and packets are at work in every tick, and the guide has no
-// end. With a hand that goes to and fro contact would be lost, and ticks be cheaper.
+// The hand pushes with 5 N all the time, as in the paper. Its load reaches 5 m/s and moves for 300
+// m: contact, couplers and packets work in every tick, and the guide has no end. A hand moving to
+// and fro would lose contact, and ticks would be cheaper.
 
 #include <cmath>
 #include <cstdio>
@@ -71,7 +71,7 @@ nlohmann::json describe(const RunFigures& run) {
           {"coherency", {{"mean", run.coherency_mean}, {"max", run.coherency_max}}}};
 }
 
-/// Relative; 0 where both are nothing.
+/// Relative difference; 0 if both are 0.
 double differ(double live, double expected) {
   return expected == 0.0 ? std::abs(live) : std::abs(live - expected) / std::abs(expected);
 }

@@ -23,16 +23,17 @@
 namespace tandem::bench {
 namespace {
 
-/// From here to the first tick: threads start in this time [s].
+/// Time for threads to start, from here to the first tick [s].
 constexpr double kCountdown = 0.1;
 
-/// The wire looks so often, and so far ahead [s].
+/// The wire polls at this period, and looks this far ahead [s].
 constexpr double kWirePeriod = 5e-4, kWireAhead = 2e-3;
-/// What carries packets must not wait for what steps worlds, and no tick for it.
+/// The packet thread must not wait for the host threads, and no tick for it.
 constexpr int kWireBelow = 10;
 constexpr int kHurryBelow = 20;
 
-/// The thread that would have the sockets. Each site has its own clock, which began at `begins`.
+/// Thread that takes the place of the sockets. Each site has its own clock, which began at
+/// `begins`.
 class Wire {
  public:
   Wire(const Impairments& network, LinkQueue& queue1, LinkQueue& queue2, const double begins[2],
@@ -72,8 +73,8 @@ class Wire {
   std::thread thread_;
 };
 
-/// While it lives, the calling thread goes before the machine's other programs, so that all that is
-/// set up is there when the first tick is due. Threads that start meanwhile go on so.
+/// While it lives, the calling thread precedes the machine's other programs. All set-up is then
+/// done when the first tick is due. Threads that start meanwhile keep this priority.
 class Hurry {
  public:
   explicit Hurry(int priority) {
@@ -90,7 +91,7 @@ class Hurry {
 };
 
 std::unique_ptr<Recording> makeRecording(const demos::Scenario& scenario, const Site& site) {
-  // Room for what comes while the force fades.
+  // Room for the ticks in which the force fades.
   const double seconds = scenario.duration + 1.0;
   return std::make_unique<Recording>(
       static_cast<std::size_t>(std::llround(seconds * scenario.haptic_rate)),
@@ -112,8 +113,8 @@ LivePairReport runLivePair(const demos::Scenario& scenario, const LivePairSettin
   }
 
   auto hurry = std::make_unique<Hurry>(settings.priority);
-  // Two sites on two machines do not tick in the same moments; half a period apart, neither has to
-  // wait for the other here. By their own clocks both begin at 0.
+  // Two sites on two machines do not tick at the same moments. Half a period apart, neither waits
+  // for the other here. By their own clocks both begin at 0.
   const double begin = readMonotonicClock() + kCountdown;
   const double begins[2] = {begin, begin + 0.5 / scenario.haptic_rate};
   {

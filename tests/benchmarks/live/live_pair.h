@@ -13,24 +13,24 @@
 namespace tandem::bench {
 
 struct LivePairSettings {
-  int priority = 80;  ///< of both haptic threads, SCHED_FIFO; 0: none
-  int boxes = 1000;   ///< active ones in site 1's world
+  int priority = 80;  ///< SCHED_FIFO priority of both haptic threads; 0: none
+  int boxes = 1000;   ///< active boxes in site 1's world
   bool records = false;
 };
 
-/// What one run of two live sites came to. All of it is site 1's.
+/// Results of one run of two live sites. All of them are site 1's.
 struct LivePairReport {
   LoopReport loop;
   HostReport host;
   std::vector<std::string> notes;
   std::uint32_t status = 0;                   ///< TickStatus bits of both sites
-  std::uint64_t packets_taken = 0, lost = 0;  ///< states; those that found no room in a queue
-  /// Of site 1 and 2, if asked for.
+  std::uint64_t packets_taken = 0, lost = 0;  ///< states taken; states lost at a full queue
+  /// Recordings of sites 1 and 2, if requested.
   std::unique_ptr<Recording> recordings[2];
 };
 
-/// Runs a scenario against the clock: two sites, each with a haptic thread and a host's thread, and
-/// one thread that is the network between them, a simulated one.
+/// Runs a scenario in real time. Two sites have a haptic thread and a host thread each; one thread
+/// is the simulated network between them.
 [[nodiscard]] LivePairReport runLivePair(const demos::Scenario& scenario,
                                          const LivePairSettings& settings);
 
