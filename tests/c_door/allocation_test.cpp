@@ -1,5 +1,5 @@
-// What the header calls real-time safe allocates nothing, and the host's steps nothing of the
-// door's. Counted is operator new of this program; Bullet's own allocator is not.
+// Functions that the header calls real-time safe allocate nothing, and in the host's steps the door
+// allocates nothing. This program's operator new is counted, Bullet's own allocator is not.
 
 #include <atomic>
 #include <cstdlib>
@@ -34,7 +34,7 @@ using namespace test;
 
 constexpr double kStep = 1.0 / 60.0;
 
-/// Results are looked at afterwards, as the test framework allocates.
+/// Results are checked afterwards, as the test framework allocates.
 struct Results {
   TandemResult worst = TANDEM_OK;
   void operator()(TandemResult result) { worst = result == TANDEM_OK ? worst : result; }
@@ -74,7 +74,7 @@ TEST(Allocations, AreNotOfAStepOfGuests) {
   for (int i = 0; i < 60; ++i) step();
   const std::uint64_t before = allocations;
   for (int i = 0; i < 600; ++i) step();
-  // A site makes room now and then for what it finds around.
+  // A site allocates now and then for surroundings that it finds.
   EXPECT_LE(allocations, before + 3);
   ok(all.worst);
 }

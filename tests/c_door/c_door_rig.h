@@ -16,21 +16,21 @@ inline constexpr TandemDeviceLimits kAnyForce{std::numeric_limits<double>::infin
 inline constexpr double kFarAway[3] = {10.0, 0.0, 0.0};
 inline constexpr double kNothing[3] = {0.0, 0.0, 0.0};
 
-/// Fails the test with what the door said.
+/// Fails the test with the door's message.
 inline void ok(TandemResult result) {
   EXPECT_EQ(result, TANDEM_OK) << tandem_result_name(result) << ": " << tandem_last_error();
 }
 
-/// Tolerances for the widths of Bullet that the door stands on.
+/// Tolerances for the width of the door's Bullet.
 [[nodiscard]] inline double byDoorWidth(double if_double, double if_float) {
   return tandem_scalar_bytes() == 8 ? if_double : if_float;
 }
-/// As Bullet counts time.
+/// Rounds to the width in which Bullet counts time.
 [[nodiscard]] inline double roundToDoor(double value) {
   return tandem_scalar_bytes() == 8 ? value : static_cast<double>(static_cast<float>(value));
 }
 
-/// m x'' + B x' + K x = 0 from x0 at rest, K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
+/// m x'' + B x' + K x = 0 from x0 at rest. K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
 /// 0.35.
 [[nodiscard]] inline double computeRinging(double x0, double t) {
   const double c = 10.0 / 0.2, w = std::sqrt(2000.0 / 0.1 - c * c);
@@ -44,7 +44,7 @@ inline void ok(TandemResult result) {
   return {values[0], values[1], values[2]};
 }
 
-/// A site in a world, with all that belongs to it. The caller makes the world.
+/// A site in a world, with all its parts. The caller makes the world.
 struct DoorSite {
   TandemWorld* world;
   TandemDevice* device = nullptr;
@@ -89,7 +89,8 @@ struct DoorSite {
   return world;
 }
 
-/// A proxy alone with its coupler: starts 10 mm from its user, who is at rest and sent one packet.
+/// A proxy with its coupler only. It starts 10 mm from its user, who is at rest and sent one
+/// packet.
 struct LoneDoorProxy : DoorSite {
   explicit LoneDoorProxy(TandemWorld* in) : DoorSite(in, makeSettings()) {
     const double start[3] = {0.01, 0.0, 0.0};
@@ -102,12 +103,12 @@ struct LoneDoorProxy : DoorSite {
   static TandemSiteSettings makeSettings() {
     TandemSiteSettings settings = tandem_default_site_settings();
     settings.coordination = {2000.0, 10.0};
-    settings.link_loss = 0;  // one packet is to pull for ever
+    settings.link_loss = 0;  // one packet pulls for ever
     return settings;
   }
 };
 
-/// A shared cube that nothing pulls, with no hand near.
+/// A shared cube without a pull, with no hand near.
 struct FreeDoorCube : DoorSite {
   TandemBody cube = TANDEM_NO_BODY;
 

@@ -1,5 +1,5 @@
-// Random calls in random order: the door never crashes, refuses what a simple model of its handles
-// says, and fails with a text.
+// Random calls in random order. The door never crashes, refuses calls as a simple model of its
+// handles predicts, and gives a message.
 
 #include <algorithm>
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// A handle as the model has it.
+/// A handle in the model.
 template <typename Handle>
 struct Known {
   Handle* handle = nullptr;
@@ -77,7 +77,7 @@ class Caller {
     TandemBody body;
     std::size_t world;
     bool is_there = true;
-    int site = -1;  ///< that shares it
+    int site = -1;  ///< index of the site that shares it
   };
   struct SiteModel {
     Known<TandemSite> known;
@@ -86,7 +86,7 @@ class Caller {
     std::vector<std::uint32_t> peers;
   };
 
-  /// Of all that there ever were, dead ones, too.
+  /// Picks one of all handles ever made, dead ones too.
   template <typename Model>
   std::size_t pick(const std::vector<Model>& models) {
     return static_cast<std::size_t>(random_.below(static_cast<int>(models.size())));
@@ -208,7 +208,7 @@ class Caller {
     for (BodyModel& body : bodies_)
       if (body.site == static_cast<int>(place)) body.site = -1;
   }
-  /// A step of all guests of a world, with what a host might do meanwhile.
+  /// Steps all guests of a world; the host may act in between.
   void guests() {
     if (worlds_.empty()) return;
     const std::size_t world = pick(worlds_);
@@ -270,7 +270,8 @@ class Caller {
     }
   }
 
-  static constexpr std::size_t kMost = 60;  ///< handles of a kind, fewer than are known as gone
+  static constexpr std::size_t kMost =
+      60;  ///< handles of a kind; fewer than the door remembers as gone
 
   Random random_;
   std::vector<Known<TandemWorld>> worlds_;
@@ -289,7 +290,7 @@ TEST_P(CallSequence, IsAsTheModelSays) {
   EXPECT_GT(caller.done, 100);
   EXPECT_GT(caller.refused, 50);
 }
-// 10,000 calls.
+// Each seed makes 10,000 calls.
 INSTANTIATE_TEST_SUITE_P(Seeds, CallSequence, ::testing::Range<std::uint64_t>(1, 11));
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A free coupler through each way into a world: what the host's bodies do is the closed form,
-// whatever the host's step and its sub-steps.
+// A free coupler through each way into a world. The host's bodies follow the closed form at any
+// step and sub-step of the host.
 
 #include <tuple>
 
@@ -11,8 +11,8 @@ namespace {
 
 using namespace test;
 
-// What rounding leaves of 10 mm, some 1e-12. Float: half a bit of 10 mm, and 6e-8 of a step of 17
-// ms, which Bullet rounds, too, at 1 m/s.
+// Rounding of 10 mm, about 1e-12. In float: half a bit of 10 mm, plus 6e-8 of a step of 17 ms,
+// which Bullet rounds too, at 1 m/s.
 const double kExact = byDoorWidth(5e-12, 0.01 * 0x1p-24 + 1e-9);
 constexpr double kDuration = 0.5;
 
@@ -22,8 +22,8 @@ class LoneCoupler : public ::testing::TestWithParam<std::tuple<double, int>> {
   [[nodiscard]] static int substeps() { return std::get<1>(GetParam()); }
   [[nodiscard]] static double step() { return roundToDoor(frame() / substeps()); }
 
-  /// Largest difference over half a second of frames; `advance` makes one, `where` says where the
-  /// body is then.
+  /// Largest difference over half a second of frames. `advance` makes a frame, `where` gives the
+  /// body's place.
   template <typename Advance, typename Where>
   static double findWorst(Advance advance, Where where) {
     double worst = 0.0, t = 0.0;
@@ -58,7 +58,7 @@ TEST_P(LoneCoupler, IsTheClosedFormInAHostsWorld) {
   EXPECT_LE(worst, kExact);
 }
 
-/// An engine that knows nothing of Tandem: gravity, then x += v dt.
+/// An engine independent of Tandem: gravity, then x += v dt.
 struct Engine {
   TandemState body;
   double gravity = 0.0;
@@ -98,7 +98,7 @@ class LoneGuest : public LoneCoupler {
 
 TEST_P(LoneGuest, IsTheClosedForm) { EXPECT_LE(findWorstWith(0.0), kExact); }
 
-// The engine's own gravity is no force on what the island moves.
+// The engine's own gravity is no force on bodies that the island moves.
 TEST_P(LoneGuest, IsTheClosedFormUnderTheEnginesGravity) {
   EXPECT_LE(findWorstWith(-9.81), kExact);
 }

@@ -1,4 +1,4 @@
-// Devices of the caller, as a site has them.
+// The caller's devices at a site.
 
 #include <limits>
 
@@ -11,7 +11,7 @@ using namespace test;
 
 constexpr double kTick = 1e-3;
 
-/// A site that the test ticks, before a wall that the hand can press.
+/// A site ticked by the test, before a wall that the hand can press.
 struct Ticked {
   TandemWorld* world = makeWorld();
   TandemDevice* device;
@@ -64,7 +64,7 @@ TEST(MovedDevice, GoesOnWithItsVelocityFor50Milliseconds) {
   const double at[3] = {5.0, 0.0, 0.0}, speed[3] = {0.0, 2.0, 0.0};
   ticked.tick();
   ok(tandem_device_move(ticked.device, at, speed));
-  // A tick moves the hand on to its end.
+  // A tick moves the hand to the end of its motion.
   ticked.tick();
   EXPECT_NEAR(ticked.read().hip[1], kTick * 2.0, 1e-12);
   for (int i = 1; i < 30; ++i) ticked.tick();
@@ -75,7 +75,7 @@ TEST(MovedDevice, GoesOnWithItsVelocityFor50Milliseconds) {
   EXPECT_EQ(ticked.read().hip_velocity[1], 0.0);
 }
 
-// K_vc = 4000 N/m, 0.5 mm into the face: 2 N. Float has the face to half a bit of 2 cm.
+// K_vc = 4000 N/m, 0.5 mm into the face: 2 N. A float world has the face to half a bit of 2 cm.
 TEST(MovedDevice, FeelsWhatItTouches) {
   Ticked ticked(makeMoved());
   const double at[3] = {-0.0295, 0.0, 0.0};
@@ -85,7 +85,7 @@ TEST(MovedDevice, FeelsWhatItTouches) {
   EXPECT_EQ(ticked.read().force[0], ticked.force().x());
 }
 
-/// Functions of the caller that answer with what the test put there.
+/// Callbacks that return the values set by the test.
 struct Called {
   Vec3 at{10.0, 0.0, 0.0};
   int is_there = 1, reads = 0;
@@ -118,7 +118,7 @@ TEST(CalledDevice, IsReadAndWrittenOnceATick) {
   EXPECT_EQ(ticked.force(), called.force_W);
 }
 
-// 2000 N/s: 2 N fade within two ticks, and come back when the device does.
+// At 2000 N/s, 2 N fade within two ticks, and return when the device does.
 TEST(CalledDevice, WithoutAPositionTheForceFades) {
   for (const bool is_nan : {false, true}) {
     Called called;
@@ -149,11 +149,11 @@ TEST(CalledDevice, MustBeThereWhenASiteIsMade) {
   const TandemSiteSettings settings = tandem_default_site_settings();
   EXPECT_EQ(tandem_site_create(&settings, world, device, &site), TANDEM_CANNOT);
   EXPECT_EQ(site, nullptr);
-  ok(tandem_device_destroy(device));  // neither is used by anything
+  ok(tandem_device_destroy(device));  // neither device is in use
   ok(tandem_world_destroy(world));
 }
 
-// 5 N on 0.1 kg for 20 ms: 1 m/s, less what 0.5 N s/m takes of it.
+// 5 N on 0.1 kg for 20 ms give 1 m/s, minus the effect of 0.5 N s/m.
 TEST(SimulatedDevice, IsPushedByItsHand) {
   TandemDevice* device = nullptr;
   ok(tandem_device_create_simulated(0.1, 0.5, kFarAway, nullptr, &device));

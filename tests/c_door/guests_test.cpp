@@ -1,4 +1,4 @@
-// A host with an engine of its own, whose bodies stand in a world of Tandem's.
+// A host with its own engine, whose bodies have guests in a world of Tandem's.
 
 #include <algorithm>
 
@@ -11,15 +11,15 @@ namespace {
 using namespace test;
 
 constexpr double kStep = 1.0 / 240.0;
-constexpr double kMass = 0.1;  // of the cube's copy: half of 0.2 kg
+constexpr double kMass = 0.1;  // mass of the cube's copy: half of 0.2 kg
 
-/// One shared cube, and the host's body that it stands for.
+/// One shared cube, and the host's body that it represents.
 struct Guest : FreeDoorCube {
   TandemState now{};
 
   Guest() : FreeDoorCube(makeWorld()) { now = body(cube); }
 
-  /// The engine turns and moves by its velocities; `meanwhile` may change them.
+  /// The engine turns and moves bodies by their velocities; `meanwhile` may change them.
   template <typename Meanwhile>
   void step(Meanwhile meanwhile) {
     TandemState given{};
@@ -52,7 +52,7 @@ TEST(Guest, StandsWhereItIs) {
   EXPECT_EQ(toVec3(guest.now.velocity), Vec3::Zero());
 }
 
-// J = 0.02 N s on 0.1 kg, also on one that sleeps.
+// J = 0.02 N s on 0.1 kg, also on a sleeping body.
 TEST(Guest, TakesTheHostsImpulse) {
   for (const int rest : {0, 1, 20}) {
     Guest guest;
@@ -61,7 +61,7 @@ TEST(Guest, TakesTheHostsImpulse) {
     guest.steps(2);
     EXPECT_NEAR(guest.islandSpeed(), 0.2, byDoorWidth(1e-12, 1e-7)) << rest;
     EXPECT_NEAR(guest.now.velocity[0], 0.2, byDoorWidth(1e-12, 1e-7)) << rest;
-    // The island is ahead of the host by up to a tick when it hears of it.
+    // The island is ahead of the host by up to a tick when it learns of the impulse.
     const double late = rest == 0 ? byDoorWidth(1e-12, 1e-9) : 0.2 * 1e-3;
     EXPECT_NEAR(guest.now.position[0], 2 * kStep * 0.2, late) << rest;
   }
@@ -85,7 +85,7 @@ TEST(Guest, GoesAlongWhenTheHostMovesIt) {
   }
 }
 
-// A turn of 2 rad/s for 0.1 s is 0.2 rad.
+// A rotation at 2 rad/s for 0.1 s is 0.2 rad.
 TEST(Guest, TurnsAsTheIslandHasIt) {
   Guest guest;
   guest.now.angular_velocity[2] = 2.0;
@@ -94,12 +94,12 @@ TEST(Guest, TurnsAsTheIslandHasIt) {
   EXPECT_NEAR(guest.now.angular_velocity[2], 2.0, byDoorWidth(1e-12, 1e-5));
 }
 
-// What the engine does to the velocity during its step is the island's in the next one, once.
+// A change of velocity by the engine in its step enters the island in the next step, once.
 TEST(Guest, KeepsTheMomentumOfAHit) {
   Guest guest;
   guest.now.velocity[0] = 1.0;
   guest.steps(3);
-  // A ball of the host's own, of 0.3 kg, that the cube hits: fully elastic.
+  // A ball of the host's own, of 0.3 kg, hits the cube fully elastically.
   constexpr double kBall = 0.3;
   double ball = 0.0;
   guest.step([&] {
@@ -133,7 +133,7 @@ TEST(Guest, KeepsTheMomentumOfManyHits) {
   EXPECT_LT((toVec3(guest.now.velocity) - given).norm(), byDoorWidth(1e-12, 1e-5));
 }
 
-// A host that keeps its states in float moves nothing by that.
+// Rounding by a host that keeps float states moves no body.
 TEST(Guest, DoesNotTakeRoundingForTheHostsDoing) {
   Guest guest;
   guest.now.position[0] = 3.14159;
@@ -149,7 +149,7 @@ TEST(Guest, DoesNotTakeRoundingForTheHostsDoing) {
     });
   }
   EXPECT_EQ(guest.object().velocity[1], speed);
-  // The island has gone on by itself: a second at that speed.
+  // The island moved on by itself for a second at that speed.
   EXPECT_NEAR(guest.now.position[1], 242 * kStep * speed, byDoorWidth(1e-9, 1e-5));
 }
 
@@ -163,7 +163,7 @@ TEST(Guest, IsMovedAndSteppedByItsOwnEngineOnly) {
   ok(tandem_world_end_step(guest.world, 1, &guest.cube, &given, &guest.now));
 }
 
-// The hand presses a cube that is a guest: the engine's body is where the island has it.
+// The hand presses a guest cube: the engine's body is at the island's pose.
 TEST(Guest, IsPushedByTheHand) {
   FreeDoorCube pushed(makeWorld());
   const double hand[3] = {-0.0295, 0.0, 0.0}, still[3] = {0.0, 0.0, 0.0};

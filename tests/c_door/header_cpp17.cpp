@@ -1,4 +1,4 @@
-// The C door's header in C++17, without another header, twice.
+// Includes the C door's header in C++17 twice, without another header.
 
 #include "tandem/tandem.h"
 

@@ -1,5 +1,4 @@
-// Handles are destroyed in any order: what is still needed is refused, and nothing is lost or freed
-// twice.
+// Handles are destroyed in any order. One still in use is refused, and none is lost or freed twice.
 
 #include <algorithm>
 #include <numeric>
@@ -12,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// Two sites with all that they need.
+/// Two sites with all their parts.
 class Everything {
  public:
   Everything() {
@@ -40,7 +39,7 @@ class Everything {
 
   static constexpr std::size_t kHandles = 8;
 
-  /// Of handle 0 to 7: two sites, worlds, devices, links.
+  /// Destroys handle 0 to 7: two sites, worlds, devices, links.
   TandemResult destroy(std::size_t handle) {
     const std::size_t i = handle % 2;
     switch (handle / 2) {
@@ -71,7 +70,8 @@ class Everything {
   TandemSite* sites_[2]{};
 };
 
-/// In the order given; what is needed is refused, stays whole, and goes in a second round.
+/// Destroys in the given order. A handle in use is refused, stays whole, and goes in a second
+/// round.
 void destroyInOrder(const std::array<std::size_t, Everything::kHandles>& order) {
   Everything all;
   for (const std::size_t handle : order) {
@@ -82,8 +82,8 @@ void destroyInOrder(const std::array<std::size_t, Everything::kHandles>& order) 
   for (std::size_t handle = 0; handle < Everything::kHandles; ++handle) ok(all.destroy(handle));
 }
 
-// Both sites are alike, so orders that begin with the second site's handles are left out: of 8! the
-// 20160 in which handle 0 comes before handle 1.
+// Both sites are alike, so orders that begin with the second site's handles are skipped. Of 8!
+// orders, the 20160 with handle 0 before handle 1 remain.
 TEST(Lifetime, AnyOrderOfDestroying) {
   std::array<std::size_t, Everything::kHandles> order{};
   std::iota(order.begin(), order.end(), 0);
@@ -91,7 +91,7 @@ TEST(Lifetime, AnyOrderOfDestroying) {
   do {
     const bool is_mirrored =
         std::find(order.begin(), order.end(), 1u) < std::find(order.begin(), order.end(), 0u);
-    // Some of them, by a number that is no factor of 8!: all handles come in all places.
+    // Takes every 101st order. 101 does not divide 8!, so all handles come in all places.
     if (is_mirrored || ++number % 101 != 0) continue;
     destroyInOrder(order);
     if (HasFatalFailure()) return;
@@ -140,13 +140,13 @@ TEST(Lifetime, AnyOrderForOneSite) {
 TEST(Lifetime, WhatWasDestroyedIsKnownAsGone) {
   TandemWorld* world = makeWorld();
   ok(tandem_world_destroy(world));
-  // Many are made meanwhile.
+  // Many worlds are made in between.
   for (int i = 0; i < 200; ++i) ok(tandem_world_destroy(makeWorld()));
   EXPECT_EQ(tandem_world_step(world, 0.1, 0, 0.0), TANDEM_INVALID_ARGUMENT);
   EXPECT_EQ(tandem_world_destroy(world), TANDEM_INVALID_ARGUMENT);
 }
 
-// A site gives the host's world back, and another may take it.
+// A site returns the host's world, and another site may attach to it.
 TEST(Lifetime, AHostsWorldIsGivenBack) {
   BulletRig rig;
   btRigidBody& cube = rig.addCube(0.2);
@@ -167,7 +167,7 @@ TEST(Lifetime, AHostsWorldIsGivenBack) {
   EXPECT_EQ(rig.world.getNumCollisionObjects(), 1);
 }
 
-// Nothing was attached that would be missed.
+// No resource was attached that could be missed.
 TEST(Lifetime, AProxyIsABodyUntilItsSiteEnds) {
   TandemWorld* world = makeWorld();
   TandemBody proxy = TANDEM_NO_BODY;
@@ -189,7 +189,7 @@ TEST(Lifetime, AProxyIsABodyUntilItsSiteEnds) {
   ok(tandem_link_destroy(link));
 }
 
-// A scheme without a body for the remote user has no proxy to show.
+// A scheme without a body for the remote user has no proxy.
 TEST(Lifetime, SomeSchemesHaveNoProxy) {
   TandemSiteSettings settings = tandem_default_site_settings();
   settings.scheme = "virtual_coupling";

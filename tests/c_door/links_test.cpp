@@ -1,4 +1,4 @@
-// Packets that the caller carries.
+// Packets that the caller transports.
 
 #include "c_door/c_door_rig.h"
 
@@ -51,7 +51,7 @@ TEST(ManualLink, NonsenseIsCountedByTheSite) {
   packet.position[0] = std::nan("");
   ok(tandem_link_push(site.link, &packet));
   ok(tandem_world_step(site.world, kStep, 0, 0.0));
-  EXPECT_EQ(site.read().packets_taken, 1u);  // the one that it began with
+  EXPECT_EQ(site.read().packets_taken, 1u);  // the packet from its set-up
   EXPECT_EQ(site.read().status, std::uint32_t{TANDEM_STATUS_PACKET_REFUSED});
 }
 

@@ -1,4 +1,4 @@
-// Sites over real sockets on loopback. Nothing asserts how long it took.
+// Sites over real sockets on loopback. No test asserts times.
 
 #include "c_door/two_meshes.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-// The host of the one moves its cube: both cubes end at one place.
+// One host moves its cube: both cubes end at one place.
 TEST(Mesh, JoinsTwoSites) {
   const TwoMeshes meshes;
   ASSERT_TRUE(meshes.pollUntil([&] { return meshes.areBoth(TANDEM_PEER_LIVE); }));
@@ -24,7 +24,7 @@ TEST(Mesh, JoinsTwoSites) {
   ok(tandem_world_set_state(one.world, one.cube, &moved));
   Meeting meeting;
   const bool have_met = meshes.pollUntil([&] {
-    // The simulated time runs ahead of the clock, and behind it, as it does with a real host.
+    // The simulated time runs ahead of the clock and behind it, as with a real host.
     for (const LinkedSite* site : {&one, &two})
       ok(tandem_world_step(site->world, 1.0 / 60.0, 0, 0.0));
     usleep(10000);

@@ -12,7 +12,7 @@ namespace tandem::test {
 
 inline const double kNan = std::nan("");
 
-/// A scene of all that refusals are about.
+/// A scene with every object that refusals concern.
 struct Scene : LoneDoorProxy {
   TandemBody cube = TANDEM_NO_BODY, wall = TANDEM_NO_BODY;
   TandemWorld* bare = makeWorld();
@@ -41,7 +41,7 @@ struct Scene : LoneDoorProxy {
     ok(tandem_link_destroy(loose));
   }
 
-  /// All that can be asked, in numbers.
+  /// All readable values, as numbers.
   [[nodiscard]] std::vector<double> look() const {
     const TandemReading now = read();
     std::vector<double> all{
@@ -64,14 +64,14 @@ struct Case {
   std::function<TandemResult(Scene&)> call;
 };
 
-/// As another language may do it: no C++ enumeration may hold such a number.
+/// A value that another language may pass: no C++ enumeration may hold such a number.
 template <typename Enumeration>
 void setNumber(Enumeration& enumeration, int number) {
   static_assert(sizeof enumeration == sizeof number);
   std::memcpy(&enumeration, &number, sizeof number);
 }
 
-/// A value that no function may write.
+/// A value that no function may overwrite.
 template <typename Handle>
 Handle* untouched() {
   static int place = 0;

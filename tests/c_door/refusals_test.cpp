@@ -1,5 +1,5 @@
-// What the door refuses, case by case in refused_*_test.cpp: the result, the words, and that
-// nothing has changed.
+// Calls that the door refuses, case by case in refused_*_test.cpp: the result, the message, and no
+// change.
 
 #include "c_door/refusal_rig.h"
 
@@ -15,7 +15,7 @@ TEST_P(Refused, SaysWhyAndChangesNothing) {
   EXPECT_NE(words.find(GetParam().words), std::string::npos) << words;
   EXPECT_EQ(words.find('\n'), std::string::npos);
   EXPECT_EQ(scene.look(), before);
-  // The world goes on.
+  // The world still steps.
   ok(tandem_world_step(scene.world, 1.0 / 60.0, 0, 0.0));
   EXPECT_EQ(scene.read().ticks, 34u);
 }

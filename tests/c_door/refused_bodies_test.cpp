@@ -1,4 +1,4 @@
-// What the door refuses of bodies.
+// Refused calls on bodies.
 
 #include "c_door/refusal_rig.h"
 

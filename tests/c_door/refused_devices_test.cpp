@@ -1,4 +1,4 @@
-// What the door refuses of devices, links and meshes.
+// Refused calls on devices, links and meshes.
 
 #include "c_door/refusal_rig.h"
 

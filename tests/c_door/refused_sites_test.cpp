@@ -1,4 +1,4 @@
-// What the door refuses of sites.
+// Refused calls on sites.
 
 #include "c_door/refusal_rig.h"
 

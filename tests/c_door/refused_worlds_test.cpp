@@ -1,4 +1,4 @@
-// What the door refuses of worlds and steps.
+// Refused calls on worlds and steps.
 
 #include "c_door/refusal_rig.h"
 

@@ -12,7 +12,7 @@ namespace tandem::test {
 
 inline constexpr double kPatience = 30.0;  // [s], for a loaded machine
 
-/// Of the process, from its first use [s].
+/// Time of the process since its first use [s].
 [[nodiscard]] inline double readClock() {
   static const auto start = std::chrono::steady_clock::now();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -105,8 +105,8 @@ struct LinkedSite {
   }
 };
 
-/// Of two copies, of which the second stood at the origin: whether it has ever moved, and they are
-/// at one place now. Where that is depends on the delays.
+/// Compares two copies, of which the second began at the origin. They have met if it has moved and
+/// both are at one place. The place depends on the delays.
 struct Meeting {
   TandemState here{}, there{};
   bool has_moved = false;

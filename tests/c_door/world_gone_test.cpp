@@ -1,5 +1,5 @@
-// A host that destroys its Bullet world while the C door still has it: every call says so, nothing
-// of the dead world is touched, and handles go in any order that was right before.
+// A host destroys its Bullet world while the C door still has it. Every call reports this, the dead
+// world is never accessed, and handles go in any order that was right before.
 
 #include <cstring>
 #include <functional>
