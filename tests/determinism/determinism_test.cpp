@@ -1,4 +1,4 @@
-// Equal runs have equal hashes, whatever ran before or beside them, and so has a run's replay.
+// Equal runs have equal hashes, independent of earlier or concurrent runs. So has a run's replay.
 
 #include <set>
 
@@ -26,7 +26,7 @@ std::uint64_t computeHash(const Scenario& scenario) {
   return run.summary().state_hash;
 }
 
-/// Loss, jitter, duplicates and packets that overtake others.
+/// Loss, jitter, duplicates and reordering.
 const std::vector<std::string> kBadNetwork = {"network.loss=0.1", "network.jitter=0.02",
                                               "network.duplicate=0.1", "network.reorder=0.1",
                                               "network.seed=41"};
@@ -44,7 +44,7 @@ std::vector<Case> makeCases() {
         {"Users", "experiment2.toml"}}) {
     for (const char* scheme : {"virtual_coupling", "kinematic_proxy", "remote_dynamic_proxy"}) {
       const std::string name = title + "_" + scheme;
-      // Half a second holds contact, packets and, off the slot, the start of the buckling.
+      // Half a second includes contact, packets and, off the slot, the start of the buckling.
       const std::vector<std::string> base = {std::string("experiment.scheme=") + scheme,
                                              "experiment.duration=0.5"};
       const std::vector<std::string> impulse = {"bridge.injection=impulse", "rates.host=1000"};
@@ -108,7 +108,7 @@ TEST(DeterminismOfRuns, NothingIsLeftBehindByOtherRuns) {
   std::vector<std::uint64_t> first, again;
   const std::vector<Case> cases = makeCases();
   for (std::size_t i = 0; i < cases.size(); i += 3) first.push_back(computeHash(load(cases[i])));
-  // In another order, so that each has other predecessors.
+  // Runs in another order, so that each has other predecessors.
   for (std::size_t i = first.size(); i-- > 0;)
     again.insert(again.begin(), computeHash(load(cases[3 * i])));
   EXPECT_EQ(first, again);
@@ -155,7 +155,8 @@ TEST(Replay, KnowsTheDevicesForceLimit) {
   EXPECT_EQ(replay(scenario, run, 0), run.world(0).site().stateHash());
 }
 
-// Packets that arrive at once belong to the tick after the one that sent them; a replay must know.
+// A packet that arrives at once belongs to the tick after the sending one. A replay must respect
+// this.
 TEST(Replay, HoldsWithoutDelay) {
   for (const char* network : {"network.delay=0", "network.reorder=0.5"}) {
     const Scenario scenario = load({"", "experiment1.toml", {network, "network.rate=1000"}});
