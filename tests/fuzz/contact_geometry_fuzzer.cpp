@@ -1,5 +1,4 @@
-// Sphere against every other shape, at places, attitudes and sizes that any finite double may ask
-// for.
+// Sphere against every other shape, at any places, attitudes and sizes of finite doubles.
 //
 // Input: one byte for the shape, then doubles: the sphere's centre and radius, the shape's three
 // sizes, its position and its quaternion. Missing bytes are zeros.
@@ -21,7 +20,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Takes doubles off the front of the input.
+/// Reads doubles from the front of the input.
 class Reader {
  public:
   Reader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -44,7 +43,7 @@ class Reader {
     return {x, y, z};
   }
 
-  /// A unit quaternion; none where the four numbers give no direction.
+  /// A unit quaternion; none if the four numbers give no direction.
   Quat attitude() {
     const double w = number();
     const Vec3 v = vector();
@@ -69,7 +68,7 @@ double clampSize(double value) { return std::clamp(std::abs(value), 1e-6, 1e3); 
 
 Vec3 clampPlace(const Vec3& place) { return place.cwiseMin(1e3).cwiseMax(-1e3); }
 
-/// Sizes of a solid that has faces: none below a thousandth of another.
+/// Sizes of a solid with faces: none below a thousandth of another.
 Vec3 makeSturdy(const Vec3& sizes) {
   const Vec3 clamped = sizes.unaryExpr(&clampSize);
   return clamped.cwiseMax(1e-3 * clamped.maxCoeff());
@@ -95,9 +94,9 @@ Shape makeShape(std::uint8_t kind, const Vec3& sizes, const Vec3& direction) {
   }
 }
 
-/// What findSphereContact() promises for things of a micrometre to a kilometre within a kilometre.
+/// Promises of findSphereContact() for sizes of a micrometre to a kilometre within a kilometre.
 void requireContact(const SphereContact& contact, const Vec3& centre, double radius) {
-  // Of the largest numbers that take part (1e3 m, through sums of three) some 1e-12 are rounding.
+  // The largest numbers are 1e3 m, through sums of three: rounding is about 1e-12.
   constexpr double kRounding = 1e-8;  // [m]
   require(std::isfinite(contact.gap) && contact.p_W.allFinite());
   require(std::abs(contact.n_W.norm() - 1.0) < 1e-9);
@@ -114,7 +113,7 @@ void check(Reader input) {
   const Quat attitude = input.attitude();
   const Vec3 direction = attitude * Vec3::UnitX();
 
-  // As they come: any answer will do, as long as there is one.
+  // With raw input, any answer is right, as long as there is one.
   static_cast<void>(
       findSphereContact(centre, radius, makeShape(kind, sizes, direction), place, attitude));
 

@@ -1,5 +1,5 @@
-// Bytes from a Falcon, or to one: the reader of frames, the boot, the check of firmware images, the
-// driver and the emulator take them all. What is found to be a frame encodes to itself.
+// Bytes from a Falcon, or to one, for all their readers: the frame reader, the boot, the check of
+// firmware images, the driver and the emulator. Each frame found encodes to itself.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Byte 14 is for something that nobody knows.
+/// The meaning of byte 14 is unknown.
 bool isSameBut14(FalconFrame a, const FalconFrame& b) {
   a[14] = b[14];
   return a == b;
@@ -28,7 +28,7 @@ void readFrames(const std::uint8_t* bytes, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto frame = reader.take(bytes[i]);
     const std::uint64_t gone = kFalconFrameSize * reader.frames() + reader.dropped();
-    require(gone <= i + 1 && i + 1 - gone < kFalconFrameSize);  // what it still holds
+    require(gone <= i + 1 && i + 1 - gone < kFalconFrameSize);  // bytes that the reader still holds
     if (!frame) continue;
     require(isFrame(*frame));
     const auto reply = decodeReply(*frame);
@@ -51,7 +51,7 @@ void checkImage(const std::uint8_t* bytes, std::size_t count) {
     require((fault == nullptr) == (table.state() == BootTableReader::State::kDone));
 }
 
-/// In pieces, whose sizes and times come from the bytes themselves; both ends at once.
+/// The input comes in pieces whose sizes and times come from its bytes; both ends run at once.
 template <typename Take>
 void inPieces(const std::uint8_t* bytes, std::size_t count, const Take& take) {
   double now = 1.0;
@@ -73,7 +73,7 @@ void boot(const std::uint8_t* bytes, std::size_t count) {
   });
 }
 
-/// The driver believes the bytes, asks for far too much, and stays within its limits.
+/// The driver accepts the bytes, is asked for far too much force, and stays within its limits.
 void drive(const std::uint8_t* bytes, std::size_t count) {
   FalconSettings settings;
   settings.force.ramp_in = 0.0;

@@ -1,4 +1,4 @@
-// Recorded hand forces: finite rows with growing times, or a tandem::Error of one line.
+// Recorded hand forces give finite rows with growing times, or a tandem::Error of one line.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// A file that lives in memory, for as long as this does.
+/// A file in memory that exists as long as this object.
 class MemoryFile {
  public:
   MemoryFile(const std::uint8_t* data, std::size_t size) : descriptor_(memfd_create("fuzz", 0)) {

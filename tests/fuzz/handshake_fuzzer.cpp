@@ -1,5 +1,5 @@
-// Bytes for the handshake, for sealed datagrams and for key files. The first byte says whose they
-// are. Whoever has no key can make nothing that is accepted: only the right bytes themselves are.
+// Bytes for the handshake, for sealed datagrams and for key files. The first byte selects which.
+// Without the key no accepted bytes can be made: only the right bytes themselves are accepted.
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ SecretKey makeKey(std::uint8_t value) {
 Initiator makeInitiator() { return {makeKey(1), prologue(), makeKey(2)}; }
 Responder makeResponder() { return {makeKey(1), prologue(), makeKey(3)}; }
 
-/// Everything right, with empty payloads.
+/// The right messages, with empty payloads.
 struct Right {
   std::array<std::uint8_t, kHandshakeOverhead> first, second;
   std::array<std::uint8_t, 8 + kTagSize> datagram{};
@@ -54,7 +54,7 @@ bool isSame(ByteView one, ByteView other) {
   return std::equal(one.begin(), one.end(), other.begin(), other.end());
 }
 
-/// A side takes nothing but the right message, and still takes that after another one.
+/// A side accepts only the right message, and still accepts it after a wrong one.
 template <typename Side>
 void readMessage(Side& side, ByteView message, ByteView right) {
   std::vector<std::uint8_t> payload(message.size());
@@ -68,7 +68,7 @@ void openDatagram(ByteView sealed, ByteView right) {
   require(Opener(makeKey(4), 5).open(0, prologue(), datagram) == isSame(sealed, right));
 }
 
-/// What reads as a key reads as the same key from the digits that it is written as.
+/// A text that reads as a key is written as digits that read as the same key.
 void readKey(ByteView bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::array<std::uint8_t, kKeySize> key, again;
@@ -83,7 +83,7 @@ void readKey(ByteView bytes) {
   require(key == again);
 }
 
-/// Any payload comes out as it went in.
+/// Any payload arrives unchanged.
 void carryPayload(ByteView payload) {
   Initiator initiator = makeInitiator();
   std::vector<std::uint8_t> message(payload.size() + kHandshakeOverhead), read(payload.size());

@@ -1,6 +1,6 @@
-// Reports of HID devices. The first byte of the input says whose: a SpaceMouse's in a row, each
-// with its size in front; an FT260's; a raw HID device's, as it comes or with its CRC put right; a
-// switch's.
+// Reports of HID devices. The first byte of the input selects the device: a SpaceMouse with several
+// reports, each after its size; an FT260; a raw HID device, with the CRC as it is or corrected; a
+// switch.
 
 #include <algorithm>
 #include <cstddef>
@@ -21,7 +21,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Each report in memory of its own, so that reading beyond it is seen.
+/// Each report has its own memory, so that a sanitizer detects reads beyond it.
 using Report = std::vector<std::uint8_t>;
 
 void checkSpaceMouse(const Report& input) {
@@ -55,7 +55,7 @@ void checkRawHid(const Report& report) {
   const auto state = decodeRawState(report.data(), report.size());
   const auto command = decodeRawCommand(report.data(), report.size());
   require(!(state && command));
-  // What is taken has one form only.
+  // An accepted report has exactly one form.
   const auto isSame = [&](const RawHidBytes& bytes) {
     return std::equal(bytes.begin(), bytes.end(), report.begin(), report.end());
   };

@@ -1,5 +1,5 @@
-// A script of what happens to two or three sites and to what flies between them: deliveries, loss,
-// copies, changes, starts, stops, farewells, other addresses, time. See net/membership_script.h.
+// A script of events for two or three sites and their datagrams: deliveries, loss, copies, changes,
+// starts, stops, farewells, other addresses, time. See net/membership_script.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ void fill(void* bytes, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) all[i] = static_cast<std::uint8_t>(engine());
 }
 
-/// The same input shall do the same each time, so keys and cookies are drawn from a seed.
+/// Keys and cookies are drawn from a seed, so that equal input gives equal runs.
 void drawFromSeed() {
   static randombytes_implementation drawn{};
   drawn.implementation_name = [] { return "seeded"; };

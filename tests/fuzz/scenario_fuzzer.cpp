@@ -1,5 +1,4 @@
-// Scenario files and --set: whatever the text, it is a checked scenario or a UsageError of one
-// line.
+// Scenario files and --set: any text gives a checked scenario or a UsageError of one line.
 //
 // Input: the file's text; after each zero byte, one override.
 
@@ -29,7 +28,7 @@ bool isOneLine(const std::string& text) {
   return !text.empty() && text.find_first_of("\n\r") == std::string::npos;
 }
 
-/// What the rest of the program takes for granted.
+/// Requires the properties that the rest of the program assumes.
 void requireChecked(const Scenario& s) {
   for (const double value :
        {s.duration, s.object_mass, s.object_size, s.proxy_mass, s.proxy_radius, s.device_mass,

@@ -1,7 +1,8 @@
-// Clear and opened datagrams: what a decoder takes, its encoder writes again, to the same bytes.
+// Clear and opened datagrams: each one that a decoder accepts, its encoder writes to the same
+// bytes.
 //
-// Only STATE may come out otherwise: a quaternion is made a unit, and so a float's may move by its
-// last bits. What the encoder then writes decodes to the same.
+// Only STATE may differ: a quaternion is normalised, so a float's may change in its last bits. The
+// encoder's bytes then decode to the same.
 
 #include <array>
 #include <cstddef>
@@ -23,7 +24,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// encode(room) must write exactly these bytes.
+/// Requires encode(room) to write exactly these bytes.
 template <class Encode>
 void requireSame(ByteView bytes, const Encode& encode) {
   Room room;
@@ -35,7 +36,7 @@ double computeDistance(const Quat& a, const Quat& b) {
   return (a.coeffs() - b.coeffs()).cwiseAbs().maxCoeff();
 }
 
-/// Equal but for the rounding of orientations.
+/// Requires equal messages except for the rounding of orientations.
 void requireSame(const StateMessage& a, const StateMessage& b) {
   const double rounding = a.profile == WireProfile::kFloat32 ? 1e-6 : 0.0;
   require(a.packet.object_count == b.packet.object_count);
