@@ -1,4 +1,4 @@
-// What needs a library to reach its device: looks for devices, of which none need be there.
+// Uses the parts that need a library to reach a device: looks for devices. None needs to be there.
 #include <cstdio>
 
 #include "tandem/coordination/types.h"

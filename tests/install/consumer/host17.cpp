@@ -1,4 +1,4 @@
-// A host in C++17 with a world of its own: takes what the package gives, but for the devices.
+// A host in C++17 with its own world. It uses all of the package except the devices.
 #include <cstdio>
 #include <string>
 
@@ -27,7 +27,7 @@ struct Host {
   ~Host() { world.removeRigidBody(&cube); }
 };
 
-/// One user pushes a cube for a second: where it is then [m].
+/// One user pushes a cube for a second. Returns its final place [m].
 double pushAlone() {
   Host host;
   tandem::SimulatedDeviceSettings start;
@@ -41,7 +41,7 @@ double pushAlone() {
   return double(host.cube.getCenterOfMassPosition().x());
 }
 
-/// What the second site on a world throws, as it comes out of the library.
+/// The error text when a second site is attached to a world.
 std::string attachTwice() {
   Host host;
   tandem::SimulatedDevice device({}, tandem::makeConstantHand({0, 0, 0}));

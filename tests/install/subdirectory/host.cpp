@@ -1,4 +1,4 @@
-// Sees all headers of a host; calls nothing that would have to be linked.
+// Includes all headers of a host, and calls nothing that would need linking.
 #include <cstdio>
 
 #include "tandem/plugin/site.h"

@@ -1,7 +1,6 @@
-// Attaches a site to a world of the width that this file is compiled for, and tells what came of
-// it: in a module for the other width than the program's, or in a program that was compiled for
-// another width than it was linked to. A world that the wrong Bullet makes may be larger than the
-// one here: there is room for it.
+// Attaches a site to a world of the width that this file is compiled for, and reports the result.
+// This may be a module of another width than the program's, or a program linked to another width. A
+// world made by the wrong Bullet may be larger than expected, so there is spare room.
 #include <cstdio>
 #include <new>
 

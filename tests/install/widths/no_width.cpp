@@ -1,5 +1,5 @@
-// A program without Bullet that loads modules with Bullet, each for itself, and lets each attach a
-// site. usage: no_width MODULE...
+// A program without Bullet. It loads modules that each bring their own Bullet, and lets each attach
+// a site. usage: no_width MODULE...
 #include <cstdio>
 
 #include <dlfcn.h>

@@ -1,5 +1,5 @@
-// A program with a site at work; then loads a module for the other width of Bullet, which shares
-// all its names, and steps on.  usage: one_width MODULE local|global
+// A program with a working site. It then loads a module for the other width of Bullet, which has
+// all the same names, and steps on.  usage: one_width MODULE local|global
 #include <cmath>
 #include <cstdio>
 #include <string>
