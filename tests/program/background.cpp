@@ -20,7 +20,7 @@ Background::Background(const std::string& program, const std::vector<std::string
   child_ = fork();
   if (child_ < 0) throw std::runtime_error("cannot start a process");
   if (child_ == 0) {
-    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nothing behind
+    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);  // no process is left if a test crashes
     if (dup2(ends[1], STDERR_FILENO) < 0 || dup2(ends[1], STDOUT_FILENO) < 0) _exit(126);
     execv(program.c_str(), argv.data());
     _exit(127);

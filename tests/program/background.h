@@ -9,8 +9,8 @@
 
 namespace tandem::test {
 
-/// A program that runs beside the test; killed at the end if it still does. Both its outputs are
-/// one here.
+/// A program that runs beside the test, killed at the end if still running. Both its outputs are
+/// merged.
 class Background {
  public:
   Background(const std::string& program, const std::vector<std::string>& arguments);
@@ -18,10 +18,10 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  /// The next line of what it prints, without its end. Throws if none comes in a minute.
+  /// The next line of its output, without the line end. Throws if none comes in a minute.
   [[nodiscard]] std::string readLine();
 
-  /// Sends a signal (0: none) and waits for the end. Outcome::out is what was not read yet;
+  /// Sends a signal (0: none) and waits for the end. Outcome::out is the unread output;
   /// Outcome::err stays empty.
   [[nodiscard]] Outcome finish(int signal);
 

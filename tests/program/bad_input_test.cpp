@@ -1,5 +1,5 @@
-// Bad use and bad scenarios: one line that says where, what and what is allowed; status 2; nothing
-// written. What goes wrong later: one line, status 1, nothing half-written.
+// Bad use and bad scenarios give one line with place, problem and allowed values; status 2; nothing
+// is written. Later failures give one line and status 1; no file is half-written.
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ void expectOneLine(const Outcome& outcome, int status, const Words& words) {
     EXPECT_NE(outcome.err.find(word), std::string::npos) << '"' << word << "\" in: " << outcome.err;
 }
 
-/// Runs Experiment I with one override; must be refused by a line with these words.
+/// Runs Experiment I with one override. It must be refused by a line with these words.
 void expectOverrideRefused(const std::string& text, const Words& words) {
   SCOPED_TRACE("--set " + text);
   const TempFolder folder;
@@ -33,7 +33,7 @@ void expectOverrideRefused(const std::string& text, const Words& words) {
   EXPECT_EQ(listFolder(folder / "out"), Words{});
 }
 
-/// The same with a scenario file of this text; its path is one of the words.
+/// The same with a scenario file of this text. Its path is one of the words.
 void expectFileRefused(const std::string& text, const Words& words) {
   SCOPED_TRACE(text);
   const TempFolder folder;
@@ -200,7 +200,7 @@ TEST(BadInput, FloatProgramRefusesTheSame) {
 }
 #endif
 
-// A hand that gives more than a double holds: the run fails after its start.
+// The hand's force exceeds a double's range: the run fails after its start.
 TEST(FailedRun, LeavesNothingBehind) {
   const TempFolder folder;
   const std::string hand =

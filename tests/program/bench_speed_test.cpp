@@ -1,4 +1,4 @@
-// How `tandem bench speed` is used. Run times are measured, never asserted.
+// Use of `tandem bench speed`. Run times are measured, never asserted.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-// How `tandem bench` is used, and the errors that the plugin keeps to whatever the host's
-// step. Run times are measured, never asserted.
+// Use of `tandem bench`, and the plugin's error limits at any host step. Run times are measured,
+// never asserted.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -92,11 +92,11 @@ TEST(BenchStress, JsonIsExactlyTheFile) {
   EXPECT_EQ(listFolder(folder / "a"), files);
 }
 
-// All drawn anew from another seed than the documented run's. Counts of work end a case, no clock
-// does; cases that are held to 1e-6 alone are those allowed less than as much again.
+// All cases are drawn anew from another seed than the documented run's. Counts of work end a case,
+// no clock does. Cases held to 1e-6 alone may add less than the same again.
 TEST(BenchStress, FindsNothing) {
 #ifdef __SANITIZE_ADDRESS__
-  constexpr int kCases = 60;  // half a second each there
+  constexpr int kCases = 60;  // half a second each with a sanitizer
 #else
   constexpr int kCases = 300;
 #endif

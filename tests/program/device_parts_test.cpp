@@ -1,4 +1,4 @@
-// Parts of `tandem device` that need no process: how devices and clutches are spelt, bars, axes.
+// Parts of `tandem device` that need no process: names of devices and clutches, bars, axes.
 
 #include <cmath>
 #include <limits>
@@ -100,7 +100,7 @@ TEST(Bars, BearWhatIsNoNumber) {
   EXPECT_EQ(makeBar(inf, 1.0, 3), "[   |###]");
 }
 
-// Right-handed, away from each user is towards the other, up is up.
+// The axes are right-handed. Away from each user is towards the other, and up is up.
 TEST(UserAxes, UsersLookAtEachOther) {
   const Vec3 right_D(1, 0, 0), up_D(0, 1, 0), to_user_D(0, 0, 1);
   const Quat first = computeUserAxes(Quat::Identity(), 0),

@@ -1,4 +1,4 @@
-// `tandem device` and an emulated Falcon of this process, byte by byte over a pseudo terminal.
+// `tandem device` and an emulated Falcon in this process, byte by byte over a pseudo terminal.
 // Waits are for outcomes; no time is asserted.
 
 #include <chrono>
@@ -25,7 +25,7 @@ using test::Outcome;
 using test::runTandem;
 using test::TempFolder;
 
-/// An emulated Falcon of this process, which another one drives.
+/// An emulated Falcon in this process that another process drives.
 class DeviceOfAnotherProcess : public ::testing::TestWithParam<int> {
  protected:
   static FalconEmulatorSettings makeHomed() {
@@ -53,8 +53,8 @@ class DeviceOfAnotherProcess : public ::testing::TestWithParam<int> {
   EmulatedFalconPort port{makeHomed()};
 };
 
-// From bytes to newtons: a grip that is held where the cube is gets pushed up by the motors; the
-// end of the program, whatever ends it, takes the force away.
+// From bytes to newtons: the motors push up a grip that is held in the cube. Any end of the program
+// removes the force.
 TEST_P(DeviceOfAnotherProcess, FeelsTheCubeAndIsLeftWithoutForce) {
   hold(Vec3(0.0, 0.0, 0.125));
   test::Background feel(TANDEM_PROGRAM, {"device", "--device", "falcon@" + port.path()});
@@ -91,7 +91,7 @@ TEST(FalconOfAnotherProcess, SaysThatThereIsNoFirmware) {
   const Outcome outcome =
       runTandem({"device", "home", "--device", "falcon@" + port.path(), "--quiet"});
   expectRefused(outcome, 1, {port.path(), "no firmware", "path of the image"});
-  // Nobody homes it: the wait has an end.
+  // The device is not homed: the wait ends.
   FalconEmulatorSettings settings;
   settings.runs = true;
   EmulatedFalconPort running(settings);

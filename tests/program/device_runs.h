@@ -12,7 +12,7 @@ namespace tandem::test {
 
 using Words = std::vector<std::string>;
 
-/// The command with an emulated Falcon.
+/// Runs the command with an emulated Falcon.
 inline Outcome runEmulated(const std::string& command, const Words& more = {}) {
   Words words = {"device"};
   if (!command.empty()) words.push_back(command);

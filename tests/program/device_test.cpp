@@ -1,5 +1,4 @@
-// `tandem device` against a Falcon that is emulated byte by byte in its process. No time is
-// asserted.
+// `tandem device` with a Falcon emulated byte by byte in its process. No time is asserted.
 
 #include <cmath>
 #include <csignal>
@@ -65,7 +64,7 @@ TEST(Device, CheckMeasuresDirectionAndSize) {
   EXPECT_LT(pushes[5]["moved"][2].get<double>(), -0.002);
 }
 
-// Half the motors' numbers for a torque is half the force.
+// Half the motor counts per torque give half the force.
 TEST(Device, CheckFindsAWrongForce) {
   const Outcome outcome = runEmulated("check", {"--motors-per-torque", "2100", "--quiet"});
   EXPECT_EQ(outcome.status, 3) << outcome.out << outcome.err;
@@ -156,7 +155,7 @@ TEST(Device, TakesPartAsAPeer) {
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(second.get().status, 0);
   EXPECT_NE(first.out.find("1. Pull the grip"), std::string::npos) << first.out;
-  // Wherever the hand was, it began where the scenario has its user start, and then moved.
+  // From any place of the hand, the run begins at the scenario's start of its user, and then moves.
   const test::Columns columns = test::readColumns(folder / "out/site1.csv");
   EXPECT_EQ(columns.at("device_x").front(), 0.0);
   const json one = json::parse(test::readFile(folder / "out/site1.json"));

@@ -1,4 +1,4 @@
-// `tandem device`: what is not there, and bad use.
+// `tandem device`: missing devices and bad use.
 
 #include <gtest/gtest.h>
 

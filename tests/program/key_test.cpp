@@ -1,4 +1,4 @@
-// `tandem key new FILE`: a key file of its owner's alone, and never over another.
+// `tandem key new FILE` writes a key file that only its owner may read, and overwrites none.
 
 #include <algorithm>
 #include <filesystem>

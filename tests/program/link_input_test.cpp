@@ -1,4 +1,4 @@
-// What `tandem link` reads: quantities with units, and scripts.
+// Inputs of `tandem link`: quantities with units, and scripts.
 
 #include <string>
 #include <utility>
@@ -49,7 +49,7 @@ TEST(Units, RefuseWhatIsNoShare) {
 
 TEST(Units, DelaysAreBounded) {
   EXPECT_EQ(parseDelay("10s"), 10.0);
-  EXPECT_FALSE(parseDelay("50"));  // milliseconds were meant
+  EXPECT_FALSE(parseDelay("50"));  // the unit is missing
   EXPECT_FALSE(parseDelay("10.001s"));
 }
 

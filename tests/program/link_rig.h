@@ -18,7 +18,7 @@ namespace tandem::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Datagram `number`: any two of them differ in many of their bits.
+/// Datagram `number`. Any two of them differ in many bits.
 [[nodiscard]] inline Bytes makeDatagram(std::uint64_t number) {
   Bytes bytes(64);
   std::uint64_t state = number;
@@ -41,7 +41,7 @@ class Endpoint {
     double at = 0.0;  ///< [s], readMonotonicClock()
     Address from;
   };
-  /// The next one; nothing if none comes within `seconds`.
+  /// The next datagram; empty if none comes within `seconds`.
   [[nodiscard]] std::optional<Arrived> receive(double seconds) {
     Bytes room(2048);
     const double until = readMonotonicClock() + seconds;
@@ -61,7 +61,7 @@ class Endpoint {
   net::UdpSocket socket_{resolveAddress("127.0.0.1:0")};
 };
 
-/// Longer than any of these tests ever needs [s]: a wait that ends with it has failed.
+/// Longer than any of these tests needs [s]: a wait that reaches it has failed.
 inline constexpr double kPatience = 60.0;
 
 /// Client and server with the link between them.
@@ -79,7 +79,7 @@ struct LinkRig {
 
   Endpoint server, client;
   Background link;
-  Address proxy;  ///< where the client sends to
+  Address proxy;  ///< address that the client sends to
 };
 
 }  // namespace tandem::test

@@ -1,4 +1,4 @@
-// What `tandem link` measures of itself.
+// Measurements of `tandem link` about itself.
 
 #include "demos/program/link/link_tally.h"
 
@@ -10,7 +10,7 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kClassWidth = 5.1e-4;  // of DurationHistogram, relative
+constexpr double kClassWidth = 5.1e-4;  // class width of DurationHistogram, relative
 
 TEST(DurationHistogram, GivesPercentilesWithinItsClasses) {
   DurationHistogram histogram;
@@ -48,7 +48,7 @@ TEST(LinkTally, HasNothingToTellWithoutDatagrams) {
   EXPECT_TRUE(std::isnan(tally.achieved({}).jitter));
 }
 
-// Half of them at 10 %, half at 30 %: 20 % was asked. What was cut off was asked for nothing.
+// Half of them are sent at 10 %, half at 30 %: 20 % was asked. Datagrams cut off do not count.
 TEST(LinkTally, AveragesWhatWasAskedWhileItChanged) {
   LinkTally tally;
   DatagramChannelCounts counts;
@@ -68,7 +68,7 @@ TEST(LinkTally, AveragesWhatWasAskedWhileItChanged) {
   EXPECT_NEAR(tally.asked().duplicate, 0.5, 1e-12);
   const LinkFigures achieved = tally.achieved(counts);
   EXPECT_NEAR(achieved.loss, 0.1, 1e-12);
-  EXPECT_NEAR(achieved.duplicate, 0.1, 1e-12);        // of the 90 that were kept
+  EXPECT_NEAR(achieved.duplicate, 0.1, 1e-12);        // of the 90 that were not lost
   EXPECT_NEAR(achieved.corrupt, 33.0 / 99.0, 1e-12);  // of the copies
 }
 
@@ -89,12 +89,13 @@ TEST(LinkTally, TellsDelayJitterAndWhatTheLinkAddsOfItself) {
   EXPECT_NEAR(tally.asked().delay, 0.05, 1e-12);
   EXPECT_NEAR(tally.asked().jitter, 0.01, 1e-12);
   EXPECT_NEAR(achieved.delay, 0.05 + kAdded, 1e-9);
-  EXPECT_NEAR(achieved.jitter, 0.01, 2.0 * 0.01 / kCount);  // an even spread, but of steps
+  EXPECT_NEAR(achieved.jitter, 0.01,
+              2.0 * 0.01 / kCount);  // a uniform spread, apart from its steps
   EXPECT_NEAR(tally.latencies().percentile(0.5), kAdded, kAdded * kClassWidth);
   EXPECT_NEAR(tally.delays().percentile(0.5), 0.05 + kAdded, 0.05 * 2.0 * kClassWidth);
 }
 
-// The part of the spread below 0 is at 0, asked as well as achieved.
+// The part of the spread below 0 counts as 0, both asked and achieved.
 TEST(LinkTally, KnowsThatNoDelayIsBelowZero) {
   LinkTally tally;
   constexpr int kCount = 10001;

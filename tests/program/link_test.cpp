@@ -1,4 +1,4 @@
-// `tandem link`: what goes through it, both ways.
+// `tandem link`: the datagrams that pass, both ways.
 
 #include <algorithm>
 #include <csignal>
@@ -13,9 +13,9 @@
 namespace tandem::test {
 namespace {
 
-/// Datagrams `first` to `end` - 1 from one endpoint towards the other, a millisecond or so apart,
-/// so that no buffer of the system overflows. What arrived meanwhile is added to `arrived`. When
-/// each was sent [s].
+/// Sends datagrams `first` to `end` - 1 from one endpoint towards the other. They are about a
+/// millisecond apart, so that no system buffer overflows. Adds arrivals to `arrived`. Returns the
+/// send times [s].
 std::vector<double> sendNumbers(std::uint64_t first, std::uint64_t end, Endpoint& from,
                                 const Address& to, Endpoint& receiver,
                                 std::vector<Endpoint::Arrived>& arrived) {
@@ -28,7 +28,7 @@ std::vector<double> sendNumbers(std::uint64_t first, std::uint64_t end, Endpoint
   return sent;
 }
 
-/// What comes out for datagrams 0 to `count` - 1 by their fates, sorted.
+/// The copies that come out for datagrams 0 to `count` - 1 by their fates, sorted.
 std::vector<Bytes> expectedCopies(const Impairments& impairments, double corrupt,
                                   Direction direction, std::uint64_t count) {
   std::vector<Bytes> copies;
@@ -158,7 +158,7 @@ TEST(Link, LetsNobodyInButTheServer) {
   const auto seen = rig.server.receive(kPatience);
   ASSERT_TRUE(seen);
   stranger.send(makeDatagram(1), seen->from);
-  rig.server.send(makeDatagram(2), seen->from);  // behind the stranger's in the same queue
+  rig.server.send(makeDatagram(2), seen->from);  // after the stranger's in the same queue
   const auto answer = rig.client.receive(kPatience);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->bytes, makeDatagram(2));
@@ -175,7 +175,7 @@ TEST(Link, CountsWhatIsTooLong) {
   EXPECT_EQ(finishWithReport(rig)["forward"]["counts"]["too_long"], 1);
 }
 
-/// Sends until the server sees what `is_wanted` waits for; false if it never does.
+/// Sends until the server receives one that `is_wanted` accepts; false if it never does.
 template <typename IsWanted>
 bool sendUntil(LinkRig& rig, const IsWanted& is_wanted) {
   const double until = readMonotonicClock() + kPatience;
@@ -189,7 +189,7 @@ bool sendUntil(LinkRig& rig, const IsWanted& is_wanted) {
 
 TEST(LinkScript, RebindsToAnotherPort) {
   const TempFolder folder;
-  std::string script;  // also where the first datagram takes its time
+  std::string script;  // several times, in case the first datagram is slow
   for (const char* at : {"0.2", "1", "5", "20"})
     script += std::string("[[change]]\nat = ") + at + "\nrebind = true\n";
   LinkRig rig({"--script", folder.write("s.toml", script)});
@@ -198,7 +198,7 @@ TEST(LinkScript, RebindsToAnotherPort) {
     if (!first) first = seen.from;
     return seen.from != *first;
   }));
-  rig.server.send(makeDatagram(9), *first);  // nobody is there any more
+  rig.server.send(makeDatagram(9), *first);  // the old port is closed
   ASSERT_TRUE(sendUntil(rig, [&](const Endpoint::Arrived& seen) {
     rig.server.send(makeDatagram(7), seen.from);
     return seen.from != *first;
@@ -234,7 +234,7 @@ TEST(LinkScript, CutsOneWayAlone) {
     ASSERT_TRUE(rig.server.receive(kPatience));
   }
   const nlohmann::json report = finishWithReport(rig);
-  EXPECT_GE(report["back"]["counts"]["cut_off"], 4);  // the last may still have been on its way in
+  EXPECT_GE(report["back"]["counts"]["cut_off"], 4);  // the last may not have come in yet
   EXPECT_EQ(report["back"]["counts"]["delivered"], 0);
   EXPECT_EQ(report["forward"]["counts"]["delivered"], 6);
   EXPECT_FALSE(rig.client.receive(0.0));

@@ -1,4 +1,4 @@
-// `tandem link`: how it is started, refused and ended.
+// `tandem link`: start, refusals and end.
 
 #include <algorithm>
 #include <csignal>
@@ -21,7 +21,7 @@ void expectRefused(const Outcome& outcome, const Words& words) {
     EXPECT_NE(outcome.err.find(word), std::string::npos) << '"' << word << "\" in: " << outcome.err;
 }
 
-/// With an end, should it start after all.
+/// Runs the link with an end, in case it does start.
 Outcome runLink(Words arguments) {
   arguments.insert(arguments.begin(), "link");
   arguments.insert(arguments.end(), {"--for", "0"});
@@ -62,7 +62,7 @@ TEST(LinkUse, PrintsJsonAloneToStandardOutput) {
   for (const char* lane : {"forward", "back"})
     for (const char* part : {"asked", "achieved", "self_latency", "counts"})
       EXPECT_TRUE(report[lane][part].is_object()) << lane << ' ' << part;
-  EXPECT_TRUE(report["forward"]["achieved"]["loss"].is_null());  // of no datagram
+  EXPECT_TRUE(report["forward"]["achieved"]["loss"].is_null());  // there was no datagram
 }
 
 TEST(LinkUse, CanBeQuiet) {

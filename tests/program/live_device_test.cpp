@@ -1,4 +1,4 @@
-// A device with all that stands between it and a site, against an emulated Falcon that is homed.
+// A device with all layers between it and a site, against an emulated, homed Falcon.
 
 #include <cmath>
 #include <functional>
@@ -15,7 +15,7 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kLongest = 20.0;  // for any outcome [s]
+constexpr double kLongest = 20.0;  // longest wait for any outcome [s]
 
 class LiveDeviceTest : public ::testing::Test {
  protected:
@@ -45,13 +45,13 @@ class LiveDeviceTest : public ::testing::Test {
       if (is_so(sample_ = device_->read(0.0))) return true;
     return false;
   }
-  /// The world's point comes there, to an encoder's step.
+  /// Reads until the world's point is there, to an encoder's step.
   bool readUntilAt(const Vec3& p_W) {
     return readUntil([&](const DeviceSample& sample) {
       return sample.valid && (sample.hip.p_W - p_W).norm() < 2e-4;
     });
   }
-  /// So many readings later the driver believes where the hand went.
+  /// Waits for as many readings as the driver needs to accept the hand's motion.
   void waitForReadings() {
     const std::uint64_t seen = device_->report().readings;
     ASSERT_TRUE(
@@ -72,7 +72,7 @@ TEST_F(LiveDeviceTest, PlacesAndScalesTheHand) {
   open(options);
   EXPECT_TRUE(readUntilAt(kCentre_W + Vec3(0.1, 0, 0)));
   EXPECT_LT(device_->distanceFromMiddle(), 1e-4);
-  hold(Vec3(0.0, 0.01, -0.02));  // up, away
+  hold(Vec3(0.0, 0.01, -0.02));  // up, and away from the user
   EXPECT_TRUE(readUntilAt(kCentre_W + Vec3(0.1 + 0.04, 0.0, 0.02)));
   EXPECT_NEAR(device_->distanceFromMiddle(), std::hypot(0.01, 0.02), 2e-4);
 }
@@ -83,7 +83,7 @@ TEST_F(LiveDeviceTest, AButtonIsItsClutch) {
   hold(Vec3::Zero());
   open(options);
   EXPECT_TRUE(readUntilAt(kCentre_W));
-  press(kPlusButton);  // another one
+  press(kPlusButton);  // another button
   hold(Vec3(0.0, 0.0, -0.01));
   EXPECT_TRUE(readUntilAt(kCentre_W + Vec3(0.01, 0, 0)));
 

@@ -1,5 +1,5 @@
-// `tandem peer` as processes on loopback. How exact a live run is depends on the machine, so only
-// what must hold on any is asserted.
+// `tandem peer` as processes on loopback. The precision of a live run depends on the machine. Only
+// properties that hold on any machine are asserted.
 
 #include <cmath>
 #include <future>
@@ -21,13 +21,13 @@ using test::runTandem;
 using test::scenarioPath;
 using test::TempFolder;
 
-/// A key file in a folder.
+/// Makes a key file in a folder.
 std::string makeKey(const TempFolder& folder, const std::string& name) {
   EXPECT_EQ(runTandem({"key", "new", folder / name}).status, 0);
   return folder / name;
 }
 
-/// Arguments of one of two sites; each test has ports of its own.
+/// Arguments of one of two sites; each test has its own ports.
 std::vector<std::string> peer(int site, int first_port, const std::string& key,
                               const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"peer",
@@ -48,7 +48,7 @@ std::vector<std::string> peer(int site, int first_port, const std::string& key,
 void expectOneLine(const Outcome& outcome, int status, const std::string& word) {
   EXPECT_EQ(outcome.status, status) << outcome.err;
   EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
-  // A note about memory that cannot be locked may stand before it.
+  // A note about memory that cannot be locked may precede it.
   const std::size_t line = outcome.err.find("tandem: note");
   const std::string rest = line == 0 ? outcome.err.substr(outcome.err.find('\n') + 1) : outcome.err;
   EXPECT_EQ(rest.find('\n'), rest.size() - 1) << outcome.err;
@@ -78,7 +78,7 @@ TEST(Peer, TwoProcessesCooperate) {
             (std::vector<std::string>{"site1.csv", "site1.json", "site2.csv", "site2.json"}));
   for (const char* name : {"site1", "site2"}) {
     const auto summary = nlohmann::json::parse(test::readFile(folder / "out/" + name + ".json"));
-    // And some in which the force fades.
+    // The ticks in which the force fades come on top.
     EXPECT_GE(summary["loop"]["ticks"].get<int>() + summary["loop"]["skipped"].get<int>(), 500);
     const double force = summary[name]["force"]["max"];
     EXPECT_TRUE(std::isfinite(force));
@@ -96,7 +96,7 @@ TEST(Peer, OtherScenariosAreNamed) {
   const std::string key = makeKey(folder, "k");
   const Both both = runBoth(peer(1, 17320, key), peer(2, 17320, key, {"--set", "object.mass=0.3"}));
   for (const Outcome* outcome : {&both.first, &both.second}) {
-    // One of both may have heard the other's farewell before it could compare.
+    // One of them may get the other's farewell before it could compare.
     if (outcome->status == 2)
       expectOneLine(*outcome, 2, "object.mass");
     else

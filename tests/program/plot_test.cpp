@@ -1,5 +1,5 @@
-// `tandem plot` as a command: where it writes, what it prints, exit status. What the figures show
-// is tested in tests/plot.
+// `tandem plot` as a command: output paths, output text, exit status. tests/plot tests the content
+// of the figures.
 
 #include <gtest/gtest.h>
 

@@ -15,14 +15,14 @@
 namespace tandem::test {
 namespace {
 
-/// In the child: a file in place of an output.
+/// Runs in the child: redirects an output to a file.
 void redirect(const std::string& path, int output) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file < 0 || dup2(file, output) < 0) _exit(126);
   close(file);
 }
 
-/// In the child: a write beyond the limit fails with an error instead of a signal.
+/// Runs in the child: a write beyond the limit fails with an error instead of a signal.
 void limitFiles(long long bytes) {
   signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};

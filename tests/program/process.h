@@ -8,20 +8,20 @@
 
 namespace tandem::test {
 
-/// What a program left behind.
+/// Result of a program.
 struct Outcome {
   int status = -1;  ///< exit status; -1 if a signal ended it
   std::string out;  ///< all of its standard output
   std::string err;  ///< all of its standard error
 };
 
-/// How a program is started, beyond its arguments.
+/// Start options of a program, besides its arguments.
 struct Start {
-  std::string stdout_path;      ///< where standard output goes instead of into Outcome::out
-  long long largest_file = -1;  ///< files cannot grow beyond this [bytes]; below 0: no limit
+  std::string stdout_path;      ///< file for standard output, instead of Outcome::out
+  long long largest_file = -1;  ///< limit of file sizes [bytes]; below 0: no limit
 };
 
-/// Runs a program to its end, both outputs being files, so that it sees no terminal.
+/// Runs a program to its end. Both outputs are files, so it sees no terminal.
 [[nodiscard]] Outcome runProgram(const std::string& program,
                                  const std::vector<std::string>& arguments,
                                  const Start& start = {});
@@ -32,7 +32,7 @@ struct Start {
 /// Path of a scenario that ships with the program.
 [[nodiscard]] std::string scenarioPath(std::string_view name);
 
-/// A folder of its own, gone with all that is in it at the end.
+/// A temporary folder, removed with its contents at the end.
 class TempFolder {
  public:
   TempFolder();
@@ -53,7 +53,7 @@ class TempFolder {
 
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
-/// Names of what is in a folder, sorted; nothing if it is not there.
+/// Names of the entries of a folder, sorted; empty if it does not exist.
 [[nodiscard]] std::vector<std::string> listFolder(const std::filesystem::path& folder);
 
 /// A CSV file of numbers by column name.

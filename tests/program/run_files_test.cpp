@@ -1,4 +1,4 @@
-// What `tandem run` writes, and that summary.json says nothing else than the tables.
+// Files written by `tandem run`. summary.json must agree with the tables.
 
 #include <cmath>
 
@@ -47,7 +47,7 @@ double norm(const Columns& table, const std::string& name, std::size_t row) {
                     table.at(name + "_z")[row]);
 }
 
-// Sums in another order differ by rounding alone.
+// Sums in another order differ by rounding only.
 constexpr double kRounding = 1e-12;
 
 TEST(RunFiles, HaveEveryColumnAndOneRowPerTick) {
@@ -64,7 +64,7 @@ TEST(RunFiles, HaveEveryColumnAndOneRowPerTick) {
     }
     for (std::size_t i = 0; i < 300; ++i)
       EXPECT_DOUBLE_EQ(site.at("t")[i], static_cast<double>(i) * kTick);
-    // Displacements from the start, which is at rest and just in contact.
+    // Values are displacements from the start, which is at rest and just in contact.
     for (const char* vector : {"device", "force", "object", "proxy", "body_object", "body_proxy"})
       EXPECT_EQ(norm(site, vector, 0), 0.0) << vector;
     EXPECT_EQ(site.at("contact")[0], 0.0);
@@ -90,7 +90,7 @@ TEST(RunFiles, SummaryHasEveryName) {
   EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
 }
 
-/// Scenario, overrides, and the program that runs them.
+/// A scenario, overrides, and the program that runs them.
 struct Case {
   const char* name;
   const char* scenario;
@@ -141,7 +141,7 @@ TEST_P(RunTables, GiveTheSummarysForcesAndContactChanges) {
   }
 }
 
-// The device moves once more after the last row: one tick under the last force, a damped mass.
+// The device moves once more after the last row: one tick of a damped mass under the last force.
 TEST_P(RunTables, GiveTheSummarysDeviceEnd) {
   const double mass = run_.summary["scenario"]["device"]["mass"];
   const double damping = run_.summary["scenario"]["device"]["damping"];
@@ -149,7 +149,7 @@ TEST_P(RunTables, GiveTheSummarysDeviceEnd) {
     const Columns& site = run_.site[s];
     const Json& hand = run_.summary["scenario"][s == 0 ? "site1" : "site2"]["hand_force"];
     const double force = hand[0].get<double>() + site.at("force_x").back();
-    const double v_end = force / damping;  // [m/s] where damping holds the force
+    const double v_end = force / damping;  // [m/s], where damping balances the force
     const double grown = (1.0 - std::exp(-damping * kTick / mass)) * mass / damping;
     const double end =
         site.at("device_x").back() + v_end * kTick + (site.at("device_vx").back() - v_end) * grown;
@@ -157,7 +157,7 @@ TEST_P(RunTables, GiveTheSummarysDeviceEnd) {
   }
 }
 
-// What the btRigidBody had after the latest host step is at most one host step old.
+// The btRigidBody's state after the latest host step is at most one host step old.
 TEST_P(RunTables, BodiesAreBulletsAndFollowTheIsland) {
   const bool is_float = run_.summary["scalar"] == "float";
   const double rate = run_.summary["scenario"]["rates"]["host"];
@@ -198,8 +198,8 @@ const std::vector<Case> kCases = {
 INSTANTIATE_TEST_SUITE_P(Contract, RunTables, ::testing::ValuesIn(kCases),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// With one packet per tick that arrives in the middle of a tick, 50.5 ticks later, the copy as
-// received before tick k is the other's copy at tick k - 51.
+// One packet is sent per tick and arrives in the middle of a tick, 50.5 ticks later. The received
+// copy before tick k is then the other's copy at tick k - 51.
 TEST(RunFiles, ReceivedCoherencyIsAgainstTheOthersDelayedCopy) {
   const FinishedRun run("experiment1.toml", {"network.rate=1000", "network.delay=0.0505"});
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
@@ -214,7 +214,7 @@ TEST(RunFiles, ReceivedCoherencyIsAgainstTheOthersDelayedCopy) {
   }
 }
 
-// Where a scheme or an experiment has no such body, its columns are there and zero.
+// If a scheme or an experiment lacks a body, its columns exist and are zero.
 TEST(RunFiles, BodiesThatAreNotThereHaveZeros) {
   const FinishedRun users("experiment2.toml", {"experiment.duration=0.3"});
   const FinishedRun coupling("experiment1.toml",

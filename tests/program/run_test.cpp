@@ -1,4 +1,4 @@
-// How `tandem run` is used: options, outputs, exit status.
+// Use of `tandem run`: options, outputs, exit status.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -82,7 +82,7 @@ TEST(Run, SetOverridesAnyKeyAndMayBeRepeated) {
   const Json& scenario = changed["scenario"];
   EXPECT_EQ(scenario["experiment"]["duration"], 0.2);
   EXPECT_EQ(scenario["coordination"]["stiffness"], 317.5);
-  EXPECT_EQ(scenario["coordination"]["damping"], 30.0);  // as in the file
+  EXPECT_EQ(scenario["coordination"]["damping"], 30.0);  // from the file
   EXPECT_EQ(scenario["experiment"]["scheme"], "kinematic_proxy");
   EXPECT_EQ(scenario["site2"]["hand_force"], Json({-1.0, 0.0, 0.0}));
   EXPECT_EQ(scenario["network"]["seed"], 12);
@@ -105,7 +105,7 @@ TEST(Run, AnOverrideIsTheSameAsTheKeyInTheFile) {
             runJson({kExperiment1, "--set", "contact.stiffness=3210.5"})["state_hash"]);
 }
 
-// Every one of these must change the motion: a key that is read but not used would not.
+// Each of these keys must change the motion: a key that is read but not used would not.
 TEST(Run, EveryKeyOfTheModelChangesTheMotion) {
   const Json before = runJson({kExperiment1});
   for (const char* text :
@@ -127,14 +127,14 @@ TEST(Run, FloatProgramSaysSoAndAgrees) {
   const Json narrow = Json::parse(outcome.out);
   EXPECT_EQ(wide["scalar"], "float64");
   EXPECT_EQ(narrow["scalar"], "float");
-  // The island is double whatever Bullet's scalar is; 1e-5 m is far above float's rounding.
+  // The island is double with any Bullet scalar; 1e-5 m is far above float's rounding.
   EXPECT_NEAR(narrow["coherency"]["mean_abs"].get<double>(),
               wide["coherency"]["mean_abs"].get<double>(), 1e-5);
 }
 #endif
 
-// The scene turns with its axis, and what is told in the scene's own frame stays. Rounding of the
-// turn grows by contact gains only, not by chaos, in these smooth runs.
+// The scene turns with its axis, and values in the scene's own frame stay. In these smooth runs,
+// rounding of the rotation grows by contact gains only, not by chaos.
 TEST(Run, AxisTurnsTheSceneAndNothingElse) {
   for (const std::string& scenario : {kExperiment1, kExperiment2}) {
     const Json along_x = runJson({scenario});
