@@ -1,4 +1,4 @@
-// What becomes of PyBullet's bodies while a site has them, and after.
+// PyBullet's bodies while a site has them, and after.
 
 #include "plugin_rig.h"
 
@@ -45,7 +45,7 @@ TEST(SharedBody, CarriesItsShareUntilClose) {
   EXPECT_EQ(host.engine.bodies.at(floor).linear_damping, 0.04);
   EXPECT_TRUE(host.engine.without_contact.empty());
   host.command(kFarHand);
-  host.command("site");  // and a site can be opened again
+  host.command("site");  // a site can be opened again
 }
 
 TEST(SharedBody, TakesTheMomentumOfANativeHit) {
@@ -62,13 +62,13 @@ TEST(SharedBody, FeelsWhatTheUserDoesToIt) {
   shared.body().state.p_W = Vec3(1.0, 2.0, 3.0);
   shared.body().state.v_W = Vec3(0.0, 0.5, 0.0);
   shared.host.step(24);
-  // It goes where it was put, with what it was given, from where the island's tick ends.
+  // The body continues from its new place at its new velocity, from the end of the island's tick.
   const Vec3 expected(1.0, 2.05, 3.0);
   EXPECT_LT((shared.body().state.p_W - expected).norm(), 0.5 * 1e-3);
   EXPECT_LT((shared.body().state.v_W - Vec3(0.0, 0.5, 0.0)).norm(), 1e-12);
 }
 
-// Falls with gravity once, and not twice; also when gravity is changed on the way.
+// The body falls with gravity once, not twice; also when gravity changes on the way.
 TEST(SharedBody, FallsAsTheServersGravitySays) {
   SharedCube shared;
   for (const double g : {-9.81, 4.0}) {
@@ -106,7 +106,7 @@ TEST(Obstacle, CarriesAPress) {
   const auto height = [&] { return pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(); };
   pressed.host.step(60);
   const double before = height();
-  EXPECT_NEAR(before, 0.02, 2e-4);  // falls until the floor is known, for a step: g (5 ms)^2 / 2
+  EXPECT_NEAR(before, 0.02, 2e-4);  // falls for one step until the floor is known: g (5 ms)^2 / 2
   pressed.host.command("hand force=0,0,-5");
   pressed.host.step(240);
   EXPECT_NEAR(pressed.host.read()[2], 5.0, 1e-3);
@@ -138,7 +138,7 @@ TEST(Obstacle, MayBeOfSeveralPiecesOffItsCentre) {
   EXPECT_NEAR(pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(), 0.02, 2e-4);
 }
 
-// Guests of Tandem's world meet there, in whatever order they came, and nowhere else.
+// Guests of Tandem's world touch only there, in any order of joining.
 TEST(NativeContact, IsStoppedBetweenAllThatTandemHas) {
   for (const bool connects_first : {true, false}) {
     PluginHost host;

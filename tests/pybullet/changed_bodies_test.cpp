@@ -19,7 +19,7 @@ TEST(RemovedBody, EndsTheSiteWithAMessage) {
   shared.host.command("close");
 }
 
-// Another body has the removed one's number, pose and velocity: it is neither moved nor changed.
+// Another body has the removed one's number, pose and velocity. It is neither moved nor changed.
 TEST(RemovedBody, IsNotMistakenForTheNextOfItsNumber) {
   for (const bool at_once : {true, false}) {
     SharedCube shared;
@@ -67,7 +67,7 @@ TEST(ChangedBody, KeepsTheUsersDampingForLater) {
   EXPECT_EQ(shared.body().angular_damping, 0.04);
 }
 
-// Both dampings in one call take two marks off, and it still is the same body.
+// Setting both dampings in one call removes two marks, and it is still the same body.
 TEST(ChangedBody, MayBeGivenBothDampingsAtOnce) {
   Pressed pressed;
   pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
@@ -92,7 +92,7 @@ TEST(ChangedBody, MayBeGivenBothDampingsAtOnce) {
   EXPECT_EQ(pressed.host.engine.bodies.at(pressed.cube).mass, cube.mass);
 }
 
-// PyBullet does not tell the restitution of a body with maximal coordinates: it is let alone.
+// PyBullet does not report the restitution of a body with maximal coordinates: it stays unchanged.
 TEST(ChangedBody, KeepsARestitutionThatIsNotTold) {
   StubBody cube = makeStubCube();
   cube.is_multibody = false;

@@ -1,4 +1,4 @@
-// The grammar of commands: what is refused, with which words, and that nothing can break it.
+// The grammar of commands: refusals, their messages, and robustness against any input.
 
 #include <cstdio>
 
@@ -42,7 +42,7 @@ TEST_P(WrongCommand, IsRefusedWithTheRemedy) {
   EXPECT_EQ(answer.status, GetParam().status) << answer.bytes;
   EXPECT_NE(answer.bytes.find(GetParam().says), std::string::npos) << answer.bytes;
   EXPECT_EQ(answer.bytes.find('\n'), std::string::npos) << answer.bytes;
-  // Nothing has changed.
+  // The body is unchanged.
   EXPECT_EQ(host.engine.bodies.at(0).mass, mass);
   EXPECT_EQ(host.engine.bodies.at(0).linear_damping, 0.04);
   EXPECT_EQ(host.read()[16], 0.0);
@@ -103,7 +103,7 @@ TEST(Arguments, IntsAreForDataOnly) {
   for (int i = 0; i < 190; ++i) host.ask("data", std::vector<int>(128));
   EXPECT_NE(host.ask("data", std::vector<int>(128)).bytes.find("4096 points: leave out points"),
             std::string::npos);
-  EXPECT_EQ(host.ask("data").status, 0);  // a refusal throws the data away
+  EXPECT_EQ(host.ask("data").status, 0);  // a refusal discards the data
 }
 
 TEST(Arguments, AHullComesInPieces) {
@@ -123,7 +123,7 @@ TEST(Arguments, AHullComesInPieces) {
   EXPECT_EQ(host.askDoubles("share body=0 shape=hull", tail).status, 0);
 }
 
-// What was said for a mesh that failed is not there for the next one, nor after `close`.
+// Data of a failed mesh is not there for the next mesh, nor after `close`.
 TEST(Mesh, CanBeTriedAgain) {
   const std::string key = testing::TempDir() + "tandem_pybullet_again.key";
   std::remove(key.c_str());
@@ -160,14 +160,14 @@ TEST(Order, IsSaidWhereItIsWrong) {
   EXPECT_NE(host.refusal("share body=0").find("no site yet"), std::string::npos);
   EXPECT_NE(host.refusal("read").find("no site yet"), std::string::npos);
   EXPECT_NE(host.refusal("hand force=1,0,0").find("no device"), std::string::npos);
-  host.command("close");  // of nothing
+  host.command("close");  // nothing is open
   host.command(kFarHand);
   host.command("site");
   host.command("share body=0");
   EXPECT_NE(host.refusal("share body=0").find("attached already"), std::string::npos);
 }
 
-// PyBullet loads plugins for all to see: what shows could take the place of another's function.
+// PyBullet loads plugins into the global scope: exported names could replace other functions.
 TEST(Exports, AreTheEntryPointsOnly) {
   (void)PluginEntries::get();
   void* const module = dlopen(TANDEM_PYBULLET_PLUGIN, RTLD_NOW | RTLD_NOLOAD);
@@ -187,8 +187,8 @@ TEST(Answers, AreText) {
   EXPECT_EQ(shared.host.ask("warnings").status, 0);
 }
 
-// Words of the grammar, put together at random and spoilt: nothing crashes, leaks or is left half
-// done, and a refusal always says why.
+// Words of the grammar, combined at random and damaged. No command crashes, leaks or is half done,
+// and a refusal always gives a reason.
 TEST(Fuzz, NoCommandBreaksThePlugin) {
   constexpr std::uint64_t kSeed = 20260729;
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));

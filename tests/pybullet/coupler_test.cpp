@@ -1,5 +1,5 @@
-// A free coupler through the plugin: PyBullet's body is on the closed form after each host step,
-// whatever the step, its sub-steps, gravity, and the damping that the body came with.
+// A free coupler through the plugin. After each host step PyBullet's body is on the closed form, at
+// any step, sub-steps, gravity and initial damping of the body.
 
 #include <tuple>
 
@@ -8,7 +8,7 @@
 namespace tandem::test {
 namespace {
 
-// What is asked for is 1e-6 m; this is what rounding leaves.
+// The requirement is 1e-6 m; this is the rounding.
 constexpr double kExact = 1e-11;
 
 class Coupler : public ::testing::TestWithParam<std::tuple<double, int, double, bool>> {
@@ -53,7 +53,8 @@ TEST_P(Coupler, MovesAProxyOnTheClosedForm) {
 }
 
 TEST_P(Coupler, MovesASharedBodyOnTheClosedForm) {
-  // Gravity pulls at a shared body, and the remote's copy holds it up: across it nothing changes.
+  // Gravity pulls at a shared body, and the remote's copy holds it up. The motion across is
+  // unchanged.
   const int cube = add(0.2);
   const std::string shape = std::get<3>(GetParam()) ? "" : " shape=box size=0.02,0.02,0.02";
   EXPECT_EQ(host.command("share body=" + std::to_string(cube) + shape), 0);

@@ -1,4 +1,4 @@
-// A tick without memory: the server is C, so nothing may be thrown into it.
+// A tick without memory: the server is C, so no exception may reach it.
 
 #include <cmath>
 #include <new>
@@ -63,7 +63,7 @@ TEST(TickWithoutMemory, EndsTheSiteAfterAStep) {
   open.session.preTick();
   has_memory = false;
   open.session.postTick();
-  open.session.postTick();  // of a site that has ended: nothing
+  open.session.postTick();  // does nothing for a site that has ended
   open.expectEnd();
 }
 

@@ -1,5 +1,5 @@
-// A program that loads the plugin and has none of the functions that it needs. Ends with 0 if the
-// plugin says so and does not load.
+// A program that loads the plugin and lacks all functions that it needs. Exits with 0 if the plugin
+// reports this and does not load.
 
 #include <cstdio>
 

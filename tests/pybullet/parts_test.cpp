@@ -49,7 +49,7 @@ TEST_P(Gyro, VelocityBeforeBecomesTheTarget) {
   }
 }
 
-// Euler's equation, from which both laws differ by order dt^2.
+// Euler's equation; both laws differ from it by order dt^2.
 TEST_P(Gyro, IsEulersEquation) {
   const Vec3 inertia(5e-5, 2.6e-4, 2.9e-4), w(3, 5, 7);
   const Vec3 acceleration = -w.cross(Vec3(inertia.cwiseProduct(w))).cwiseQuotient(inertia);

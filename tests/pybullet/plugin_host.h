@@ -11,7 +11,7 @@
 
 namespace tandem::test {
 
-/// The built plugin's entry points, found as PyBullet finds them. Loaded once, for good.
+/// The built plugin's entry points, found as PyBullet finds them. Loaded once and never unloaded.
 struct PluginEntries {
   int (*init)(b3::PluginContext*);
   void (*exit)(b3::PluginContext*);
@@ -52,11 +52,11 @@ struct PluginAnswer {
   }
 };
 
-/// A stub server with the plugin in it.
+/// A stub server with the plugin loaded.
 class PluginHost {
  public:
   StubEngine engine;
-  bool closes = true;  // before it unloads
+  bool closes = true;  // closes the site before unloading
 
   PluginHost() {
     b3::PluginContext context;
@@ -102,13 +102,13 @@ class PluginHost {
     std::memcpy(ints.data(), doubles.data(), doubles.size() * sizeof(double));
     return ask(text, ints);
   }
-  /// A command that must be done; its number.
+  /// Runs a command that must succeed; returns its number.
   int command(const std::string& text) {
     const PluginAnswer answer = ask(text);
     EXPECT_GE(answer.status, 0) << text << ": " << answer.bytes;
     return answer.status;
   }
-  /// What a command that must be refused says.
+  /// Message of a command that must be refused.
   std::string refusal(const std::string& text) {
     const PluginAnswer answer = ask(text);
     EXPECT_LT(answer.status, 0) << text;

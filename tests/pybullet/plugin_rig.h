@@ -10,10 +10,10 @@ namespace tandem::test {
 
 inline const char* const kFarHand = "device kind=moved start=10,0,0";
 
-// Places of `read`.
+// Indices in the answer of `read`.
 inline constexpr std::size_t kStatus = 10, kHasEnded = 15, kObjects = 18;
 
-/// m x'' + B x' + K x = 0 from x0 at rest, K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
+/// m x'' + B x' + K x = 0 from x0 at rest. K = 2000, B = 10, m = 0.1: w0 = 141/s, damping ratio
 /// 0.35.
 inline double computeRinging(double x0, double t) {
   const double c = 10.0 / 0.2, w = std::sqrt(2000.0 / 0.1 - c * c);
@@ -32,7 +32,7 @@ inline std::vector<double> makePacket(const Vec3& hand, const std::vector<Vec3>&
   return packet;
 }
 
-/// A server with a shared cube that nothing pulls, and no hand near.
+/// A server with a shared cube without a pull, and no hand near.
 struct SharedCube {
   PluginHost host;
   int cube;
@@ -47,7 +47,7 @@ struct SharedCube {
 };
 
 /// A cube on a floor, and a hand above that may press it. The hand's damping is above K T/2 = 1 N
-/// s/m, or the force that is held for each tick would let it bounce.
+/// s/m. With less, the force held for each tick would let it bounce.
 struct Pressed {
   PluginHost host;
   int cube, floor;

@@ -5,7 +5,7 @@
 namespace tandem::test {
 namespace {
 
-// v' = -d v, and Euler's equation at the start of the step, as btMultiBody has them.
+// v' = -d v, and Euler's equation at the start of the step, as in btMultiBody.
 void damp(StubBody& body, double dt) {
   body.state.v_W -= dt * body.linear_damping * body.state.v_W;
   body.state.w_W -= dt * body.angular_damping * body.state.w_W;

@@ -13,11 +13,11 @@ namespace tandem::test {
 
 namespace b3 = pybullet::b3;
 
-/// A body of the stub engine: a base, as PyBullet's multibodies without links are.
+/// A body of the stub engine: a base, like PyBullet's multibodies without links.
 struct StubBody {
   double mass = 0.2;
   Vec3 inertia = Vec3::Constant(0.2 * 0.04 * 0.04 / 6.0);  // [kg m^2]
-  double linear_damping = 0.04, angular_damping = 0.04;    // as they come in PyBullet
+  double linear_damping = 0.04, angular_damping = 0.04;    // PyBullet's defaults
   double friction = 0.5, restitution = 0.0;
   bool is_multibody = true;
   bool may_sleep = true;
@@ -27,9 +27,9 @@ struct StubBody {
   Vec3 hit = Vec3::Zero();  // impulse in the next internal step [N s], as of a native contact
 };
 
-/// The least of a physics server that a plugin can be loaded into, behind the C functions that the
-/// program exports: gravity and damping, then x += v dt, and ticks in each internal step with a
-/// context that is zeroed as PyBullet's. Shares no code with the plugin but the layouts.
+/// A minimal physics server for a plugin, behind the C functions that the program exports. It does
+/// gravity and damping, then x += v dt. Each internal step ticks with a context that is zeroed like
+/// PyBullet's. Shares no code with the plugin except the layouts.
 class StubEngine {
  public:
   double time_step = 1.0 / 240.0;
@@ -38,9 +38,9 @@ class StubEngine {
   double moves_for = 0.0;  // time that bodies really move for; 0: the step
   std::map<int, StubBody> bodies;
   std::set<std::pair<int, int>> without_contact;
-  int commands = 0;  // submitted so far
+  int commands = 0;  // commands submitted so far
 
-  /// The number of a removed body goes to the next one.
+  /// Adds a body. The number of a removed body goes to the next one.
   int add(const StubBody& body);
   void remove(int body) { bodies.erase(body); }
   void reset() { bodies.clear(), without_contact.clear(); }
@@ -55,12 +55,12 @@ class StubEngine {
   void move(StubBody& body, double dt) const;
 };
 
-/// One piece as PyBullet would tell it, of body 0: whoever takes it sets the number.
+/// One piece of a shape as PyBullet reports it for body 0; the caller sets the number.
 b3::CollisionShapeData makeStubShape(int geometry, const Vec3& dimensions);
 
 /// The cube of 4 cm and 200 g of the README.
 StubBody makeStubCube();
-/// A floor: all below z = 0.
+/// A floor that fills all space below z = 0.
 StubBody makeStubFloor();
 
 }  // namespace tandem::test

@@ -1,5 +1,5 @@
-// The C functions of a physics server that the plugin asks for, in front of a StubEngine. The
-// program exports them, as PyBullet's module does.
+// The C functions of a physics server that the plugin calls, in front of a StubEngine. The program
+// exports them, as PyBullet's module does.
 
 #include <algorithm>
 
@@ -64,7 +64,7 @@ void pose(StubBody& body, const Order& by) {
 void change(StubBody& body, const Order& by) {
   if (by.has_mass) {
     body.mass = by.mass;
-    // PyBullet takes the inertia of the shape then: something that the plugin must not leave.
+    // PyBullet then uses the inertia of the shape. The plugin must correct that.
     body.inertia.setConstant(123.0 * by.mass);
   }
   if (by.has_inertia) body.inertia = by.inertia;
@@ -103,7 +103,7 @@ bool carryOut(const Order& by) {
   if (by.kind == Kind::kPose) pose(body, by);
   if (by.kind == Kind::kChange) change(body, by);
   if (by.kind == Kind::kShape) {
-    if (!body.is_multibody) return false;  // and the cached shape stays
+    if (!body.is_multibody) return false;  // and keeps the cached shape
     cached_shape = body.shape;
   }
   return true;
@@ -175,7 +175,7 @@ int b3GetDynamicsInfo(b3::Status status, b3::DynamicsInfo* info) {
   info->mass = body.mass;
   std::copy_n(body.inertia.data(), 3, info->inertia);
   info->friction = body.friction;
-  info->restitution = body.is_multibody ? body.restitution : 0.77;  // left from another answer
+  info->restitution = body.is_multibody ? body.restitution : 0.77;  // stale value of another answer
   info->activation_state = body.may_sleep ? 1 : b3::kNeverSleeps;
   info->body_type = body.is_multibody ? b3::kMultiBody : b3::kRigidBody;
   info->linear_damping = body.linear_damping;

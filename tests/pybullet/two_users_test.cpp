@@ -78,7 +78,7 @@ TEST(TwoUsers, CarryPacketsByHand) {
   EXPECT_EQ(first.host.read()[kStatus], 0.0);
 }
 
-// Sealed datagrams over this machine's own network; each step takes in and sends what is due.
+// Sealed datagrams over loopback; each step receives, and sends due datagrams.
 TEST(TwoUsers, MeetOverAMesh) {
   const std::string key = testing::TempDir() + "tandem_pybullet_pair.key";
   std::remove(key.c_str());
@@ -87,7 +87,7 @@ TEST(TwoUsers, MeetOverAMesh) {
   const int port = 20000 + static_cast<int>(getpid() % 20000);
   const std::string there = "127.0.0.1:" + std::to_string(port);
   for (User* user : {&first, &second}) {
-    const bool calls = user == &first;  // the one of the lower number
+    const bool calls = user == &first;  // the site of the lower number
     user->host.command(std::string(calls ? "peer id=2 address=" + there : "peer id=1") + " key=\"" +
                        key + "\"");
     user->host.command("agree key=object.mass value=0.2");
@@ -100,7 +100,7 @@ TEST(TwoUsers, MeetOverAMesh) {
   const auto phase = [&] {
     return static_cast<int>(first.host.ask("mesh_status peer=2").doubles().at(0));
   };
-  constexpr int kPatience = 20000;  // steps of a millisecond; a handshake takes some ten
+  constexpr int kPatience = 20000;  // steps of a millisecond; a handshake takes about ten
   for (int step = 0; step < kPatience && first.host.read()[14] < 20; ++step) {
     first.host.step();
     second.host.step();
@@ -108,7 +108,7 @@ TEST(TwoUsers, MeetOverAMesh) {
   }
   EXPECT_EQ(phase(), TANDEM_PEER_LIVE) << first.host.ask("mesh_explain peer=2").bytes;
   EXPECT_GE(first.host.read()[14], 20);
-  second.host.command("close");  // says farewell
+  second.host.command("close");  // sends BYE
   for (int step = 0; step < kPatience && phase() == TANDEM_PEER_LIVE; ++step) {
     first.host.step();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
