@@ -8,8 +8,8 @@ namespace tandem {
 
 /// A point whose velocity a displacement commands:
 ///
-///   tau v' = v_wanted - v      x' = v      v_wanted = speed q_WD (displacement beyond the dead
-///   zone)
+///   tau v' = v_wanted - v      x' = v
+///   v_wanted = speed q_WD (displacement beyond the dead zone)
 ///
 /// v_wanted is piecewise constant and the integration is exact, so the times of the calls do not
 /// matter. A report every 8 ms makes no jump of the velocity. At a wall of the box the point stops

@@ -63,8 +63,9 @@ struct FalconFelt {
 /// from facts about the protocol and contains nothing of Novint's. The caller passes the time,
 /// which must not run back. Equal calls give equal bits. Not thread safe.
 ///
-///     off -- power --> waiting -- 9600, DTR rises --> calling -- 0A 43 0D --> timing -- 'A' at
-///     140000 --> loading -- end of the boot table --> running (1.5 MBd: a reply to each command)
+///     off -- power --> waiting -- 9600, DTR rises --> calling -- 0A 43 0D -->
+///     timing -- 'A' at 140000 --> loading -- end of the boot table -->
+///     running (1.5 MBd: a reply to each command)
 class FalconEmulator {
  public:
   enum class State : std::uint8_t { kOff, kWaiting, kCalling, kTiming, kLoading, kRunning };

@@ -2,8 +2,7 @@
 // finds and calls the original, and informs the adaptor if the world is shared.
 //
 //   host, its plugins, Bullet's virtual functions ──► here ──► the process's own libBulletDynamics
-//                                                      └─────► adaptor, for the one world of the
-//                                                      config
+//                                                      └─────► adaptor, if the world is shared
 //
 // No Bullet header is used, because it fixes one width and this library serves both. `this` is the
 // first argument, as in the C++ ABI of Linux.

@@ -45,10 +45,10 @@ struct LoopReport {
 /// Site::betweenTicks() for everything else about the site.
 ///
 /// A late tick runs at once. Ticks whose whole period has passed are skipped and counted. The next
-/// tick advances the island over them, by at most 50 ms, unless that tick would make the following
-/// one late. The hand does not feel a host that stands still. When the host continues, its bodies
-/// are set to the island's states. A body that the host removes from its world and deletes is
-/// ignored from the next host step on. Its mesh, height field or compound must live until then.
+/// tick advances the island over them, by at most 50 ms; after two gaps in a row it does not. The
+/// hand does not feel a host that stands still. When the host continues, its bodies are set to the
+/// island's states. A body that the host removes from its world and deletes is ignored from the
+/// next host step on. Its mesh, height field or compound must live until then.
 class HapticLoop {
  public:
   /// Starts the thread. `site` must hand off (Injection::kHandoff), be ticked by its caller
