@@ -1,10 +1,10 @@
-# Debian's Bullet as two imported targets, Bullet::float and Bullet::float64. Its own CMake config
-# gives variables only, and both widths share one header folder, so the width travels as a definition.
-# Also part of the installed package: tandemConfig.cmake reads it.
+# Debian's Bullet as two imported targets, Bullet::float and Bullet::float64. Its own CMake config gives only variables,
+# and both widths share one header folder, so a definition carries the width. This file is also part of the installed
+# package: tandemConfig.cmake reads it.
 find_package(PkgConfig REQUIRED)
 
-# tandem_import_bullet(WIDTH PROBLEM [GLOBAL]): makes Bullet::<WIDTH>, unless it is there. PROBLEM, a variable of
-# the caller, says what is missing; it is empty when nothing is.
+# tandem_import_bullet(WIDTH PROBLEM [GLOBAL]): makes Bullet::<WIDTH>, unless it exists. Sets the caller's variable
+# PROBLEM to the missing part, or to "".
 function(tandem_import_bullet width problem)
   set(${problem} "" PARENT_SCOPE)
   if(TARGET Bullet::${width})

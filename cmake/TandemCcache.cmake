@@ -1,5 +1,5 @@
-# Compiles through ccache where it is installed, so that a clean clone compiles only what no clone before it had.
-# Paths below the checkout count as relative, and precompiled headers are told apart by their content.
+# Compiles through ccache if it is installed, so that clones share their compiled files. Paths below the checkout count
+# as relative, and precompiled headers are compared by content.
 option(TANDEM_CCACHE "Compile through ccache where it is installed" ${PROJECT_IS_TOP_LEVEL})
 find_program(TANDEM_CCACHE_PROGRAM ccache)
 mark_as_advanced(TANDEM_CCACHE_PROGRAM)
@@ -10,7 +10,7 @@ set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
   "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
   "${TANDEM_CCACHE_PROGRAM}")
 set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
-# GCC: the preprocessed text names the precompiled header instead of repeating it, as ccache wants it.
+# GCC: the preprocessed text names the precompiled header instead of repeating it; ccache needs this.
 add_compile_options("$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>")
-# Clang: a precompiled header without the time of day.
+# Clang: leaves the time of day out of precompiled headers.
 add_compile_options("$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")

@@ -1,5 +1,5 @@
-# Other physics engines, for comparison in `tandem bench accuracy`. All are optional: TANDEM_ENGINES is what
-# was found (MuJoCo, ODE, Simbody), TANDEM_ENGINE_LIBRARIES what to link.
+# Other physics engines, for comparison in `tandem bench accuracy`. All are optional. TANDEM_ENGINES lists those found
+# (MuJoCo, ODE, Simbody), TANDEM_ENGINE_LIBRARIES the libraries to link.
 find_package(PkgConfig REQUIRED)
 set(TANDEM_ENGINES "")
 set(TANDEM_ENGINE_LIBRARIES "")
@@ -7,7 +7,7 @@ if(NOT TANDEM_COMPARE_ENGINES)
   return()
 endif()
 
-# tandem_add_engine(NAME TARGET PACKAGE): takes an engine in if its target is there.
+# tandem_add_engine(NAME TARGET PACKAGE): adds an engine if its target exists.
 macro(tandem_add_engine name target package)
   if(TARGET ${target})
     message(STATUS "tandem bench compares with ${name}")
@@ -18,7 +18,7 @@ macro(tandem_add_engine name target package)
   endif()
 endmacro()
 
-# Debian's own config of MuJoCo 2.2.2 names a folder that is not there.
+# Debian's own config of MuJoCo 2.2.2 names a folder that does not exist.
 find_path(TANDEM_MUJOCO_INCLUDE mujoco/mujoco.h)
 find_library(TANDEM_MUJOCO_LIBRARY mujoco)
 mark_as_advanced(TANDEM_MUJOCO_INCLUDE TANDEM_MUJOCO_LIBRARY)
@@ -34,7 +34,7 @@ tandem_add_engine(ODE PkgConfig::ODE libode-dev)
 
 pkg_check_modules(SIMBODY QUIET IMPORTED_TARGET GLOBAL simbody)
 if(TARGET PkgConfig::SIMBODY)
-  # It asks for C++11.
+  # Simbody's pkg-config file asks for C++11.
   set_property(TARGET PkgConfig::SIMBODY PROPERTY INTERFACE_COMPILE_OPTIONS "")
 endif()
 tandem_add_engine(Simbody PkgConfig::SIMBODY libsimbody-dev)

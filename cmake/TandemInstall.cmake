@@ -1,10 +1,10 @@
-# What cmake --install brings: libraries and headers, the package's CMake config, pkg-config files, the
-# program, documents. Everything finds its own place, so an installed tree may be moved as a whole.
-# Components, as Debian cuts packages: runtime (shared libraries), dev (to compile with), tools (the program).
+# Defines the files of cmake --install: libraries and headers, the package's CMake config, pkg-config files, the
+# program, documents. All paths are relative, so an installed tree may be moved as a whole. Components, like Debian's
+# packages: runtime (shared libraries), dev (to compile with), tools (the program).
 include(GNUInstallDirs)
 set(TANDEM_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tandem")
 
-# tandem_install_library(NAME): the library, its headers, and its target for find_package() in a file of its own.
+# tandem_install_library(NAME): installs the library and its headers. Its target for find_package() has its own file.
 function(tandem_install_library name)
   install(TARGETS tandem_${name} EXPORT tandem_${name}
     LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
@@ -14,7 +14,7 @@ function(tandem_install_library name)
     DESTINATION "${TANDEM_CONFIG_DIR}" COMPONENT dev)
 endfunction()
 
-# tandem_install_program(NAME): a program that finds our shared libraries beside it.
+# tandem_install_program(NAME): installs a program that finds our shared libraries beside it.
 function(tandem_install_program name)
   file(RELATIVE_PATH libraries
     "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
@@ -22,13 +22,13 @@ function(tandem_install_program name)
   install(TARGETS ${name} RUNTIME COMPONENT tools)
 endfunction()
 
-# tandem_install_adaptor(NAME): a library that is loaded by its path, out of the linker's way.
+# tandem_install_adaptor(NAME): installs a library that is loaded by its path, where the linker does not look.
 function(tandem_install_adaptor name)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
   install(TARGETS ${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/tandem" COMPONENT tools)
 endfunction()
 
-# tandem_install_package(): what finds the libraries, once all of them are known.
+# tandem_install_package(): installs the files that find the libraries, once all of these are known.
 function(tandem_install_package)
   include(CMakePackageConfigHelpers)
   set(tandem_links_statically ON)
@@ -49,7 +49,7 @@ function(tandem_install_package)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT dev)
 endfunction()
 
-# One file for each way to link: a width of Bullet with all that it needs, the devices, the part without Bullet.
+# One file for each way to link: a width of Bullet with its dependencies, the devices, the part without Bullet.
 function(tandem_install_pkgconfig)
   set(folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
   file(RELATIVE_PATH to_prefix "/${folder}" "/")

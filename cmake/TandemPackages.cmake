@@ -1,5 +1,5 @@
-# Debian packages, from a build with shared libraries: `cpack` or scripts/deb.sh. What a library needs is read from
-# the library itself by dpkg-shlibdeps.
+# Makes Debian packages from a build with shared libraries: `cpack` or scripts/deb.sh. dpkg-shlibdeps reads each
+# library's dependencies from the library itself.
 set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 if(PROJECT_VERSION_MAJOR GREATER 0)
   set(soversion ${PROJECT_VERSION_MAJOR})
@@ -49,7 +49,7 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION "networked haptic cooperation in Bullet world
  into unmodified programs by LD_PRELOAD, and the rule that gives the user at
  the machine access to haptic devices on USB and HID.")
 
-# The libraries are not installed while dpkg-shlibdeps looks at who needs them.
+# dpkg-shlibdeps looks for our libraries here, as they are not installed yet.
 foreach(folder coordination falcon bullet_bridge plugin)
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/${folder}")
 endforeach()

@@ -1,12 +1,12 @@
-# How every target of the project is compiled: warnings are errors on our own code only, floating
-# point is strict so that equal inputs give equal bits in Debug and Release, symbols are hidden.
+# Compile options of every target: warnings are errors in our own code only. Floating point is strict, so that equal
+# inputs give equal bits in Debug and Release. Symbols are hidden.
 
 include(TandemUnity)
 
 add_library(tandem_compile_options INTERFACE)
 target_compile_features(tandem_compile_options INTERFACE cxx_std_20)
-# Private headers of another folder are included by their path from the checkout; they name their neighbours
-# relative to their own src/. tests/house/include_rule.py says who may include what.
+# Private headers of another folder are included by their path from the checkout. They name their neighbours relative to
+# their own src/. tests/house/include_rule.py defines who may include what.
 target_include_directories(tandem_compile_options INTERFACE "${PROJECT_SOURCE_DIR}")
 foreach(folder coordination bullet_bridge falcon plugin)
   target_include_directories(tandem_compile_options INTERFACE "${PROJECT_SOURCE_DIR}/${folder}/src")
@@ -14,12 +14,12 @@ endforeach()
 target_compile_options(tandem_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Werror -ffp-contract=off -fno-math-errno)
-# GCC 12's optimiser warns of std::string and std::vector where nothing is wrong (GCC bugs 105651, 105329,
-# 105562); Clang, which CI builds with, too, has no such warnings. They stay visible but do not stop a build.
+# GCC 12's optimiser gives false warnings for std::string and std::vector (GCC bugs 105651, 105329, 105562). Clang,
+# which CI also builds with, does not. They stay visible but do not stop a build.
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:
   -Wno-restrict -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow>)
-# In a batch of sources a name of one source is no shadow on a name of another, and GCC takes each source for a header
-# when it warns of types that are one source's own. The preset clang has no batches and all warnings.
+# In a batch of sources, a name of one source may shadow a name of another without harm. GCC also takes each source for
+# a header when it warns of types of one source. The preset clang has no batches and all warnings.
 if(TANDEM_UNITY)
   target_compile_options(tandem_compile_options INTERFACE
     -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
@@ -32,9 +32,9 @@ if(TANDEM_SANITIZE)
   target_link_options(tandem_compile_options INTERFACE -fsanitize=${TANDEM_SANITIZE})
 endif()
 
-# tandem_precompile(TARGET headers...): headers that nearly every source of a target reads, compiled once. What a
-# header of ours needs it must still include itself: tests/house compiles each alone.
-# tandem_precompile(TARGET LIKE other): those of another target with the same options, without compiling them again.
+# tandem_precompile(TARGET headers...): compiles headers once that nearly every source of a target reads. Our headers
+# must still include all they need: tests/house compiles each alone. tandem_precompile(TARGET LIKE other): uses those of
+# another target with the same options.
 option(TANDEM_PRECOMPILE "Precompile common headers: halves the time of a full build" ON)
 function(tandem_precompile target)
   if(NOT TANDEM_PRECOMPILE)
@@ -48,8 +48,8 @@ function(tandem_precompile target)
 endfunction()
 
 # tandem_add_library(NAME FOLDER folder [WIDTH float|float64] SOURCES ... PUBLIC libs... PRIVATE libs...)
-# One library of the house: public headers in <folder>/include, private sources in <folder>/src. It is static or, with
-# BUILD_SHARED_LIBS, shared. WIDTH: of the Bullet that it is compiled for.
+# Adds a library with public headers in <folder>/include and private sources in <folder>/src. It is static or, with
+# BUILD_SHARED_LIBS, shared. WIDTH is the scalar width of its Bullet.
 function(tandem_add_library name)
   cmake_parse_arguments(arg "" "FOLDER;WIDTH" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(folder "${PROJECT_SOURCE_DIR}/${arg_FOLDER}")
@@ -82,8 +82,8 @@ function(tandem_add_library name)
   endif()
 endfunction()
 
-# Who links a library for one width of Bullet learns the width, and CMake refuses to link both: its message has the
-# property's name.
+# A target that links a library for one width of Bullet gets that width. CMake refuses to link both; its message
+# contains the property's name.
 function(tandem_mark_width target width)
   set(scalar_bytes_float 4)
   set(scalar_bytes_float64 8)
@@ -93,8 +93,8 @@ function(tandem_mark_width target width)
     COMPATIBLE_INTERFACE_STRING TANDEM_EITHER_FLOAT_OR_FLOAT64)
 endfunction()
 
-# What a shared library is called and what it shows. Before 1.0 each minor version may break what was compiled for
-# the one before, so it is part of the name that programs look for at run time.
+# Sets the name and the exported symbols of a shared library. Before 1.0 each minor version may break binaries compiled
+# for the one before, so it is part of the name that programs look for at run time.
 function(tandem_set_abi target width)
   set(soversion ${PROJECT_VERSION_MAJOR})
   if(PROJECT_VERSION_MAJOR EQUAL 0)
@@ -112,7 +112,7 @@ function(tandem_set_abi target width)
   endif()
 endfunction()
 
-# tandem_add_program(NAME SOURCES ... LIBRARIES ...): an executable of ours.
+# tandem_add_program(NAME SOURCES ... LIBRARIES ...): adds an executable.
 function(tandem_add_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})

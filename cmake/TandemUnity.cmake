@@ -1,10 +1,10 @@
-# Sources are short and what they include is long, so several are compiled as one: most of a full build's time is
-# spent on headers. The preset clang compiles each source alone, which proves its own includes.
+# Compiles several sources as one. Sources are short and their includes long: most of a full build's time goes into
+# headers. The preset clang compiles each source alone, which proves its own includes.
 option(TANDEM_UNITY "Compile several sources at once: less than half the time of a full build" ON)
 
-# tandem_unity(TARGET [ALONE sources...]): call it when the target has all its sources. ALONE: these stay alone.
-# Sources compiled as one share their anonymous namespaces, so a source joins a batch only if it has no word that
-# another one there defines for itself.
+# tandem_unity(TARGET [ALONE sources...]): call it once the target has all its sources. Sources after ALONE are compiled
+# alone. Sources compiled as one share their anonymous namespaces. So a source joins a batch only if it uses no word
+# that another source there defines for itself.
 function(tandem_unity target)
   cmake_parse_arguments(arg "" "" "ALONE" ${ARGN})
   if(NOT TANDEM_UNITY)
@@ -45,8 +45,8 @@ function(tandem_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# tandem_read_source(SOURCE TEXT NAMES): the source without comments, and the types, functions and constants that it
-# defines in anonymous namespaces, at the start of a line.
+# tandem_read_source(SOURCE TEXT NAMES): gives the source without comments, and its types, functions and constants in
+# anonymous namespaces that begin a line.
 function(tandem_read_source source text names)
   file(READ "${source}" read)
   string(REGEX REPLACE "[[;]" "(" read "${read}")  # both mean something in a list of CMake's
@@ -67,7 +67,7 @@ function(tandem_read_source source text names)
   set(${names} "${found}" PARENT_SCOPE)
 endfunction()
 
-# tandem_has_word(TEXT WORDS FOUND): whether one of the words stands in the text.
+# tandem_has_word(TEXT WORDS FOUND): sets FOUND to true if one of the words is in the text.
 function(tandem_has_word text words found)
   set(${found} OFF PARENT_SCOPE)
   list(JOIN words "|" any)

@@ -1,5 +1,4 @@
-# Run by CPack on what goes into the packages: installed in the system's own folders, nobody needs to be told where
-# the libraries are.
+# CPack runs this on the packages' files. Libraries in the system's own folders need no run path.
 file(GLOB_RECURSE files LIST_DIRECTORIES FALSE "${CPACK_TEMPORARY_DIRECTORY}/*")
 list(FILTER files INCLUDE REGEX "/(bin/tandem[^/]*|libtandem_[^/]*\\.so[^/]*|tandem/[^/]*\\.so)$")
 foreach(file ${files})

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Equal runs must have equal state hashes in Debug and Release and with any compiler: runs both
-# experiments with all schemes from two build folders, and compares.
+# Compares the state hashes of both experiments with all schemes from two build folders. Equal runs must have equal
+# hashes in Debug and Release and with any compiler.
 #
 #   scripts/compare_hashes.sh build/dev build/release
 #

@@ -2,7 +2,7 @@
 # Debian packages: libtandem (shared libraries), libtandem-dev (to compile with), tandem-tools (the program).
 #
 #   scripts/deb.sh                 installs what is missing, builds, and puts the packages into out/deb
-#   scripts/deb.sh BUILD FOLDER    from a build folder with shared libraries, which is built already, into FOLDER
+#   scripts/deb.sh BUILD FOLDER    from a finished build folder with shared libraries, into FOLDER
 #
 # Afterwards: apt-get install out/deb/*.deb
 set -euo pipefail

@@ -26,7 +26,7 @@ all_schemes=(remote_dynamic_proxy kinematic_proxy virtual_coupling)
 contact_schemes=(remote_dynamic_proxy kinematic_proxy)   # virtual coupling has no remote user to touch
 runs=()
 
-# run NAME SCENARIO [KEY=VALUE...]: once for each name, however many parts of the report need it.
+# run NAME SCENARIO [KEY=VALUE...]: runs once for each name, however many parts of the report use it.
 run() {
   local name=$1 scenario=$2 known overrides=()
   shift 2
@@ -36,7 +36,7 @@ run() {
   runs+=("$out/$name")
 }
 
-# The run with a scenario's own damping has no damping in its name.
+# A run with the scenario's own damping has no damping in its name.
 damping_suffix() { [[ "$1" == 0.5 ]] || echo "-damping-$1"; }
 
 cooperate() {   # SCHEME B_DEV
@@ -50,8 +50,8 @@ touch_user() {   # SCHEME STIFFNESS DELAY_MS B_DEV
     "contact.stiffness=$2" "network.delay=$delay" "device.damping=$4"
 }
 
-# cooperate_live NAME SCENARIO DELAY_MS [KEY=VALUE...]: two sites with `tandem link` between them. Site 2 only
-# answers, so it hears of site 1 through the link.
+# cooperate_live NAME SCENARIO DELAY_MS [KEY=VALUE...]: runs two sites with `tandem link` between them. Site 2 only
+# answers, so it receives site 1 through the link.
 cooperate_live() {
   local name=$1 scenario=$2 delay=$3 overrides=() link first second
   local folder="$out/$name" port=17400
@@ -95,7 +95,7 @@ step "Looking for packages that are missing"
 "$checkout/scripts/packages.sh" install build demo
 
 step "Configuring the build"
-# The tests' packages are not needed here; where they are, the build folder stays good for test.sh.
+# The tests' packages are not needed here. If they are installed, the build folder stays usable for test.sh.
 tests=ON
 [[ -z "$("$checkout/scripts/packages.sh" missing test)" ]] || tests=OFF
 configure_preset release "-DTANDEM_BUILD_TESTS=$tests"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs every fuzzer of the preset fuzz for SECONDS, from its seeds and from what earlier runs found.
-# An input that breaks a parser is kept under out/fuzz, and the command that shows it again is printed.
+# Runs every fuzzer of the preset fuzz for SECONDS, from its seeds and from earlier findings. Keeps an input that breaks
+# a parser in out/fuzz, and prints the command that reproduces it.
 #
-#   scripts/fuzz.sh [SECONDS]      60 when not given; build first with scripts/test.sh fuzz
+#   scripts/fuzz.sh [SECONDS]      60 by default; build first with scripts/test.sh fuzz
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -11,7 +11,7 @@ seconds=${1:-60}
 seeds="$checkout/tests/fuzz/corpus"
 bin="$checkout/build/fuzz/tests/fuzz"
 
-# Prints the log only when the fuzzer found something.
+# Prints the log only if the fuzzer found something.
 fuzz() {
   local name=$1 found="$checkout/out/fuzz/$1"
   mkdir -p "$found/corpus"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Instructions per haptic tick, counted by valgrind's callgrind, against a checked-in baseline.
+# Counts instructions per haptic tick with valgrind's callgrind, and compares them with a checked-in baseline.
 #
 #   scripts/instructions.sh [--update] [BUILD]     BUILD: build folder, build/release by default
 #
-# Exit status 0: within the tolerance, or not comparable (another compiler, other flags or another
-# processor than the baseline's; it says so). 1: a scene costs more or less than the baseline
-# allows. 2: cannot count. --update writes the baseline; commit it with the reason for the change.
+# Exit status 0: within the tolerance, or not comparable (another compiler, other flags or another processor than the
+# baseline's; it prints this). 1: a scene costs more or less than the baseline allows. 2: cannot count. --update writes
+# the baseline; commit it with the reason for the change.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# How punctual the live loop is, beside a bare periodic thread (cyclictest) of the same priority.
+# Measures how punctual the live loop is, beside a bare periodic thread (cyclictest) of the same priority.
 #
 #   scripts/live_bench.sh [--runs N] [--seconds S] [--priority P]     5 runs of 60 s at 80
 #
 # In turns: cyclictest while a host steps 1000 active boxes at 60 Hz; two live sites of Experiment I, one of them with
 # that host; one second of it beside the same in virtual time. Limits are on the medians: skipped ticks, wake-up and tick
-# times, and the force. Everything that was measured stays in out/live_bench. Needs the right to SCHED_FIFO.
+# times, and the force. All measurements stay in out/live_bench. Needs the right to SCHED_FIFO.
 #
-# Exit status 0: all limits hold. 3: one does not. 1 and 2: it could not be measured, or asked for wrongly.
+# Exit status 0: all limits hold. 3: one does not. 1 and 2: the measurement failed, or bad use.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -41,7 +41,7 @@ configure_preset release -DTANDEM_BUILD_TESTS=ON
 build_preset release tandem_live_bench
 rm -rf "$out" && mkdir -p "$out"
 
-# bare ROUND: cyclictest, its wake-up times counted by the microsecond up to 20 ms.
+# bare ROUND: runs cyclictest, with a histogram of wake-up times per microsecond up to 20 ms.
 bare() {
   "$program" --load --seconds $((seconds + 2)) >"$out/load$1.json" & local load=$!
   sleep 1

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The one list of Debian packages that Tandem needs, and how they come onto a machine.
+# The only list of Debian packages that Tandem needs. Prints or installs them.
 #
 #   scripts/packages.sh list    build demo   prints what the groups contain
-#   scripts/packages.sh missing build demo   prints what of it is not installed
-#   scripts/packages.sh install build demo   installs what is missing; needs no network when all is there
+#   scripts/packages.sh missing build demo   prints which of them are not installed
+#   scripts/packages.sh install build demo   installs what is missing; needs no network if none is missing
 #
 # Groups: build (library and program), demo (figures), test, bench (other engines that tandem bench compares
 # with, and valgrind for instruction counts; optional), live (cyclictest, for live_bench.sh; optional), hosts (a
-# simulator of others with Bullet inside, for tests/preload), package (Debian packages), ci (Clang, sanitizers,
+# foreign simulator with Bullet inside, for tests/preload), package (Debian packages), ci (Clang, sanitizers,
 # fuzzing, format).
 set -euo pipefail
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# The long tests of the network: in virtual time, minutes of a machine each, and one over real sockets.
-# scripts/test.sh runs a slice of them.
+# Runs the long tests of the network: most in virtual time, for minutes each, and one over real sockets.
+# scripts/test.sh runs a part of them.
 #
-#   scripts/soak.sh [forged|peers|churn|matrix|flood]...     all five when none is named
+#   scripts/soak.sh [forged|peers|churn|matrix|flood]...     all five by default
 #
 # forged: 1e8 forged, changed, cut, replayed and random datagrams at a live pair. peers: four sites for 24 hours with
-# 1 s delay, 100 ms jitter, a quarter lost and a quarter twice. churn: 10,000 times a site leaves, is killed or gets
+# 1 s delay, 100 ms jitter, a quarter lost and a quarter doubled. churn: 10,000 times a site leaves, is killed or gets
 # another port. matrix: two sites with worlds and devices under 150 conditions of the network, three times each, with an
 # outage. flood: two `tandem peer` for 20 s, and again with 100,000 forged datagrams a second at one of them, three times
-# each: its memory must grow no more than without (64 kB aside), no more of its ticks be late (a hundredth of all aside),
-# and no more of its peer's states be lost (a hundredth aside).
+# each. Under the flood its memory may grow by 64 kB more than without. Another hundredth of all its ticks may be late,
+# and another hundredth of its peer's states lost.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -29,15 +29,16 @@ out="$checkout/out/soak"
 # rss PID: resident memory [kB].
 rss() { awk '/^VmRSS:/ { print $2 }' "/proc/$1/status"; }
 
-# peer SITE PORT OTHER_PORT: for the background, whose process it becomes.
+# peer SITE PORT OTHER_PORT: call it in the background; its subshell becomes the program.
 peer() {
   exec "$checkout/build/release/demos/tandem" peer --scenario "$checkout/demos/scenarios/experiment1.toml" \
     --set experiment.duration=20 --site "$1" --bind "127.0.0.1:$2" --peer "127.0.0.1:$3" --key "$out/k.psk" \
     --out "$out/$run" --quiet
 }
 
-# live_pair NAME RATE: 20 s with so many forged datagrams a second at site 2. Sets $late, of a million of its ticks,
-# $given, the states that it was given, and $grown, its memory in kB from the 5th to the 19th second; and prints a line.
+# live_pair NAME RATE: runs 20 s with RATE forged datagrams a second at site 2, and prints a line. Sets $late, per
+# million of its ticks; $given, the states that it received; $grown, its memory growth in kB from the 5th to the 19th
+# second.
 live_pair() {
   local run=$1 rate=$2 first second early end
   mkdir -p "$out/$run"
@@ -65,7 +66,7 @@ PYTHON
   given=${late#* } late=${late% *}
 }
 
-# median NUMBER...: of an odd count.
+# median NUMBER...: the median of an odd count.
 median() { printf '%s\n' "$@" | sort -n | sed -n "$((($# + 1) / 2))p"; }
 
 flood() {

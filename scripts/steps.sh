@@ -5,10 +5,10 @@ checkout=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 SECONDS=0
 export NINJA_STATUS="[%f/%t, %e s] "
 
-# step TEXT: a line with the seconds since the script began.
+# step TEXT: prints a line with the seconds since the script began.
 step() { printf '[%4d s] %s\n' "$SECONDS" "$*"; }
 
-# configure_preset PRESET [OPTION...]: afresh when the build folder was made for another checkout.
+# configure_preset PRESET [OPTION...]: configures a preset; starts afresh if another checkout made the build folder.
 configure_preset() {
   local preset=$1 options=("${@:2}")
   local cache="$checkout/build/$preset/CMakeCache.txt" log="$checkout/build/$preset.log"
@@ -22,7 +22,7 @@ configure_preset() {
   fi
 }
 
-# build_preset PRESET [TARGET...]: all targets when none is named.
+# build_preset PRESET [TARGET...]: builds these targets, or all.
 build_preset() {
   local preset=$1
   shift

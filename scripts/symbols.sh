@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# The names that the shared libraries show, demangled and sorted: what programs that were linked against them rely on.
+# Lists the names that the shared libraries export, demangled and sorted. Programs linked to the libraries rely on them.
 #
 #   scripts/symbols.sh FOLDER            prints them, library by library; FOLDER or one in it holds libtandem_*.so
-#   scripts/symbols.sh --check FOLDER    against the lists in tests/install/symbols; 1 when a name has disappeared
+#   scripts/symbols.sh --check FOLDER    compares with the lists in tests/install/symbols; 1 if a name has disappeared
 #   scripts/symbols.sh --update FOLDER   writes these lists
 #
-# Only names that each compiler gives out alike: inline functions and templates are left out, which it may or may not
-# leave in a library, and both widths of Bullet are one list. New names do not fail a check, but it prints them:
-# write them down with --update once they are meant to stay. A name that has disappeared breaks programs that were
-# built before: it needs a new SOVERSION (the minor version, before 1.0), and then --update.
+# Inline functions and templates are left out, as not every compiler exports them. Both widths of Bullet share one list.
+# New names do not fail a check, but it prints them: write them down with --update once they are meant to stay. A name
+# that has disappeared breaks programs that were built before. It needs a new SOVERSION (the minor version, before 1.0),
+# and then --update.
 set -euo pipefail
 export LC_ALL=C
 
@@ -17,13 +17,13 @@ libraries=(coordination network falcon devices bullet_bridge plugin)
 
 fail() { echo "symbols.sh: $*" >&2; exit 2; }
 
-# names FILE: functions and data with a definition of their own; not the tables of classes, which are weak or not.
+# names FILE: functions and data with their own definition; not class tables, which are weak in some builds only.
 names() {
   nm --dynamic --defined-only --demangle "$1" | sed -n 's/^[0-9a-f]* [BDRT] \(.*\)@@.*/\1/p' |
     grep -v '^[a-z -]* \(for\|to\) tandem::' | sort -u
 }
 
-# known_names FOLDER LIBRARY: of both widths, where there are two; they must not differ but by btScalar.
+# known_names FOLDER LIBRARY: names of both widths, if there are two; they may differ only by btScalar.
 known_names() {
   local file=$1/libtandem_$2.so double=$1/libtandem_$2_float64.so
   [[ -e $file ]] || file=$double

@@ -30,7 +30,7 @@ esac
 step "Looking for packages that are missing"
 "$checkout/scripts/packages.sh" install "${groups[@]}"
 
-# build PRESET [OPTION...]: configures it, and builds the targets that were chosen.
+# build PRESET [OPTION...]: configures it, and builds the chosen targets.
 build() {
   step "Configuring preset $1"
   configure_preset "$@"

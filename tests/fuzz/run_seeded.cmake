@@ -1,4 +1,4 @@
-# Runs FUZZER on SEEDS and RUNS inputs made from them, the same ones each time; what it finds goes to FOUND.
+# Runs FUZZER on SEEDS and on RUNS inputs made from them, the same each time. Findings go to FOUND.
 file(REMOVE_RECURSE "${FOUND}")
 file(MAKE_DIRECTORY "${FOUND}")
 execute_process(

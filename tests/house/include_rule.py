@@ -31,7 +31,7 @@ FILES = {"fstream", "filesystem", "iostream", "syncstream", "fcntl.h", "unistd.h
 SOCKETS = {"netdb.h", "poll.h", "sys/epoll.h", "sys/un.h"}
 SOCKET_FOLDERS = ("sys/socket", "netinet/", "arpa/", "net/")
 
-# Headers of dependencies, by how they begin.
+# Prefixes of the headers of dependencies.
 DEPENDENCIES = {
     "Bullet": re.compile(r"(bt[A-Z]|Bullet[A-Z]?\w*/|LinearMath/|bullet/)"),
     "Eigen": re.compile(r"(unsupported/)?Eigen/"),
@@ -69,7 +69,7 @@ RULES = {
         ("thread", THREADS - LOCKS), ("clock", CLOCKS), ("file", FILES), ("socket", SOCKETS))),
     "falcon": Rule(("coordination",), ("Eigen", "hidapi", "libftdi1")),
     "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
-    # It must look at a host's own bodies, and its settings come out of a file.
+    # An adaptor must look at a host's own bodies, and reads its settings from a file.
     ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++")),
     "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11")),
     "bench": Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "Boost",

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What other programs load: LD_PRELOAD's library in somebody's program, for both widths, and the plugin for PyBullet,
-# which the tests of the build itself use in a stub of PyBullet's server.
+# Tests the libraries that other programs load: the LD_PRELOAD library in a foreign program, for both widths, and the
+# plugin for PyBullet. The tests of the build itself run the plugin in a stub of PyBullet's server.
 #
 #   adaptors.sh PREFIX WORK
 set -euo pipefail
@@ -29,7 +29,7 @@ for bullet in bullet bullet-float64; do
   }
 done
 
-# All that it needs is found from where it is; the entry points are there, and the helper finds the file.
+# The plugin finds its dependencies from its place. The entry points exist, and the helper finds the file.
 python3 - "$plugin" <<'END'
 import ctypes, sys
 plugin = ctypes.CDLL(sys.argv[1])

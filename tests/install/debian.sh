@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Debian's packages from beginning to end, on this machine: packs a shared build, installs all three, builds and runs
-# somebody's project with them, runs the program, purges them, and looks for what is left. Ends with 77, skipped,
-# where that cannot or should not be done.
+# Tests Debian's packages from beginning to end, on this machine. Packs a shared build, installs all three packages,
+# builds and runs an outside project with them, runs the program, purges them, and looks for leftovers. Ends with 77,
+# skipped, if that is impossible or unwanted.
 #
 #   debian.sh BUILD WORK
 set -euo pipefail
@@ -24,7 +24,7 @@ done
 
 rm -rf "$work"
 mkdir -p "$work"
-# All files of the system's folders that a package of ours might touch.
+# Lists all files of the system's folders that our packages might touch.
 list_system() { find /usr/include /usr/lib /usr/share /usr/bin /etc -path '*tandem*' | sort; }
 list_system >"$work/before"
 
@@ -34,7 +34,7 @@ trap purge EXIT
 DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$work"/deb/*.deb </dev/null \
   >"$work/install.log" 2>&1 || { cat "$work/install.log"; fail "apt-get cannot install the packages"; }
 
-# depends PACKAGE NAME: the package says that it needs this one.
+# depends PACKAGE NAME: the package must declare this dependency.
 depends() {
   dpkg-query -W -f='${Depends}' "$1" | tr ',' '\n' | sed 's/^ *//; s/ .*//' | grep -qxF "$2" ||
     fail "$1 does not depend on $2: $(dpkg-query -W -f='${Depends}' "$1")"
@@ -47,7 +47,7 @@ depends libtandem-dev libbullet-dev
 depends libtandem-dev libeigen3-dev
 depends tandem-tools "$library"
 
-# Nothing is said of where: all is in the system's own folders.
+# No path is given: everything is in the system's own folders.
 cmake -G Ninja -S "$here/consumer" -B "$work/consumer" -DCMAKE_CXX_COMPILER=g++ \
   "-DMINIMAL_HOST=$here/../../demos/hosts/minimal_host.cpp" >"$work/configure.log"
 cmake --build "$work/consumer"
@@ -55,7 +55,7 @@ ctest --test-dir "$work/consumer" --output-on-failure
 read -ra flags <<<"$(pkg-config --cflags --libs tandem-float64)"
 g++ -std=c++17 "$here/consumer/host17.cpp" "${flags[@]}" -o "$work/host17"
 "$work/host17"
-# A build that left the program out packs the udev rule alone.
+# A build without the program packs the udev rule alone.
 for program in tandem tandem-float; do
   [[ -x $build/demos/$program ]] || { echo "$program was not built, so not packed"; continue; }
   "$program" run --json /usr/share/tandem/scenarios/experiment1.toml >"$work/$program.json"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A host built by nothing but a compiler and pkg-config, for both widths.
+# Builds a host with only a compiler and pkg-config, for both widths.
 #
 #   pkgconfig.sh static|shared PREFIX WORK
 set -euo pipefail
@@ -18,7 +18,7 @@ for module in tandem tandem-float64; do
   g++ -std=c++17 "$host" "${flags[@]}" "-Wl,-rpath,$(dirname "$PKG_CONFIG_PATH")" -o "$work/$module"
   "$work/$module" | tee "$work/$module.log"
   grep -q '^cube pushed to' "$work/$module.log"
-  # The static program carries Tandem, the shared one what it links against.
+  # The static program contains Tandem; the shared one depends on it.
   if ldd "$work/$module" | grep -q 'libtandem_plugin' && [[ $kind == static ]]; then
     echo "$module: a static package, but the program looks for a shared library" >&2
     exit 1

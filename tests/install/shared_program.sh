@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The programs, linked anew to the shared libraries: whether they show all that a large user needs, without compiling
-# that user once more. Takes the link command of the static build and puts the shared libraries in the place of ours.
+# Links the programs to the shared libraries, to test that these export all that a large user needs. Nothing is compiled
+# again: takes the link command of the static build and replaces our libraries by the shared ones.
 #
 #   shared_program.sh STATIC_BUILD STATIC_PREFIX SHARED_PREFIX WORK
 set -euo pipefail

@@ -310,7 +310,7 @@ class WhatGoesWrong(unittest.TestCase):
                         f"body {body}: damping was set while attached; it acts again after close"
                         for body in (cube, floor)])
                 after = client.dynamics(cube)
-                # Mass, friction, inertia; restitution is told of multibodies only.
+                # Mass, friction and inertia; PyBullet reports restitution for multibodies only.
                 for place in (0, 1, 2) if maximal else (0, 1, 2, 5):
                     self.assertEqual(after[place], before[place])
 
@@ -476,7 +476,7 @@ class Shapes(unittest.TestCase):
                     for _ in range(240):
                         site.step()
                     self.assertEqual(site.read().status, ())
-                    # A hull keeps PyBullet's points and has Bullet's margin around.
+                    # A hull keeps PyBullet's points, with Bullet's margin around them.
                     self.assertAlmostEqual(client.position(body)[2], height, delta=2.5e-3)
 
 
