@@ -21,8 +21,8 @@ bool isSame(const RigidState& a, const RigidState& b) noexcept {
 }  // namespace
 
 PacketSender::PacketSender(const SiteSettings& settings, const Island& island,
-                           const Timeline& timeline, const Bodies& bodies, Hand& hand, Peers& peers,
-                           SiteLog& log) noexcept
+                           const Timeline& timeline, const Bodies& bodies, LocalHand& hand,
+                           Peers& peers, SiteLog& log) noexcept
     : settings_(settings),
       island_(island),
       timeline_(timeline),

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "site/bodies.h"
-#include "site/hand.h"
+#include "site/local_hand.h"
 #include "site/packet_turns.h"
 #include "site/peers.h"
 #include "site/timeline.h"
@@ -16,7 +16,7 @@ namespace tandem {
 class PacketSender {
  public:
   PacketSender(const SiteSettings& settings, const Island& island, const Timeline& timeline,
-               const Bodies& bodies, Hand& hand, Peers& peers, SiteLog& log) noexcept;
+               const Bodies& bodies, LocalHand& hand, Peers& peers, SiteLog& log) noexcept;
 
   /// After set-up. Allocates.
   void setObjectCount(std::size_t count);
@@ -43,7 +43,7 @@ class PacketSender {
   const Island& island_;
   const Timeline& timeline_;
   const Bodies& bodies_;
-  Hand& hand_;
+  LocalHand& hand_;
   Peers& peers_;
   SiteLog& log_;
   std::uint64_t packets_due_ = 0, sequence_ = 0;

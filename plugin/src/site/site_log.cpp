@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "site/hand.h"
+#include "site/local_hand.h"
 #include "site/peers.h"
 
 namespace tandem {
@@ -25,14 +25,14 @@ void SiteLog::addToHash(double now, const Vec3& force_W, const Island& island) n
   for (const BodyIndex b : island.awakeBodies()) hash_.add(island.state(b));
 }
 
-void SiteLog::countForces(const Hand& hand) noexcept {
+void SiteLog::countForces(const LocalHand& hand) noexcept {
   counters.force_clamped = hand.guard().clampedCount();
   counters.force_slewed = hand.guard().slewedCount();
   counters.energy_limited = hand.energy().limitedCount();
 }
 
-void SiteLog::recordTick(double now, const Hand& hand, const Bodies& bodies, const Peers& peers,
-                         const Island& island, bool reads_bullet) noexcept {
+void SiteLog::recordTick(double now, const LocalHand& hand, const Bodies& bodies,
+                         const Peers& peers, const Island& island, bool reads_bullet) noexcept {
   if (!recording) return;
   const auto fill = [&](const SiteBody& body, BodyRecord& record) {
     record.island = island.state(body.index);

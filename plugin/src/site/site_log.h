@@ -13,7 +13,7 @@
 
 namespace tandem {
 
-class Hand;
+class LocalHand;
 class Peers;
 
 /// Status bits that stay, and stop the island.
@@ -45,13 +45,13 @@ class SiteLog {
   void addToHash(double now, const Vec3& force_W, const Island& island) noexcept;
   [[nodiscard]] std::uint64_t hash() const noexcept { return hash_.value(); }
 
-  void countForces(const Hand& hand) noexcept;
+  void countForces(const LocalHand& hand) noexcept;
 
   void recordArrival(int peer, const Arrival& arrival) noexcept {
     if (recording) recording->addArrival({peer, arrival});
   }
   /// `reads_bullet`: no other thread steps the world now.
-  void recordTick(double now, const Hand& hand, const Bodies& bodies, const Peers& peers,
+  void recordTick(double now, const LocalHand& hand, const Bodies& bodies, const Peers& peers,
                   const Island& island, bool reads_bullet) noexcept;
 
   /// After set-up. Allocates.

@@ -49,7 +49,7 @@ struct SiteParts {
   Timeline timeline;
   HostClock clock;
   Bodies bodies;
-  Hand hand;
+  LocalHand hand;
   HostForces forces;
   Peers peers;
   PacketSender sender;

@@ -29,7 +29,7 @@ NeighbourSeed makeSphereSeed(const RigidState& state, double radius) {
 
 Surroundings::Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& settings,
                            Island& island, Timeline& timeline, const HostClock& clock,
-                           Bodies& bodies, Peers& peers, Hand& hand, HostForces& forces,
+                           Bodies& bodies, Peers& peers, LocalHand& hand, HostForces& forces,
                            SiteLog& log)
     : world_(world),
       settings_(settings),

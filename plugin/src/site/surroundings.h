@@ -4,8 +4,8 @@
 
 #include "bullet_bridge/src/surroundings/neighbours.h"
 #include "bullet_bridge/src/surroundings/obstacles.h"
-#include "site/hand.h"
 #include "site/host_forces.h"
+#include "site/local_hand.h"
 #include "site/neighbour.h"
 #include "site/peers.h"
 
@@ -27,8 +27,8 @@ namespace tandem {
 class Surroundings {
  public:
   Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& settings, Island& island,
-               Timeline& timeline, const HostClock& clock, Bodies& bodies, Peers& peers, Hand& hand,
-               HostForces& forces, SiteLog& log);
+               Timeline& timeline, const HostClock& clock, Bodies& bodies, Peers& peers,
+               LocalHand& hand, HostForces& forces, SiteLog& log);
 
   /// @name Set-up.
   /// @{
@@ -119,7 +119,7 @@ class Surroundings {
   const HostClock& clock_;
   Bodies& bodies_;
   Peers& peers_;
-  Hand& hand_;
+  LocalHand& hand_;
   HostForces& forces_;
   SiteLog& log_;
 

@@ -1,10 +1,11 @@
-#include "site/hand.h"
+#include "site/local_hand.h"
 
 #include <algorithm>
 
 namespace tandem {
 
-Hand::Hand(HapticDevice& device, const SiteSettings& settings, Island& island, bool island_moves)
+LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island& island,
+                     bool island_moves)
     : device_(device),
       island_(island),
       period_(1.0 / settings.haptic_rate),
@@ -23,7 +24,7 @@ Hand::Hand(HapticDevice& device, const SiteSettings& settings, Island& island, b
   hip_ = island.addBody(body);
 }
 
-void Hand::place() noexcept {
+void LocalHand::place() noexcept {
   RigidState state = island_.state(hip_);
   if (isThere()) {
     state.p_W = sample_.hip.p_W;
@@ -34,20 +35,20 @@ void Hand::place() noexcept {
   island_.setState(hip_, state);
 }
 
-void Hand::lead(double duration) noexcept {
+void LocalHand::lead(double duration) noexcept {
   if (!isThere()) return;
   RigidState state = island_.state(hip_);
   state.v_W = (sample_.hip.p_W - state.p_W) / duration;
   island_.setState(hip_, state);
 }
 
-void Hand::countWork() noexcept {
+void LocalHand::countWork() noexcept {
   if (!isThere()) return p_before_W_.reset();
   if (p_before_W_) energy_.countHand(force_W_, sample_.hip.p_W - *p_before_W_);
   p_before_W_ = sample_.hip.p_W;
 }
 
-const Vec3& Hand::computeContactForce() noexcept {
+const Vec3& LocalHand::computeContactForce() noexcept {
   if (!contact_rest_.holds(island_)) {
     contact_W_ = island_.computeContactForce(hip_);
     contact_rest_.set(island_);
@@ -55,14 +56,14 @@ const Vec3& Hand::computeContactForce() noexcept {
   return contact_W_;
 }
 
-void Hand::render(const Vec3& contact_W, bool shares_energy, bool fault) noexcept {
+void LocalHand::render(const Vec3& contact_W, bool shares_energy, bool fault) noexcept {
   contact_W_ = contact_W;
   Vec3 allowed_W = guard_.clamp(contact_W_);
   if (shares_energy) allowed_W = energy_.limit(allowed_W, island_.state(hip_).v_W, period_);
   force_W_ = guard_.follow(allowed_W, fault || fades_);
 }
 
-PointState Hand::pointAt(double time, double tick_start) noexcept {
+PointState LocalHand::pointAt(double time, double tick_start) noexcept {
   if (time > tick_start && device_.capabilities().is_continuous) {
     const DeviceSample between = device_.read(time);
     if (between.valid && isFinite(between.hip)) return between.hip;

@@ -16,10 +16,10 @@ namespace tandem {
 ///
 ///     read -> place (HIP) -> energy of the last tick -> force: contact -> clamp -> energy -> slew
 ///     -> write
-class Hand {
+class LocalHand {
  public:
   /// Puts the HIP into the island. Throws tandem::Error if the device gives no position.
-  Hand(HapticDevice& device, const SiteSettings& settings, Island& island, bool island_moves);
+  LocalHand(HapticDevice& device, const SiteSettings& settings, Island& island, bool island_moves);
 
   [[nodiscard]] BodyIndex hip() const noexcept { return hip_; }
   [[nodiscard]] const DeviceSample& sample() const noexcept { return sample_; }
