@@ -51,6 +51,7 @@ bool isSame(const RigidState& a, const RigidState& b) noexcept {
 struct Island::Impl {
   IslandModel model;
   IslandCounters counters;
+  std::uint64_t revision = 0;
   std::optional<SlotMotion> slot;
   std::optional<SpatialMotion> spatial;
   std::vector<Wrench> wrenches;
@@ -335,7 +336,10 @@ void Island::advance(double dt) noexcept {
   ++impl.counters.advances;
   if (impl.asleep) {
     ++impl.counters.asleep;
-  } else if (impl.slot) {
+    return;
+  }
+  ++impl.revision;
+  if (impl.slot) {
     impl.slot->advance(impl.model, dt);
   } else {
     if (impl.spatial->advance(impl.model, dt, impl.counters)) impl.tryToSleep();
@@ -353,6 +357,7 @@ void Island::catchUp(const std::vector<BodyIndex>& slots, const std::vector<Rigi
   impl.catch_up.run(impl.model, *impl.spatial, impl.counters, slots, from, to, duration, asides);
 }
 
+std::uint64_t Island::revision() const noexcept { return impl_->revision; }
 bool Island::isAsleep() const noexcept { return impl_->asleep; }
 
 const std::vector<BodyIndex>& Island::awakeBodies() const noexcept {

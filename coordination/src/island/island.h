@@ -160,6 +160,9 @@ class Island {
 
   /// Work done since prepare().
   [[nodiscard]] const IslandCounters& counters() const noexcept;
+  /// Rises with each advance of an island that is awake. An island that sleeps at the same revision
+  /// has slept all the time: states change only while it is awake.
+  [[nodiscard]] std::uint64_t revision() const noexcept;
 
   /// True if the next advance has nothing to do.
   [[nodiscard]] bool isAsleep() const noexcept;

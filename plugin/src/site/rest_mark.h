@@ -7,29 +7,23 @@
 
 namespace tandem {
 
-/// A moment at which an island slept, to know later that nothing of it has changed since.
-///
-/// Whatever changes a state wakes the island, and a woken island does not sleep again without an
-/// advance that has something to do; those are counted.
+/// A moment at which an island slept. It tells later whether anything has changed since: a changed
+/// state wakes the island, and only an advance that raises its revision lets it sleep again.
 class RestMark {
  public:
   /// Now, if the island is asleep; else never.
   void set(const Island& island) noexcept {
-    busy_advances_ = island.isAsleep() ? countBusyAdvances(island) : kNever;
+    revision_ = island.isAsleep() ? island.revision() : kNever;
   }
-  void clear() noexcept { busy_advances_ = kNever; }
+  void clear() noexcept { revision_ = kNever; }
   [[nodiscard]] bool holds(const Island& island) const noexcept {
-    return island.isAsleep() && countBusyAdvances(island) == busy_advances_;
+    return island.isAsleep() && island.revision() == revision_;
   }
 
  private:
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
-  static std::uint64_t countBusyAdvances(const Island& island) noexcept {
-    return island.counters().advances - island.counters().asleep;
-  }
-
-  std::uint64_t busy_advances_ = kNever;
+  std::uint64_t revision_ = kNever;
 };
 
 }  // namespace tandem
