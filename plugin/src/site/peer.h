@@ -38,7 +38,6 @@ struct Peer {
   std::optional<std::uint64_t> rejoined_by;  ///< packet with which it came back last
   bool is_detouring = false;                 ///< some object's target is not where its copy is
   bool is_restrained = false;                ///< something is not as with a live peer
-  double velocity_share = 1.0;               ///< by which targets have been slowed down
   Vec3 searched_W = Vec3::Zero();            ///< around here what is near the proxy is known
 
   /// False for an object that the peer has not told of since it came back.

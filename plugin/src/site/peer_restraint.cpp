@@ -80,14 +80,10 @@ void Peers::carryGhost(const Peer& peer, double now) noexcept {
 /// the latest keeps what it has lost already.
 void Peers::slowTargets(Peer& peer) noexcept {
   const double share = peer.health.velocityShare();
-  if (share == peer.velocity_share) return;
-  const double ratio = peer.velocity_share > 0.0 ? share / peer.velocity_share : 0.0;
-  peer.velocity_share = share;
-  for (const Tie& tie : peer.ties) {
-    RigidState target = island_.target(tie.coupler);
-    target.v_W *= ratio;
-    target.w_W *= ratio;
-    island_.setTarget(tie.coupler, target);
+  for (Tie& tie : peer.ties) {
+    if (share >= tie.velocity_share) continue;
+    tie.velocity_share = share;
+    island_.setTarget(tie.coupler, tie.computeTarget());
   }
 }
 
@@ -97,7 +93,7 @@ void Peers::followDetours(Peer& peer, double period) noexcept {
     if (tie.detour.isOver()) continue;
     tie.detour.advance(period);
     peer.is_detouring |= !tie.detour.isOver();
-    island_.setTarget(tie.coupler, tie.detour.apply(tie.theirs));
+    island_.setTarget(tie.coupler, tie.computeTarget());
   }
 }
 

@@ -88,7 +88,6 @@ void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
   } else {
     peer.track.hear(packet.user, time, silence);
   }
-  peer.velocity_share = 1.0;
   scheme_.follow(island_, peer.user, peer.track.at(time, 1.0));
 }
 
@@ -121,7 +120,8 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet) noexcept {
       peer.is_detouring |= !tie.detour.isOver();
     }
     tie.theirs = copy.state;
-    island_.setTarget(tie.coupler, tie.detour.apply(copy.state));
+    tie.velocity_share = 1.0;
+    island_.setTarget(tie.coupler, tie.computeTarget());
   }
   return has_news;
 }

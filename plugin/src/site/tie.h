@@ -14,6 +14,15 @@ struct Tie {
   RigidState theirs;                      ///< the peer's copy as heard last
   Detour detour;                          ///< on which the coupler's target is led there
   std::optional<std::uint64_t> sequence;  ///< of the packet that brought it
+  double velocity_share = 1.0;            ///< by which silence has slowed the target down
+
+  /// The state that the coupler pulls to.
+  [[nodiscard]] RigidState computeTarget() const noexcept {
+    RigidState target = detour.apply(theirs);
+    target.v_W *= velocity_share;
+    target.w_W *= velocity_share;
+    return target;
+  }
 };
 
 }  // namespace tandem
