@@ -82,7 +82,9 @@ void Surroundings::look(double dt, double step_end, double age, bool everywhere)
   if (!everywhere) everywhere = isTurnOfFullLook();
   horizon_ = computeHorizon(dt) + age;
   lookForNeighbours(horizon_, step_end, everywhere);
-  way_by_springs_ = 0.0;
+  // Springs that were stretched at the last look may shoot a body farther than its speed tells.
+  const double way = kSafety * spring_speed_ * horizon_;
+  way_by_springs_ = way > kStandingMargin ? way : 0.0;
   searchObstacles(everywhere);
 }
 
