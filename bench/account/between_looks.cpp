@@ -13,7 +13,8 @@ BetweenLooks::BetweenLooks(const RigidState& from, const RigidState& to, double 
 
 RigidState BetweenLooks::at(double s) const {
   const double t = 1.0 - s;
-  // Of the way to the end, and of the velocities at both; then the rates of these.
+  // Weights of the way to the end and of the velocities at both ends, then the rates of the
+  // weights.
   const double way = s * s * (1.0 + 2.0 * t), out = dt_ * s * t * t, in = -dt_ * s * s * t;
   const double way_rate = 6.0 * s * t / dt_, out_rate = t * (1.0 - 3.0 * s),
                in_rate = s * (1.0 - 3.0 * t);

@@ -6,16 +6,15 @@
 
 namespace tandem::demos::bench {
 
-/// The smallest turn that leads from one orientation to another, as a vector in W [rad].
+/// The smallest rotation from one orientation to another, as a vector in W [rad].
 [[nodiscard]] Vec3 computeTurn(const Quat& from, const Quat& to);
 
-/// How a body got from one state to another: by the cubics that fit both ends, in position and in
-/// turning.
+/// A body's motion between two states: the cubics in position and rotation that fit both ends.
 class BetweenLooks {
  public:
   BetweenLooks(const RigidState& from, const RigidState& to, double dt);
 
-  /// `share` of the time: 0 at the start, 1 at the end.
+  /// `share` is the part of the time: 0 at the start, 1 at the end.
   [[nodiscard]] RigidState at(double share) const;
 
  private:
@@ -24,8 +23,8 @@ class BetweenLooks {
   double dt_;
 };
 
-/// Integral of `f` from 0 to 1 to about `tolerance`, by Simpson's rule in parts as short as kinks
-/// and jumps of `f` ask for.
+/// Integral of `f` from 0 to 1 to about `tolerance`, by Simpson's rule. Kinks and jumps of `f` make
+/// the parts shorter.
 template <typename F>
 double integrate(const F& f, double tolerance) {
   constexpr int kMostDepth = 24, kMostParts = 2000;

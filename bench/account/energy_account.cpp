@@ -9,10 +9,10 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// The site treats moments that are nearer than this as one [s].
+/// The site treats moments closer than this as one [s].
 constexpr double kSameTime = 1e-10;
 
-/// Overlap may move out of rigid contact at this speed [m/s].
+/// Rigid contact may remove overlap at this speed [m/s].
 constexpr double kPushOutSpeed = 0.25;
 
 /// Half extent of a shape along a direction of W [m].
@@ -76,7 +76,7 @@ void EnergyAccount::take(double time) {
   measureStock();
 }
 
-/// Every smooth contact there may be, in an order that only the host's step can change.
+/// Lists all possible smooth contacts, in an order that only the host's step can change.
 void EnergyAccount::findPairs() {
   now_.pairs.clear();
   const auto add = [&](BodyIndex sphere, BodyIndex other, const Obstacle* obstacle) {
@@ -91,14 +91,14 @@ void EnergyAccount::findPairs() {
     for (BodyIndex slot = 0; slot < island_.bodyCount(); ++slot)
       if (island_.isSlot(slot) && island_.isActive(slot) && island_.body(slot).touches_spheres)
         add(b, slot, nullptr);
-    // The hand against what stands does no work, and is no energy of a body.
+    // The hand against a fixed body does no work, and is no energy of a body.
     if (island_.body(b).motion != Motion::kDynamic) continue;
     if (!island_.obstacles()) continue;
     for (const Obstacle& obstacle : *island_.obstacles()) add(b, b, &obstacle);
   }
 }
 
-/// Bodies keep their order in a slot: a pair with a third between it never meets.
+/// Bodies keep their order in a slot: a pair with a third body between never touches.
 bool EnergyAccount::isBlocked(const IslandContact& contact) const {
   const auto place = [&](BodyIndex b) {
     return scene_.guide->dot(origins_[static_cast<std::size_t>(b)].p_W);
@@ -200,7 +200,7 @@ bool EnergyAccount::movesAny(const Pair& pair) const {
 
 void EnergyAccount::addJump(double& flow) {
   flow += stock_.sum() - last_stock_.sum();
-  // What forces move stays where it is, unless it comes or goes.
+  // A body that forces move stays in place during a jump, unless it enters or leaves.
   for (std::size_t b = 0; b < now_.states.size(); ++b)
     if (now_.active[b] && last_.active[b] && island_.isDynamic(static_cast<BodyIndex>(b)) &&
         !island_.isSlot(static_cast<BodyIndex>(b)))
@@ -226,16 +226,16 @@ void EnergyAccount::addMotion() {
   checkWays(dt);
 }
 
-/// The centre of a sphere that is so deep in a body has passed an edge of it, or the middle of two
-/// faces: the direction of the force has jumped.
+/// A sphere so deep in a body has its centre past an edge, or past the middle of two faces. The
+/// direction of the force has then jumped.
 bool EnergyAccount::isOverEdge(const Pair& from, const Pair& to) {
   return from.overlap > 0.0 && to.overlap > 0.0 && from.n_W.dot(to.n_W) < 0.98;
 }
 
-/// A step of the integrator, h at the shortest, does not see where in it a direction begins to
-/// turn, and goes wrong by the force's work in h for the angle that it turns by in h. One that
-/// jumps, past the middle of a ball or capsule, may be wrong for the whole step. From face to face
-/// of a box it jumps at an event, which is located.
+/// A step of the integrator, h at the shortest, misses the moment in which a direction begins to
+/// turn. Its error is the force's work in h times the angle of that turn. Past the middle of a ball
+/// or capsule the direction jumps, and the whole step may be wrong. From face to face of a box it
+/// jumps at a located event.
 double EnergyAccount::doubtOverEdge(const Pair& from, const Pair& to, double dt) const {
   constexpr double kStepsPerPeriod = 1024;
   constexpr double kJump = 1.0;  // [rad]
@@ -274,9 +274,9 @@ double EnergyAccount::workOfTargets(double dt) const {
   return work;
 }
 
-/// Nobody goes farther between two looks than speed allows: that of the fastest body or target,
-/// twice (who is hit by something heavy), what springs may add, and the speed at which overlap
-/// moves out.
+/// Limits a body's way between two looks by its possible speed. That is twice the speed of the
+/// fastest body or target, as a heavy body may hit it. The springs' part and the speed at which
+/// overlap is removed come on top.
 void EnergyAccount::checkWays(double dt) {
   double fastest = 0.0;
   for (CouplerIndex c = 0; c < island_.couplerCount(); ++c)

@@ -8,34 +8,34 @@
 
 namespace tandem::demos::bench {
 
-/// What an account has to know of a scene besides the island.
+/// Facts about a scene that an account needs besides the island.
 struct AccountScene {
-  Vec3 gravity_W = Vec3::Zero();  ///< on shared objects and the host's bodies [m/s^2]
-  Vec3 origin_W = Vec3::Zero();   ///< where weight has no potential
-  bool is_free = true;            ///< nothing stands in the host's world
-  bool has_overlap = false;       ///< rigid bodies may overlap at the start, or when they come
-  CouplerGains contact;           ///< of all smooth contacts
-  std::optional<Vec3> guide;      ///< of the island
+  Vec3 gravity_W = Vec3::Zero();  ///< acts on shared objects and the host's bodies [m/s^2]
+  Vec3 origin_W = Vec3::Zero();   ///< place with zero potential of weight
+  bool is_free = true;            ///< the host's world has no fixed bodies
+  bool has_overlap = false;       ///< rigid bodies may overlap at the start, or on entry
+  CouplerGains contact;           ///< gains of all smooth contacts
+  std::optional<Vec3> guide;      ///< guide of the island
   double haptic_period = 1e-3;    ///< [s]
 };
 
-/// The same energy by where it is [J].
+/// Energy by its form [J].
 struct EnergyStock {
-  double motion = 0.0;    ///< of all bodies that forces move
+  double motion = 0.0;    ///< kinetic, of all bodies that forces move
   double couplers = 0.0;  ///< in springs to targets
   double contacts = 0.0;  ///< in springs of overlapping pairs
-  double weight = 0.0;    ///< may be negative
+  double weight = 0.0;    ///< potential; may be negative
 
   [[nodiscard]] double sum() const { return motion + couplers + contacts + weight; }
 };
 
-/// Energy that came in from outside, so far [J].
+/// Energy that came in from outside so far [J].
 struct EnergyFlows {
   double target_jumps = 0.0;   ///< coupler springs stretched by new targets, the hand's samples
                                ///< jumping, bodies coming and going
-  double target_motion = 0.0;  ///< dampers dragged by targets that are held, with their velocity
+  double target_motion = 0.0;  ///< dampers dragged by held targets, by their velocity
   double hand = 0.0;           ///< the haptic interface point pushing through contacts
-  double host = 0.0;           ///< whatever changed during the host's steps
+  double host = 0.0;           ///< all changes during the host's steps
   double push_out = 0.0;       ///< rigid bodies moved out of overlap, without a velocity
 
   [[nodiscard]] double sum() const { return target_jumps + target_motion + hand + host + push_out; }
@@ -49,58 +49,57 @@ struct AccountRow {
   double lost = 0.0;  ///< so far [J]
 };
 
-/// Follows the mechanical energy of an island from outside, by nothing but the states of its bodies
-/// at any number of moments:
+/// Follows the mechanical energy of an island from outside, using only the states of its bodies at
+/// any number of moments:
 ///
 ///   lost = E(0) + W - E(t)     must never fall
 ///
-/// E is kinetic energy, weight and the springs of couplers and contacts. W is what came in:
+/// E is kinetic energy, weight and the springs of couplers and contacts. W is the energy input:
 ///
-/// - between two looks at the same time everything that changes came from outside: its whole
-///   difference is work (a target that jumps by d under a coupler K: K d . (p_new - p) ...);
-/// - a target is held, yet its velocity v_t counts in the damper: B (|v_t|^2 dt - v_t . dp), exact;
-/// - the haptic interface point moves evenly in a tick: its work is the law of contact times its
-///   velocity, integrated along the ways of both (BetweenLooks). Where these have a kink, what it
-///   gives is known from the bodies' momentum, too, and the difference is doubt();
-/// - bodies that rigid contact moves out of overlap are shifted without a velocity: what springs
-/// and
-///   weight have more than they had without the shift.
+/// - between two looks at the same time every change came from outside. The whole difference is
+///   work (a target that jumps by d under a coupler K: K d . (p_new - p) ...);
+/// - a target is held, but its velocity v_t counts in the damper: B (|v_t|^2 dt - v_t . dp), exact;
+/// - the haptic interface point moves evenly in a tick. Its work is the law of contact times its
+///   velocity, integrated along both ways (BetweenLooks). At kinks of these the bodies' momentum
+///   also gives the work, and the difference is doubt();
+/// - rigid contact shifts bodies out of overlap without a velocity. The work is the energy that
+///   springs and weight gain by the shift.
 ///
-/// Nothing is estimated that dissipates: dampers, friction and impacts can only make `lost` grow.
+/// Dissipation is not estimated: dampers, friction and impacts can only make `lost` grow.
 class EnergyAccount {
  public:
   /// Both must outlive the account.
   EnergyAccount(const Island& island, const AccountScene& scene);
 
-  /// Takes the island's state at `time` [s]; never earlier than at the last look.
+  /// Records the island's state at `time` [s], not earlier than at the last look.
   void look(double time);
   /// The same at the end of a host step, during which no time passes in the island.
   void lookAfterHost(double time);
 
-  /// Keeps what each look finds in `rows`; null: no more.
+  /// Appends the result of each look to `rows`; null stops this.
   void setTrace(std::vector<AccountRow>* rows) { trace_ = rows; }
 
-  /// Looks in the coming tick that it takes to know the hand's work, at least 1, at most `most`.
+  /// Number of looks in the coming tick that the hand's work needs: 1 to `most`.
   [[nodiscard]] int countLooks(int most) const;
 
   [[nodiscard]] const EnergyStock& stock() const { return stock_; }
   [[nodiscard]] const EnergyStock& startStock() const { return start_; }
   [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
-  /// Largest fall of what was lost: energy that nothing accounts for [J].
+  /// Largest fall of the lost energy: energy without a source [J].
   [[nodiscard]] double unaccounted() const { return unaccounted_; }
-  /// When it was that large first [s].
+  /// Time at which that largest fall occurred [s].
   [[nodiscard]] double unaccountedTime() const { return unaccounted_time_; }
   /// Largest energy that took part [J].
   [[nodiscard]] double peak() const { return peak_; }
-  /// What the hand's work may be wrong by, and steps of the integrator across an edge [J].
+  /// Possible error of the hand's work, and of integrator steps across an edge [J].
   [[nodiscard]] double doubt() const { return doubt_; }
-  /// Of a body that touches rigidly [rad/s].
+  /// Largest angular velocity of a body in rigid contact [rad/s].
   [[nodiscard]] double fastestSpin() const { return fastest_spin_; }
-  /// What rounding of coordinates may come to [J].
+  /// Possible rounding by coordinates [J].
   [[nodiscard]] double rounding() const { return rounding_; }
-  /// Everything has been a finite number so far.
+  /// True while every number has been finite.
   [[nodiscard]] bool isFinite() const { return finite_; }
-  /// How much farther than speed allows a body has gone between two looks [m].
+  /// Largest way of a body between two looks, beyond the limit of its speed [m].
   [[nodiscard]] double worstJump() const { return worst_jump_; }
   [[nodiscard]] double worstJumpTime() const { return worst_jump_time_; }
   /// Spring energy that appeared in contacts while the host stepped [J].
@@ -108,12 +107,12 @@ class EnergyAccount {
   [[nodiscard]] std::uint64_t looks() const { return looks_; }
 
  private:
-  /// How a smooth contact stands.
+  /// State of a smooth contact.
   struct Pair {
-    BodyIndex sphere = 0, other = 0;     ///< the sphere again with an obstacle
+    BodyIndex sphere = 0, other = 0;     ///< for an obstacle the sphere again
     const Obstacle* obstacle = nullptr;  ///< null: the other is a body
     double overlap = 0.0, rate = 0.0;
-    Vec3 n_W = Vec3::Zero();  ///< towards the sphere; zero while the balls around them are apart
+    Vec3 n_W = Vec3::Zero();  ///< towards the sphere; zero while their bounding balls are apart
   };
   struct Snapshot {
     double time = 0.0;
@@ -121,16 +120,16 @@ class EnergyAccount {
     std::vector<char> active;
     std::vector<Pair> pairs;
   };
-  /// By how much a body was moved, besides what its velocity did.
+  /// A body's displacement beyond that of its velocity.
   struct Shift {
     Vec3 way_W = Vec3::Zero(), turn_W = Vec3::Zero();
   };
-  /// What a contact did between two looks: while it pushed, and without.
+  /// Result of a contact between two looks, with and without push.
   struct Pushed {
-    double spring = 0.0;   ///< work of what closes it against the spring [J]
-    double closing = 0.0;  ///< by which the overlap grew [m]
-    double time = 0.0;     ///< for which it pushed [s]
-    double free = 0.0;     ///< by which its spring was stretched while it did not push [J]
+    double spring = 0.0;   ///< work of the closing motion against the spring [J]
+    double closing = 0.0;  ///< growth of the overlap [m]
+    double time = 0.0;     ///< time of the push [s]
+    double free = 0.0;     ///< energy gain of its spring without push [J]
   };
 
   void take(double time);
@@ -163,7 +162,7 @@ class EnergyAccount {
 
   const Island& island_;
   const AccountScene& scene_;
-  std::vector<RigidState> origins_;  ///< of a guided island's bodies
+  std::vector<RigidState> origins_;  ///< origins of a guided island's bodies
   Snapshot now_, last_;
   std::vector<Shift> shifts_;  ///< since the last look
   std::uint64_t rigid_points_ = 0;

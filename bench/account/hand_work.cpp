@@ -1,5 +1,5 @@
-// What the hand, and bodies that are held, put into an island through contacts: the one part of an
-// EnergyAccount that the states do not tell outright.
+// Work of the hand and of held bodies on an island through contacts. This is the only part of an
+// EnergyAccount that does not follow directly from the states.
 
 #include <algorithm>
 #include <bit>
@@ -13,17 +13,17 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Between two looks while the hand pushes: angle of the fastest oscillation [rad], time by that of
-/// the fastest decay, and way by the size of what touches.
+/// Limits between two looks while the hand pushes: angle of the fastest oscillation [rad], time
+/// over that of the fastest decay, way over the size of the touching bodies.
 constexpr double kAngleBetweenLooks = 0.15, kDecayBetweenLooks = 0.3, kWayBetweenLooks = 0.03;
 
-/// By how many times fewer looks than needed a way is not known well.
+/// With this factor fewer looks than needed, a way is not known well.
 constexpr double kTooFewLooks = 1.5;
 
-/// Of its work between two looks, by the largest energy.
+/// Tolerance of the hand's work between two looks, relative to the largest energy.
 constexpr double kHandTolerance = 1e-11;
 
-/// Of the place of a body's surface that is moved most easily [1/kg].
+/// Mobility at the most mobile place of a body's surface [1/kg].
 double computeMobility(const IslandBody& body, bool turns) {
   if (!turns || !(body.inertia_B.minCoeff() > 0.0)) return 1.0 / body.mass;
   const double arm = computeBoundingRadius(body.shape);
@@ -33,8 +33,8 @@ double computeMobility(const IslandBody& body, bool turns) {
 }  // namespace
 
 int EnergyAccount::countLooks(int most) const {
-  // What rigid contact does is seen step by step. Else only the hand's work needs looks, and only
-  // on what it touches or may touch in this tick.
+  // Rigid contact needs a look in each inner step. Otherwise only the hand's work needs looks, and
+  // only for bodies that it may touch in this tick.
   double rate = scene_.has_overlap ? innerRate() : 0.0;
   for (const Pair& pair : now_.pairs) {
     if (pair.obstacle || !movesAny(pair)) continue;
@@ -49,12 +49,12 @@ int EnergyAccount::countLooks(int most) const {
   }
   const auto count = static_cast<unsigned>(
       std::clamp(std::ceil(rate * scene_.haptic_period), 1.0, static_cast<double>(most)));
-  // A slot counts time in binary parts of a period, and would round others.
+  // A slot divides a period in binary parts, and would round others.
   return static_cast<int>(scene_.guide ? std::bit_ceil(count) : count);
 }
 
-/// Of the island's inner steps near rigid contact, which springs shorten to 0.18 rad, but no more
-/// than 64 times [1/s].
+/// Rate of the island's inner steps near rigid contact [1/s]. Springs shorten a step to 0.18 rad,
+/// at most 64 times.
 double EnergyAccount::innerRate() const {
   double fastest = 0.0;
   for (BodyIndex b = 0; b < island_.bodyCount(); ++b) {
@@ -68,7 +68,7 @@ double EnergyAccount::innerRate() const {
   return std::clamp(fastest / 0.18, longest, 64.0 * longest);
 }
 
-/// Looks in a second that it takes to know the way of what a hand touches.
+/// Looks per second needed to know the way of a body that the hand touches.
 double EnergyAccount::neededRate(BodyIndex driver, BodyIndex touched) const {
   const IslandBody& body = island_.body(touched);
   double stiffness = 2.0 * scene_.contact.stiffness, damping = 2.0 * scene_.contact.damping;
@@ -85,7 +85,7 @@ double EnergyAccount::neededRate(BodyIndex driver, BodyIndex touched) const {
                    damping * mobility / kDecayBetweenLooks, speed / (kWayBetweenLooks * size)});
 }
 
-/// Work of the hand and of bodies that are held, through contacts.
+/// Work of the hand and of held bodies through contacts.
 double EnergyAccount::workOfDriven(double dt) {
   double direct = 0.0;
   bool is_held_near = false, is_rough = false;
@@ -108,7 +108,8 @@ double EnergyAccount::workOfDriven(double dt) {
       direct += integrateHand(from, driver, dt);
       continue;
     }
-    // By how fast the driver closes the overlap; one that is held only in the dampers.
+    // Work by the speed at which the driver closes the overlap. A held body's speed counts only in
+    // the dampers.
     const double side = is_sphere_driven ? -1.0 : 1.0;
     const Vec3 v_closing_W = side * v_W;
     const double closing = (from.n_W + to.n_W).normalized().dot(v_closing_W);
@@ -116,15 +117,15 @@ double EnergyAccount::workOfDriven(double dt) {
     direct +=
         scene_.contact.damping * closing * (pushed.closing + closing * pushed.time) + pushed.free;
   }
-  // Where the direction of the force jumps the bodies' ways have a kink, which no cubic has. Nor
-  // has it a decay that is over before the next look.
+  // If the direction of the force jumps, the bodies' ways have a kink, which no cubic has. The same
+  // holds for a decay that ends before the next look.
   if (is_rough && !is_held_near && scene_.is_free)
     doubt_ += std::abs(direct - v_hand_W.dot(impulseOfHand(dt)));
   return direct;
 }
 
-/// Power of the hand, integrated. Where the other body is in between is known well; what it is
-/// like there - a rim, an edge, the end of a touch - is looked at as closely as it asks for.
+/// Integrated power of the hand. The other body's way is known well in between. Details on it (a
+/// rim, an edge, the end of a touch) are sampled as finely as they need.
 double EnergyAccount::integrateHand(const Pair& from, BodyIndex driver, double dt) const {
   const bool is_sphere_driven = driver == from.sphere;
   const auto touched = static_cast<std::size_t>(is_sphere_driven ? from.other : from.sphere);
@@ -142,8 +143,8 @@ double EnergyAccount::integrateHand(const Pair& from, BodyIndex driver, double d
   return dt * integrate(powerAt, kHandTolerance * peak_ / dt);
 }
 
-/// What the hand must have given, as the bodies' momentum has changed and the couplers' part is
-/// known: the way of each body in between is the cubic that fits both ends.
+/// Impulse of the hand, from the change of the bodies' momentum minus the couplers' part. The way
+/// of each body in between is the cubic that fits both ends.
 Vec3 EnergyAccount::impulseOfHand(double dt) const {
   Vec3 impulse_W = Vec3::Zero();
   for (BodyIndex b = 0; b < island_.bodyCount(); ++b) {
@@ -169,14 +170,14 @@ Vec3 EnergyAccount::impulseOfHand(double dt) const {
   return impulse_W;
 }
 
-/// Relative to a driver, by all the energy there is [m/s].
+/// Largest possible speed relative to a driver, if one body had all energy [m/s].
 double EnergyAccount::fastestOf(BodyIndex body, const Vec3& v_driver_W) const {
   const double energy = last_stock_.motion + last_stock_.couplers + last_stock_.contacts;
   return v_driver_W.norm() + std::sqrt(2.0 * energy / island_.body(body).mass);
 }
 
-/// The overlap in between is the cubic that fits both ends, but the damper's part needs only the
-/// ends of the push. `held` is what of its rate is not seen in the overlap [m/s].
+/// The overlap in between is the cubic that fits both ends; the damper's part needs only the ends
+/// of the push. `held` is the part of its rate that does not change the overlap [m/s].
 EnergyAccount::Pushed EnergyAccount::integratePush(const Pair& from, const Pair& to, double dt,
                                                    const Vec3& v_closing_W, double held) const {
   const double first_rate = from.rate - held, last_rate = to.rate - held;

@@ -6,7 +6,7 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Numbers left between two real packets, for repeated ones.
+/// Bits of the sequence number between two real packets, for repeated ones.
 constexpr unsigned kRepeatBits = 24;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -45,8 +45,8 @@ WatchedLink::WatchedLink(Link& link, IslandWatch& watch, std::size_t remote,
   latest_.sequence = 0;
 }
 
-/// In a tick: looks as close as the account needs them now, and each real packet between two looks
-/// of the same moment. What was handed out last has been taken in when this is called again.
+/// In a tick: looks as often as the account now needs, and each real packet between two looks at
+/// the same moment. When this is called again, the last packet has been taken in.
 std::optional<Arrival> WatchedLink::receive(double from, double until) noexcept {
   if (from > tick_) {
     tick_ = from;

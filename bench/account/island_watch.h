@@ -10,20 +10,20 @@
 
 namespace tandem::demos::bench {
 
-/// Looks into a site's island at any moment of a tick, by the public interface alone: a scheme is
-/// given the island, and is called when a packet is taken in; the island stops there for it.
+/// Looks into a site's island at any moment of a tick, using only the public interface. A scheme
+/// has the island, and is called when a packet is taken in; the island stops there for it.
 ///
 ///   WatchingScheme   the real scheme, and a look before and after each packet
-///   WatchedLink      the real link, and repeated packets between the real ones, which change
-///                    nothing but make the island stop
+///   WatchedLink      the real link, and repeated packets between the real ones, which only make
+///                    the island stop
 class IslandWatch final : public Scheme {
  public:
   explicit IslandWatch(const Scheme& scheme) : scheme_(scheme) {}
 
-  /// From now on looks go to `account`; null: nowhere.
+  /// Sends all looks to `account` from now on; null: none.
   void setAccount(EnergyAccount* account) { account_ = account; }
   [[nodiscard]] const EnergyAccount* account() const { return account_; }
-  /// When the packet that was handed out last is taken in [s].
+  /// Sets the time at which the packet handed out last is taken in [s].
   void setTime(std::size_t remote, double time) { times_[remote] = time; }
   /// Null before a remote is connected.
   [[nodiscard]] const Island* island() const { return island_; }
@@ -43,8 +43,8 @@ class IslandWatch final : public Scheme {
   EnergyAccount* account_ = nullptr;
 };
 
-/// A link whose packets are looked at. `start` is what the site knows of the remote before the
-/// first one. With `most_looks` above 0 it repeats packets so that the account is right.
+/// A link with a look at each packet. `start` is the site's knowledge of the remote before the
+/// first one. If `most_looks` is above 0, it repeats packets as often as the account needs.
 class WatchedLink final : public Link {
  public:
   WatchedLink(Link& link, IslandWatch& watch, std::size_t remote, const StatePacket& start,
@@ -62,12 +62,12 @@ class WatchedLink final : public Link {
   StatePacket latest_;
   double period_;
   int most_looks_;
-  std::optional<Arrival> real_;  ///< fetched, not yet handed out
+  std::optional<Arrival> real_;  ///< received, not yet handed out
   enum class Stage { kNothing, kBefore, kAfter } stage_ = Stage::kNothing;
-  double time_ = 0.0;        ///< of what was handed out last [s]
-  double tick_ = -1.0;       ///< start of the tick at hand [s]
+  double time_ = 0.0;        ///< time of the packet handed out last [s]
+  double tick_ = -1.0;       ///< start of the current tick [s]
   double next_look_ = 0.0;   ///< [s]
-  bool is_planned_ = false;  ///< next_look_ is known
+  bool is_planned_ = false;  ///< next_look_ is set
 };
 
 }  // namespace tandem::demos::bench

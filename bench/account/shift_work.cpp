@@ -1,4 +1,4 @@
-// What moving rigid bodies out of overlap lifts, as an EnergyAccount sees it.
+// Energy that an EnergyAccount gets from moving rigid bodies out of overlap.
 
 #include "bench/account/between_looks.h"
 #include "bench/account/energy_account.h"
@@ -6,8 +6,8 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// What is left of a way [m] when the velocity was `first` and `last` at its ends. It changed
-/// evenly, or at that one time in between that explains all of the way along the change.
+/// Part of a way [m] that velocities `first` and `last` at its ends do not explain. The velocity
+/// changed evenly. Or it changed at the one moment that best explains the way along the change.
 Vec3 computeRest(const Vec3& way, const Vec3& first, const Vec3& last, double dt) {
   const Vec3 rest = way - dt * first, change = dt * (last - first);
   const double square = change.squaredNorm();
@@ -17,7 +17,7 @@ Vec3 computeRest(const Vec3& way, const Vec3& first, const Vec3& last, double dt
 
 }  // namespace
 
-/// A shift stores what couplers, contacts and weight have more than they had without it.
+/// The energy that couplers, contacts and weight gain by the shifts.
 double EnergyAccount::workOfShifts(double dt) {
   for (Shift& shift : shifts_) shift = {};
   const bool touches = island_.counters().rigid_points > rigid_points_;
@@ -44,7 +44,7 @@ std::vector<RigidState> EnergyAccount::findUnshifted(double dt) {
   return unshifted;
 }
 
-/// Of springs and weight [J].
+/// Potential energy of springs and weight [J].
 double EnergyAccount::computePotential(const std::vector<RigidState>& states) const {
   double potential = 0.0;
   for (BodyIndex b = 0; b < island_.bodyCount(); ++b)

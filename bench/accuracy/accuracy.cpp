@@ -21,7 +21,7 @@ bool isWanted(const AccuracyOptions& options, std::string_view scene) {
          std::find(options.scenes.begin(), options.scenes.end(), scene) != options.scenes.end();
 }
 
-/// Throws std::invalid_argument for a name that is no scene's.
+/// Throws std::invalid_argument for an unknown scene name.
 std::vector<const BenchScene*> chooseScenes(const AccuracyOptions& options) {
   std::vector<const BenchScene*> chosen;
   std::vector<std::string> names;
@@ -79,7 +79,7 @@ double timeOnce(const BenchScene& scene, const Method& method, int host_rate) {
   return wall.count() * host_rate / steps;
 }
 
-/// A run of more than this is timed once [us]: it is long enough to tell.
+/// A run longer than this is timed once [us].
 constexpr double kLongRun = 3e5;
 
 double medianOf(std::vector<double> values) {
@@ -88,7 +88,7 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// A run whose time is being taken.
+/// A run that is being timed.
 struct Timed {
   const Method* method;
   std::size_t run;
@@ -134,7 +134,7 @@ class Accuracy {
           timed.push_back({method.get(), result.runs.size() - 1, {}});
       }
     }
-    // What methods take is compared with each other, so they take turns.
+    // The methods' times are compared, so the methods take turns.
     for (int repeat = 0; repeat < repeats(); ++repeat) {
       tell(scene.name, "run times", 0.6 + 0.4 * repeat / repeats());
       for (Timed& one : timed)

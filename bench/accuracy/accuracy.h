@@ -45,10 +45,10 @@ struct AccuracyOptions {
   std::vector<std::string> scenes;  ///< names; empty: all
 };
 
-/// Told what is being done and the share of the work that is done.
+/// Called with the current activity and the finished share of the work.
 using AccuracyProgress = std::function<void(std::string_view what, double share)>;
 
-/// Runs every method on the scenes. Throws std::invalid_argument for a scene that is not there.
+/// Runs every method on the scenes. Throws std::invalid_argument for an unknown scene.
 [[nodiscard]] std::vector<SceneAccuracy> measureAccuracy(const AccuracyOptions& options,
                                                          const AccuracyProgress& progress);
 

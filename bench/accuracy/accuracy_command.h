@@ -11,7 +11,7 @@ struct AccuracyCommand {
   bool json = false;
   bool quick = false;
   std::vector<std::string> scenes;    ///< names; empty: all
-  std::optional<std::string> folder;  ///< takes accuracy.json, accuracy.svg and accuracy.png
+  std::optional<std::string> folder;  ///< folder for accuracy.json, accuracy.svg and accuracy.png
 };
 
 /// Measures, prints table or JSON, writes files. Throws UsageError or tandem::Error, one line.

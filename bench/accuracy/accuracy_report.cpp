@@ -42,7 +42,7 @@ double leastError(const SceneAccuracy& scene, int host_rate) {
   return std::max(least, kRounding);
 }
 
-/// "0.186" for 186 um, "2.1e-06" for 2.1 nm: what is read in mm.
+/// Formats a value in mm: "0.186" for 186 um, "2.1e-06" for 2.1 nm.
 std::string number(double value) {
   if (value != 0.0 && value < 1e-3) return fmt::format("{:.1e}", value);
   return fmt::format("{:.3g}", value);

@@ -6,7 +6,7 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Farther than this from where it should be, a thing is lost [m].
+/// A body farther than this from its true place is lost [m].
 constexpr double kLost = 1.0;
 
 RunErrors compareTool(const BenchScene& scene, std::size_t i, const PointState& tool,
@@ -20,7 +20,7 @@ RunErrors compareTool(const BenchScene& scene, std::size_t i, const PointState& 
   return errors;
 }
 
-/// Written so that what is no number is lost.
+/// Written so that NaN counts as lost.
 bool isLost(const RunErrors& errors) {
   return !(errors.tool < kLost && errors.body < kLost && std::isfinite(errors.force));
 }

@@ -54,7 +54,7 @@ RunErrors compareRows(const reference::PaperRow& a, const reference::PaperRow& b
   return errors;
 }
 
-/// What a run has at a tick, in the reference's words. The axis is x.
+/// State of a run at a tick, in the reference's terms. The axis is x.
 reference::PaperRow rowOf(const VirtualRun& run, std::size_t tick) {
   const auto device = [&](int site) {
     const auto& ticks = run.recording(site).ticks();

@@ -7,11 +7,11 @@
 
 namespace tandem::demos::bench {
 
-/// The other engines that were found when Tandem was configured, in the order of tables. Each is
-/// optional: without its Debian package (scripts/packages.sh, group bench) it is not there.
+/// The other engines found when Tandem was configured, in the order of tables. Each is optional: it
+/// is missing without its Debian package (scripts/packages.sh, group bench).
 [[nodiscard]] std::vector<std::unique_ptr<Method>> makeEngineMethods();
 
-/// @name One factory for each engine, defined in the file that it is named after, if it is built.
+/// @name Factories, one for each engine that is built, defined in the file with its name.
 /// @{
 [[nodiscard]] std::unique_ptr<Method> makeMujoco();
 [[nodiscard]] std::unique_ptr<Method> makeOde();

@@ -1,8 +1,8 @@
-// MuJoCo: couplers and tool contact as external forces (xfrc_applied) at the start of each step,
-// the contact by the scene's own geometry, because MuJoCo's soft contact is scaled by the masses
-// that meet and knows no K and B. Bodies by MuJoCo's own contact, elliptic friction cone, time
-// constant of two steps, which is as stiff as it allows; impedance by default, as higher ones threw
-// the stack's boxes about. Integrator: its default, semi-implicit Euler.
+// MuJoCo: couplers and tool contact are external forces (xfrc_applied) at the start of each step.
+// The scene's own geometry gives the contact: MuJoCo's soft contact is scaled by both masses and
+// has no K and B. Bodies use MuJoCo's own contact with an elliptic friction cone. Its time constant
+// is two steps, as stiff as MuJoCo allows. Impedance is the default, as higher ones threw the
+// stack's boxes about. The integrator is its default, semi-implicit Euler.
 
 #include <cstring>
 #include <limits>
@@ -25,7 +25,7 @@ std::string describeGeom(const BenchBody& body) {
     return fmt::format("type='box' size='{}'", show(box->half_extents));
   if (const auto* sphere = std::get_if<SphereShape>(&body.shape))
     return fmt::format("type='sphere' size='{}'", sphere->radius);
-  // Size 0: infinite.
+  // Size 0 means infinite.
   return fmt::format("type='plane' size='0 0 1' zaxis='{}'",
                      show(std::get<PlaneShape>(body.shape).normal_W));
 }
@@ -72,10 +72,9 @@ struct ModelDeleter {
 using ModelPointer = std::unique_ptr<mjModel, ModelDeleter>;
 using DataPointer = std::unique_ptr<mjData, ModelDeleter>;
 
-/// MuJoCo reads its models from files, also from such as are only in memory.
+/// MuJoCo reads its models from files, which may be in memory only.
 ModelPointer load(const std::string& text) {
-  // It would write its warnings to a file in the working folder. What they tell is read from
-  // mjData.
+  // MuJoCo would write its warnings to a file in the working folder. The same facts are in mjData.
   mju_user_warning = [](const char*) {};
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -105,7 +104,7 @@ class MujocoSimulation final : public Simulation {
       bodies_.push_back(body.isStatic() ? 0 : findBody(fmt::format("body{}", b)));
       if (body.isStatic()) continue;
       setVelocity(bodies_.back(), 0, body.start.v_W);
-      // A free joint turns in the body's own frame.
+      // A free joint's angular velocity is in the body's own frame.
       setVelocity(bodies_.back(), 3, body.start.q_WB.conjugate() * body.start.w_W);
     }
   }
@@ -160,7 +159,7 @@ class MujocoSimulation final : public Simulation {
     }
   }
 
-  /// MuJoCo starts afresh, with a warning, when its numbers have grown beyond 1e10.
+  /// MuJoCo restarts with a warning when its numbers exceed 1e10.
   [[nodiscard]] bool isLost() const {
     for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
       if (data_->warning[warning].number > 0) return true;

@@ -1,6 +1,7 @@
-// ODE: couplers as forces at the start of each step; tool contact by ODE's own compliant contact
-// joint, ERP = h K / (h K + B), CFM = 1 / (h K + B), which is implicit Euler; bodies by its rigid
-// contact with friction (dWorldStep: the direct solver). Defaults of Debian's libode otherwise.
+// ODE: couplers are forces at the start of each step. Tool contact is ODE's own compliant contact
+// joint: ERP = h K / (h K + B), CFM = 1 / (h K + B). That is implicit Euler. Bodies use its rigid
+// contact with friction (dWorldStep: the direct solver). All else is the default of Debian's
+// libode.
 
 #include <array>
 
@@ -14,8 +15,8 @@ namespace {
 
 Vec3 toVec3(const dReal* v) { return {v[0], v[1], v[2]}; }
 
-/// ODE's global state, for as long as the process lives. Its remarks on stderr are no part of a
-/// benchmark: what goes wrong shows in the states.
+/// ODE's global state, for the life of the process. Its messages on stderr are not part of a
+/// benchmark: errors show in the states.
 void initialiseOde() {
   static const bool done = [] {
     dInitODE2(0);
@@ -97,7 +98,7 @@ class OdeSimulation final : public Simulation {
     const dBodyID body = makeBody(tool.mass, Vec3::Constant(inertia), start);
     dBodySetGravityMode(body, 0);
     dGeomSetBody(dCreateSphere(space_, tool.radius), body);
-    // What tells tools from bodies in a contact.
+    // Distinguishes tools from bodies in a contact.
     dBodySetData(body, this);
     tools_.push_back(body);
   }
@@ -154,8 +155,8 @@ class OdeSimulation final : public Simulation {
     contact.surface.soft_cfm = 1.0 / (step_ * K + B);
   }
 
-  /// ODE's friction is a pyramid. Its first direction is laid into the plane in which the scenes
-  /// move: there it is Coulomb's cone.
+  /// ODE's friction is a pyramid. Its first direction lies in the plane of the scenes' motion,
+  /// where it equals Coulomb's cone.
   void roughen(dContact& contact) const {
     contact.surface.mode = dContactApprox1;
     contact.surface.mu = scene_.friction;

@@ -1,7 +1,7 @@
-// Simbody: couplers and tool contact as one Force::Custom by the scene's own laws and geometry,
-// which its integrator evaluates at every stage: Runge-Kutta-Merson (order 4), one fixed step per
-// host step, events not located. Its own compliant contact (Hunt and Crossley) is another law, and
-// its rigid contact knows single points, edges and spheres that somebody lists, no boxes.
+// Simbody: couplers and tool contact are one Force::Custom with the scene's own laws and geometry.
+// Its integrator evaluates it at every stage: Runge-Kutta-Merson (order 4), one fixed step per host
+// step, events not located. Its own compliant contact (Hunt and Crossley) is another law. Its rigid
+// contact supports listed points, edges and spheres only, no boxes.
 
 #include <limits>
 
@@ -16,7 +16,7 @@ namespace {
 SimTK::Vec3 toSimbody(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 fromSimbody(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// The scene's moving things as Simbody has them.
+/// The scene's moving bodies in Simbody.
 struct Bodies {
   std::vector<SimTK::MobilizedBody> tools, bodies;  // static ones: Ground
 
@@ -35,7 +35,7 @@ struct Bodies {
   }
 };
 
-/// Everything that pushes: weight of bodies, couplers and contacts of tools.
+/// All forces: weight of bodies, couplers and contacts of tools.
 class SceneForces final : public SimTK::Force::Custom::Implementation {
  public:
   SceneForces(const BenchScene& scene, const Bodies& bodies, const double& target_time)
@@ -82,7 +82,7 @@ class SimbodySimulation final : public Simulation {
         integrator_(system_),
         state_(startState(scene)) {
     addBodies();
-    // Simbody owns it from here on.
+    // Simbody owns the object from here on.
     SimTK::Force::Custom(forces_, new SceneForces(scene_, bodies_, target_time_));
     SimTK::State start = system_.realizeTopology();
     setStart(start);
@@ -96,14 +96,14 @@ class SimbodySimulation final : public Simulation {
     target_time_ = steps_ * step_;
     ++steps_;
     try {
-      // The target is no part of Simbody's state: what it has computed with the old one goes.
+      // The target is no part of Simbody's state: values computed with the old one are discarded.
       integrator_.updAdvancedState().invalidateAll(SimTK::Stage::Dynamics);
       integrator_.reinitialize(SimTK::Stage::Dynamics, false);
-      // The first call after a change of the state only says that it starts.
+      // The first call after a change of the state only reports its start.
       const double end = steps_ * step_;
       while (integrator_.getTime() < end) integrator_.stepTo(end, end);
     } catch (const std::exception&) {
-      is_lost_ = true;  // numbers beyond what it can integrate
+      is_lost_ = true;  // numbers beyond the range of its integrator
     }
   }
 

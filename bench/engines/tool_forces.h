@@ -5,15 +5,15 @@
 
 namespace tandem::demos::bench {
 
-/// Constant force and coupler of a tool that is at `at`, with the target of time `target_time` [N].
+/// Constant force and coupler force of a tool at `at`, with the target of time `target_time` [N].
 [[nodiscard]] inline Vec3 computeHandForce(const BenchScene& scene, const BenchTool& tool,
                                            double target_time, const PointState& at) {
   const auto target = heldTarget(tool, target_time);
   return target ? Vec3(tool.f_W + computeCouplerForce(scene.coupler, *target, at)) : tool.f_W;
 }
 
-/// Contact force on tool `i` by the scene's own law and geometry, for engines that have no such
-/// contact [N]. Calls `react(body, f_W, p_W)` with the reaction on each moving body.
+/// Contact force on tool `i` by the scene's own law and geometry, for engines without such contact
+/// [N]. Calls `react(body, f_W, p_W)` with the reaction on each moving body.
 template <typename React>
 [[nodiscard]] Vec3 computeContactForces(const BenchScene& scene, const SceneState& state,
                                         std::size_t i, React react) {

@@ -7,10 +7,10 @@
 
 namespace tandem::demos::bench {
 
-/// Every method that was built in, in the order of tables and legends.
+/// Every built-in method, in the order of tables and legends.
 [[nodiscard]] const std::vector<std::unique_ptr<Method>>& allMethods();
 
-/// @name One factory for each way to simulate, defined in the file that it is named after.
+/// @name Factories, one for each method, defined in the file with its name.
 /// @{
 [[nodiscard]] std::unique_ptr<Method> makePluginHandoff();
 [[nodiscard]] std::unique_ptr<Method> makePluginLate();

@@ -1,6 +1,6 @@
-// The whole scene by what Bullet itself offers, at the host's rate: tools are rigid bodies in
-// Bullet's own contact, their couplers Bullet's own means. The same classes carry whole demos
-// (contact.model, docs/native.md). Tools carry the gains of soft contact; Bullet's defaults stay.
+// The whole scene by Bullet's own means, at the host's rate. Tools are rigid bodies in Bullet's own
+// contact, and their couplers are Bullet's own. The same classes carry whole demos (contact.model,
+// docs/native.md). Tools have the gains of soft contact; Bullet's defaults stay.
 
 #include "tandem/bullet_bridge/convert.h"
 

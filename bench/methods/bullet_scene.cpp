@@ -43,7 +43,7 @@ BulletScene::BulletScene(const BenchScene& scene, const BulletSceneOptions& opti
     RigidState start;
     start.p_W = tool.start.p_W;
     start.v_W = tool.start.v_W;
-    // Nothing turns a tool: no inertia, no torque.
+    // A tool does not rotate: no inertia, no torque.
     btRigidBody& body =
         add(tools_, std::make_unique<btSphereShape>(static_cast<btScalar>(tool.radius)), tool.mass,
             Vec3::Zero(), start, 0.0, kToolGroup, mask);

@@ -9,18 +9,18 @@
 
 namespace tandem::demos::bench {
 
-/// What differs between the ways to build a scene in Bullet.
+/// Options of a scene in Bullet.
 struct BulletSceneOptions {
   bool has_tools = true;     ///< tools become rigid bodies
-  bool tools_touch = false;  ///< tools meet bodies by Bullet's own contact
-  /// Bodies cannot leave the x-z plane, nor turn out of it: Bullet's boxes otherwise creep sideways
-  /// under load, friction or not.
+  bool tools_touch = false;  ///< tools touch bodies by Bullet's own contact
+  /// Keeps bodies in the x-z plane. Bullet's boxes otherwise creep sideways under load, with or
+  /// without friction.
   bool keeps_plane = true;
-  double shared_mass_factor = 1.0;  ///< shared bodies get this times their mass and inertia
+  double shared_mass_factor = 1.0;  ///< factor on mass and inertia of shared bodies
 };
 
-/// A scene as a plain btDiscreteDynamicsWorld. Gravity acts on bodies, nothing yet on tools.
-/// Bullet multiplies the friction of two bodies, so each has the root of the scene's; tools have 0.
+/// A scene as a plain btDiscreteDynamicsWorld. Gravity acts on bodies, not on tools. Bullet
+/// multiplies the friction of two bodies, so each has the root of the scene's; tools have 0.
 class BulletScene {
  public:
   BulletScene(const BenchScene& scene, const BulletSceneOptions& options);
@@ -34,7 +34,7 @@ class BulletScene {
   [[nodiscard]] btRigidBody& body(std::size_t i) { return *bodies_[i]; }
   [[nodiscard]] const btRigidBody& body(std::size_t i) const { return *bodies_[i]; }
 
-  /// States of bodies, and of tools if it has them.
+  /// Reads states of bodies, and of tools if there are any.
   void read(SceneState& state) const;
 
  private:

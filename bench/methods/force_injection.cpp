@@ -7,9 +7,9 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// What hosts do without a plugin: forces from the states at the beginning of a step, so that
-/// Bullet's step is semi-implicit Euler. Given in the pre-tick as impulses F dt: Bullet's friction
-/// rows leave out the torque of forces, and pressed boxes creep.
+/// The method of hosts without a plugin: forces from the states at the beginning of a step, so
+/// Bullet's step is semi-implicit Euler. They are given in the pre-tick as impulses F dt. Bullet's
+/// friction rows ignore the torque of forces, and pressed boxes would creep.
 class ForceInjection final : public Simulation {
  public:
   ForceInjection(const BenchScene& scene, int host_rate)
@@ -42,7 +42,7 @@ class ForceInjection final : public Simulation {
     }
   }
 
-  /// Contact force of body `b` on tool `i`; its reaction is given to the body.
+  /// Contact force of body `b` on tool `i`; applies the reaction to the body.
   Vec3 push(std::size_t i, std::size_t b) {
     const PointState& tool = state_.tools[i];
     const RigidState& body = state_.bodies[b];

@@ -8,16 +8,16 @@
 #include "bench/scenes/bench_scene.h"
 
 /// \file
-/// How a way to simulate takes part in `tandem bench accuracy`.
+/// Methods that `tandem bench accuracy` compares.
 ///
-/// To add one: write bench/methods/<name>.cpp with a class derived from Simulation that sets the
-/// scene up in its constructor and moves it on in step(), and one derived from Method that makes
-/// it; declare its factory in methods/all_methods.h and list it in methods/all_methods.cpp. The
-/// build finds the file; runs, timing, errors, tables and figures are the bench's. Its colour and
-/// marker in figures go into demos/program/plot/benches.py.
+/// To add one, write bench/methods/<name>.cpp. A class derived from Simulation sets the scene up in
+/// its constructor and advances it in step(); a class derived from Method makes it. Declare the
+/// factory in methods/all_methods.h and list it in methods/all_methods.cpp. The build finds the
+/// file. The bench provides runs, timing, errors, tables and figures. Colour and marker in figures
+/// go into demos/program/plot/benches.py.
 namespace tandem::demos::bench {
 
-/// A scene that a method cannot run, and why: one line for the table.
+/// Thrown for a scene that a method cannot run; the reason is one line for the table.
 class NotApplicable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -35,26 +35,26 @@ class Simulation {
  public:
   virtual ~Simulation() = default;
 
-  /// Moves everything on by one host step. Nothing but this is timed.
+  /// Advances all bodies by one host step. Only this is timed.
   virtual void step() = 0;
 
-  /// What the host's world holds now, at the end of the latest step. `state` is of the right size.
+  /// State of the host's world at the end of the latest step. `state` has the right size.
   virtual void read(SceneState& state) const = 0;
 
-  /// Switches to keeping what tickSamples() gives; called before the first step if at all.
+  /// Starts keeping the states for tickSamples(). Call it before the first step.
   virtual void keepTicks() {}
   /// Tools at the haptic ticks so far, for methods that know them between host steps.
   [[nodiscard]] virtual std::vector<TickSample> tickSamples() const { return {}; }
 };
 
-/// A way to simulate. Stateless.
+/// A method of simulation. Stateless.
 class Method {
  public:
   virtual ~Method() = default;
   [[nodiscard]] virtual std::string name() const = 0;
 
-  /// Sets a scene up at `host_rate` [Hz] steps per second. Throws NotApplicable, or whatever the
-  /// engine throws, when it cannot: the message becomes the reason in the table.
+  /// Sets a scene up at `host_rate` [Hz] steps per second. Throws NotApplicable, or the engine's
+  /// exception, if it cannot. The message becomes the reason in the table.
   [[nodiscard]] virtual std::unique_ptr<Simulation> start(const BenchScene& scene,
                                                           int host_rate) const = 0;
 };

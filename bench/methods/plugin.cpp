@@ -1,5 +1,5 @@
 // The plugin as a host uses it: a Bullet world, a site, and the scene's tools as remote dynamic
-// proxies of remote users whose packets come every millisecond without delay.
+// proxies. Packets of their remote users come every millisecond without delay.
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@ namespace tandem::demos::bench {
 namespace {
 
 /// Peers that carry a shared object: this one and a remote. The host's body then has twice the
-/// scene's mass, of which the plugin leaves the scene's.
+/// scene's mass, and the plugin leaves it the scene's.
 constexpr int kPeers = 2;
 
-/// The local user's device, far from everything: the scene's users are all remote.
+/// The local user's device, far from all bodies: the scene's users are all remote.
 class ParkedDevice final : public HapticDevice {
  public:
   const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
@@ -32,7 +32,7 @@ class ParkedDevice final : public HapticDevice {
   DeviceCapabilities capabilities_;
 };
 
-/// A remote user who moves along a tool's path and is heard once per millisecond, at once.
+/// A remote user who moves along a tool's path and sends once per millisecond, without delay.
 class HeldPathLink final : public Link {
  public:
   HeldPathLink(const BenchTool& tool, PeerId user) : tool_(tool) { packet_.sender = user; }
@@ -55,8 +55,8 @@ class HeldPathLink final : public Link {
   StatePacket packet_;
 };
 
-/// Remote dynamic proxies with gains of their own, so that shared objects need not be tied to
-/// copies elsewhere: the scenes have one copy of everything.
+/// Remote dynamic proxies with their own gains. Shared objects then need no coupler to copies
+/// elsewhere: the scenes have one copy of each.
 class ToolScheme final : public Scheme {
  public:
   explicit ToolScheme(const BenchScene& scene)
@@ -90,7 +90,7 @@ SiteSettings makeSettings(const BenchScene& scene, int host_rate, Variant varian
   settings.proxy = {scene.tools.front().mass, 0.0, scene.tools.front().radius};
   settings.scheme = &scheme;
   settings.injection = variant == Variant::kImpulse ? Injection::kImpulse : Injection::kHandoff;
-  settings.max_slew = std::numeric_limits<double>::infinity();  // the law, not the guard
+  settings.max_slew = std::numeric_limits<double>::infinity();  // tests the law, not the guard
   settings.tick_source = variant == Variant::kLate ? TickSource::kCaller : TickSource::kHostStep;
   return settings;
 }
@@ -132,7 +132,7 @@ class PluginSimulation final : public Simulation {
   }
 
   void keepTicks() override {
-    // Impulse injection has no states but Bullet's, at the ends of its steps.
+    // Impulse injection has only Bullet's states, at the ends of its steps.
     if (variant_ == Variant::kImpulse) return;
     const auto ticks = static_cast<std::size_t>((scene_.duration + 2.0 * step_) * kTargetRate) + 2;
     recording_.emplace(ticks, ticks * scene_.tools.size(), site_.objectCount(),

@@ -18,8 +18,8 @@
 namespace tandem::reference {
 namespace {
 
-// Of a step in which a contact changes: 2 us to 1e-13 s. Contacts that chatter are not followed for
-// ever: so many halvings in all between two instants.
+// Halvings of a step in which a contact changes: from 2 us to 1e-13 s. Contacts that chatter are
+// not followed for ever: this limits all halvings between two instants.
 constexpr int kMostHalvings = 24;
 constexpr int kMostHalvingsInAll = 4000;
 
@@ -39,7 +39,7 @@ struct State {
   [[nodiscard]] Point at(Body body) const { return {x[body], v[body]}; }
 };
 
-// What a site tells the other one.
+// State that one site sends to the other.
 struct Packet {
   Point device;
   Point cube;
@@ -50,8 +50,7 @@ struct Forces {
   double t1 = 0.0, t2 = 0.0, t12 = 0.0, t21 = 0.0;
 };
 
-// Force with which `behind` pushes `ahead` along +x; a contact neither pulls nor acts at a
-// distance.
+// Force of `behind` on `ahead` along +x. A contact neither pulls nor acts at a distance.
 double contactForce(const SpringDamper& gains, const Point& behind, const Point& ahead) {
   const double overlap = behind.x - ahead.x;
   if (overlap <= 0.0) return 0.0;
@@ -94,14 +93,14 @@ class TwoUsers {
 
   PaperParameters parameters_;
   State state_;
-  State sampled_;     // at the last tick
+  State sampled_;     // state at the last tick
   double tau_ = 0.0;  // time since the last tick [s]
   int halvings_left_ = 0;
-  double held_vc1_ = 0.0;  // contact forces that the devices render in this haptic period [N]
+  double held_vc1_ = 0.0;  // contact forces rendered by the devices in this haptic period [N]
   double held_vc2_ = 0.0;
   std::deque<Packet> from_site_1_;  // packets under way
   std::deque<Packet> from_site_2_;
-  Packet at_site_2_;  // the last ones that arrived; the start until then
+  Packet at_site_2_;  // the last packets that arrived; initially the start
   Packet at_site_1_;
 };
 
@@ -225,7 +224,7 @@ unsigned TwoUsers::findPushing(double tau) const {
          8u * (forces.vc21 > 0.0);
 }
 
-// A step in which a contact is made or broken is halved until there is nothing left of it.
+// Halves a step in which a contact begins or ends, until it is located.
 void TwoUsers::advanceTo(double tau, double step, int depth_left) {
   const State before = state_;
   const unsigned pushing = findPushing(tau);

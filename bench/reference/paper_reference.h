@@ -8,20 +8,21 @@
 
 namespace tandem::reference {
 
-/// What the two users do.
+/// Task of the two users.
 enum class Experiment {
   kCooperativeManipulation,  ///< Experiment I: they move a cube between them
   kUserContact,              ///< Experiment II: they push each other, there is no cube
 };
 
-/// What stands for the remote user at a site.
+/// Representation of the remote user at a site.
 enum class Scheme {
-  kVirtualCoupling,  ///< nothing: users meet only through the cube, so Experiment II is free motion
-  kKinematicProxy,   ///< a body that is the user's delayed position and velocity
+  kVirtualCoupling,     ///< none: users interact only through the cube, so Experiment II is free
+                        ///< motion
+  kKinematicProxy,      ///< a body with the user's delayed position and velocity
   kRemoteDynamicProxy,  ///< a body with the user's mass, coupled to the delayed user
 };
 
-/// Everything that decides a run of the paper's one-axis model. The letters are the paper's.
+/// All parameters of a run of the paper's one-axis model. The letters are the paper's.
 struct PaperParameters {
   Experiment experiment = Experiment::kCooperativeManipulation;
   Scheme scheme = Scheme::kRemoteDynamicProxy;
@@ -47,7 +48,7 @@ struct PaperParameters {
 [[nodiscard]] PaperParameters makeUserContact(Scheme scheme);
 
 /// State at a tick, before its haptic period. Positions are displacements from the start along +x
-/// [m]; what a scheme or an experiment does not have stays 0.
+/// [m]. Values that a scheme or an experiment lacks stay 0.
 struct PaperRow {
   double t = 0.0;             ///< [s]
   double x1 = 0.0;            ///< device 1
@@ -58,13 +59,13 @@ struct PaperRow {
   double xo2 = 0.0;           ///< cube at site 2
   double x12 = 0.0;           ///< proxy of user 1 at site 2
   double x21 = 0.0;           ///< proxy of user 2 at site 1
-  double received_xo2 = 0.0;  ///< cube of site 2 as site 1 holds it
-  double received_xo1 = 0.0;  ///< cube of site 1 as site 2 holds it
+  double received_xo2 = 0.0;  ///< cube of site 2 as received at site 1
+  double received_xo1 = 0.0;  ///< cube of site 1 as received at site 2
   double force_1 = 0.0;       ///< contact force on device 1 in this period, along +x [N]: -F_vc1
   double force_2 = 0.0;       ///< contact force on device 2 in this period, along +x [N]: +F_vc2
 };
 
-/// Figures over all rows of a run. Arrays hold site 1, then site 2.
+/// Results over all rows of a run. Arrays hold site 1, then site 2.
 struct PaperSummary {
   double coherency_mean = 0.0;               ///< mean |xo1 - xo2| at equal time [m]
   double coherency_max = 0.0;                ///< [m]
@@ -82,11 +83,11 @@ struct PaperResult {
 
 /// Integrates eqs (1)-(14) of Li & Constantinescu 2009 from rest, just in contact.
 ///
-/// Signs are made consistent: every force acts with its opposite on the other body. The device
-/// holds the contact force of its tick for one haptic period; packets leave at n / packet_rate,
-/// arrive `delay` later and are held until the next. Between these instants the smooth system is
-/// integrated by Runge-Kutta 4, and a step in which a contact is made or broken is halved until it
-/// is located. Throws std::invalid_argument on masses, step or sampling that make no sense.
+/// Signs are consistent: every force acts with its opposite on the other body. The device holds the
+/// contact force of its tick for one haptic period. Packets leave at n / packet_rate, arrive
+/// `delay` later and are held until the next. Between these instants the smooth system is
+/// integrated by Runge-Kutta 4. A step in which a contact begins or ends is halved until this is
+/// located. Throws std::invalid_argument on invalid masses, step or sampling.
 [[nodiscard]] PaperResult runPaperModel(const PaperParameters& parameters);
 
 }  // namespace tandem::reference

@@ -24,7 +24,7 @@ Corners computeCorners(const PlanarBody& box) {
   return {{box.p - x - y, box.p + x - y, box.p + x + y, box.p - x + y}, {-ey, ex, ey, -ex}};
 }
 
-/// The face of `a` from which `b` is farthest, and how far.
+/// The face of `a` farthest from `b`, and its distance.
 struct FaceGap {
   int face = 0;
   double gap = -std::numeric_limits<double>::infinity();
@@ -42,7 +42,7 @@ FaceGap findFace(const Corners& a, const Corners& b) {
   return best;
 }
 
-/// Points of the face of `b` that looks most against face `face` of `a`, cut to that face's width.
+/// Points of the face of `b` most opposed to face `face` of `a`, cut to that face's width.
 void clipFaces(const Corners& a, int face, const Corners& b, double reach, bool flipped,
                PlanarManifold& manifold) {
   const auto f = static_cast<std::size_t>(face);
@@ -54,7 +54,7 @@ void clipFaces(const Corners& a, int face, const Corners& b, double reach, bool 
     if (b.normal[i].dot(normal) < b.normal[other].dot(normal)) other = i;
   const Vec2 q0 = b.p[other], q1 = b.p[(other + 1) % 4];
 
-  // Both ends of b's face, moved along it to where a's face ends.
+  // Moves both ends of b's face along it to the ends of a's face.
   const double length = (end - start).norm();
   const double s0 = along.dot(q0 - start), s1 = along.dot(q1 - start);
   for (int k = 0; k < 2; ++k) {
@@ -100,7 +100,7 @@ PlanarManifold meetHalfPlane(const PlanarBody& plane, const PlanarBody& box, dou
   return manifold;
 }
 
-/// `circle` on the side of the normal.
+/// Contact of `body` with `circle`, which is on the side of the normal.
 PlanarManifold meetCircle(const PlanarBody& body, const PlanarBody& circle, double reach) {
   PlanarManifold manifold;
   const PlanarTouch touch = computePlanarTouch(body, circle.p, circle.radius);
@@ -145,7 +145,7 @@ PlanarTouch computePlanarTouch(const PlanarBody& body, const Vec2& centre, doubl
   if (distance > 0.0) {
     normal = (local - inside) / distance;
   } else {
-    // Inside: out through the nearest face.
+    // The centre is inside: the normal points out through the nearest face.
     int axis = 0;
     gap = -(body.half - local.cwiseAbs()).minCoeff(&axis);
     normal = Vec2::Zero();

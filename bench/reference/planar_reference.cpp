@@ -21,7 +21,7 @@ PlanarBody makeBody(const BenchScene& scene, const BenchBody& body) {
   planar.inertia = computeInertia(body).y();
   planar.p = toPlane(scene, body.start.p_W);
   planar.v = toPlane(scene, body.start.v_W);
-  // Counterclockwise from x to z is a turn about -y.
+  // A counterclockwise turn from x to z is a turn about -y.
   planar.angle = -2.0 * std::atan2(body.start.q_WB.y(), body.start.q_WB.w());
   planar.w = -body.start.w_W.y();
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {

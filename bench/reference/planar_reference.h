@@ -5,7 +5,7 @@
 
 namespace tandem::demos::bench {
 
-/// The scene's x-z plane, its heights along the plane's y; the same bodies and tools in the same
+/// The scene's x-z plane, with heights along the plane's y; the same bodies and tools in the same
 /// order. Throws std::invalid_argument for motion that leaves the plane.
 [[nodiscard]] PlanarScene makePlanarScene(const BenchScene& scene);
 

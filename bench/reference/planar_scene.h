@@ -13,17 +13,18 @@ using Vec2 = Eigen::Vector2d;
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
-/// `a` turned by a quarter, counterclockwise; velocity of a point at `a` per unit of turning.
+/// `a` turned by a quarter, counterclockwise: velocity of a point at `a` per unit of angular
+/// velocity.
 [[nodiscard]] inline Vec2 turnQuarter(const Vec2& a) { return {-a.y(), a.x()}; }
 
 enum class PlanarShape { kBox, kCircle, kHalfPlane };
 
-/// A rigid body of the plane. Angles and turning are counterclockwise.
+/// A rigid body in the plane. Angles and angular velocity are counterclockwise.
 struct PlanarBody {
   PlanarShape shape = PlanarShape::kBox;
   Vec2 half = Vec2::Constant(0.02);  ///< half edges of a box [m]
   double radius = 0.02;              ///< of a circle [m]
-  Vec2 normal = Vec2::UnitY();       ///< out of a half-plane
+  Vec2 normal = Vec2::UnitY();       ///< outward normal of a half-plane
   double mass = 0.0;                 ///< [kg]; 0: static
   double inertia = 0.0;              ///< about the centre [kg m^2]
   Vec2 p = Vec2::Zero();             ///< centre, or a point of the half-plane's edge [m]
@@ -36,24 +37,24 @@ struct PlanarBody {
   [[nodiscard]] Vec2 velocityAt(const Vec2& point) const { return v + w * turnQuarter(point - p); }
 };
 
-/// A circle held by a spring-damper; touches bodies by compliant contact, without friction, and no
-/// other tool.
+/// A circle held by a spring-damper. It touches bodies by compliant contact without friction, and
+/// no other tool.
 struct PlanarTool {
   double radius = 0.01;  ///< [m]
   double mass = 0.1;     ///< [kg]
   Vec2 p = Vec2::Zero();
   Vec2 v = Vec2::Zero();
   Vec2 force = Vec2::Zero();  ///< constant [N]
-  bool is_held = false;       ///< by the coupler, at the target
+  bool is_held = false;       ///< the coupler holds it at the target
   Vec2 target_p = Vec2::Zero();
   Vec2 target_v = Vec2::Zero();
 };
 
 struct PlanarScene {
-  Vec2 gravity = Vec2::Zero();                            ///< on bodies [m/s^2]
+  Vec2 gravity = Vec2::Zero();                            ///< acts on bodies [m/s^2]
   double friction = 0.0;                                  ///< of every pair of bodies
   double coupler_stiffness = 0.0, coupler_damping = 0.0;  ///< [N/m, N s/m]
-  double contact_stiffness = 0.0, contact_damping = 0.0;  ///< tool to body
+  double contact_stiffness = 0.0, contact_damping = 0.0;  ///< between tool and body [N/m, N s/m]
   std::vector<PlanarBody> bodies;
   std::vector<PlanarTool> tools;
 };

@@ -6,13 +6,13 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Contacts are looked for up to this gap [m]; nothing moves as far in a step.
+/// Contacts are searched up to this gap [m]; no body moves as far in a step.
 constexpr double kReach = 1e-3;
 constexpr int kMostSweeps = 200;
-/// Sweeps end when none changes a velocity by more [m/s]: over a second that is less than 1e-9 m.
+/// Sweeps end when none changes a velocity by more [m/s]. Over a second that is less than 1e-9 m.
 constexpr double kSettled = 1e-10;
 
-/// Half the longest way across; 0 for what has no end.
+/// Half the longest diameter; 0 for an infinite shape.
 double boundingRadius(const PlanarBody& body) {
   if (body.shape == PlanarShape::kBox) return body.half.norm();
   return body.shape == PlanarShape::kCircle ? body.radius : 0.0;
@@ -44,8 +44,8 @@ void PlanarSolver::step(double h) {
     body.p += h * body.v;
     body.angle += h * body.w;
   }
-  // The second half kick with the forces of its own end, so that damping is symmetric in time: two
-  // rounds bring the velocity's error to (h B / m)^2.
+  // The second half kick uses the forces at its own end, so that damping is symmetric in time. Two
+  // rounds reduce the velocity's error to (h B / m)^2.
   for (std::size_t i = 0; i < tool_v_.size(); ++i) tool_v_[i] = scene_.tools[i].v;
   for (std::size_t b = 0; b < body_v_.size(); ++b) {
     body_v_[b] = scene_.bodies[b].v;
@@ -159,7 +159,7 @@ double PlanarSolver::sweep(double h) {
     return direction.dot(b.v + b.w * turnQuarter(row.arm_b) - a.v - a.w * turnQuarter(row.arm_a));
   };
   for (Row& row : rows_) {
-    // The gap may close in this step; overlap only must not grow.
+    // The gap may close in this step; overlap must only not grow.
     const double allowed = std::max(row.gap, 0.0) / h;
     const double wanted =
         row.normal_impulse - row.normal_mass * (speedAt(row, row.normal) + allowed);

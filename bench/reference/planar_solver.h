@@ -6,13 +6,13 @@
 
 namespace tandem::demos::bench {
 
-/// A solver for bodies of the plane, to be run at a step so fine that its first order does not
-/// matter: rigid contact with Coulomb friction by projected Gauss-Seidel on velocities, restitution
-/// 0.
+/// A solver for bodies in the plane: rigid contact with Coulomb friction by projected Gauss-Seidel
+/// on velocities, restitution 0. Run it at a step so fine that its first order does not matter.
 ///
-/// Leap-frog: half a kick of the smooth forces (gravity, couplers, compliant contact of tools),
-/// rigid rows on the velocities in mid-step, positions, half a kick. A row lets a gap close in one
-/// step and no further; overlap that is there stays and is never pushed out, so nothing bounces.
+/// Leap-frog: half a kick of the smooth forces, rigid rows on the velocities in mid-step,
+/// positions, half a kick. Smooth forces are gravity, couplers and compliant contact of tools. A
+/// row lets a gap close in one step and no further. Existing overlap stays and is never pushed out,
+/// so nothing bounces.
 class PlanarSolver {
  public:
   explicit PlanarSolver(PlanarScene scene);
@@ -21,7 +21,7 @@ class PlanarSolver {
   [[nodiscard]] PlanarScene& scene() { return scene_; }
   [[nodiscard]] const PlanarScene& scene() const { return scene_; }
 
-  /// One step of h [s].
+  /// Advances by one step of h [s].
   void step(double h);
 
   /// Sum of the normal impulses of the latest step between bodies `a` and `b` [N s].
@@ -40,7 +40,7 @@ class PlanarSolver {
   void addRows(std::size_t a, std::size_t b, const PlanarManifold& manifold);
   void warmStart(Row& row) const;
   void applyImpulse(const Row& row, const Vec2& impulse);
-  /// One sweep over all rows; the largest change of a velocity that it made [m/s].
+  /// Sweeps once over all rows. Returns the largest change of a velocity [m/s].
   double sweep(double h);
   void computeForces();
   void kick(double h);

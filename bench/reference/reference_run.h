@@ -6,7 +6,7 @@
 
 namespace tandem::demos::bench {
 
-/// The true motion of a scene, as well as it is known.
+/// The true motion of a scene, to the reference's accuracy.
 struct ReferenceRun {
   std::vector<SceneState> states;  ///< state n at n / kGridRate, to the end of the scene
 };

@@ -7,8 +7,8 @@
 namespace tandem::reference {
 namespace {
 
-// Instants closer than this are one instant: the sum n / rate + delay is rounded, a tick's k / rate
-// is rounded differently, and a packet that arrives at a tick must be seen by that tick.
+// Instants closer than this are one instant. The sum n / rate + delay and a tick's k / rate are
+// rounded differently. A tick must see a packet that arrives at it.
 constexpr double kSameInstant = 1e-10;  // [s]
 
 // Allows for the rounding of duration / max_step, so that 1 ms in 2 us steps makes 500 steps.

@@ -4,12 +4,12 @@
 
 namespace tandem::reference {
 
-/// Where the haptic interface point (HIP) is between two samples of its device.
+/// Motion of the haptic interface point (HIP) between two samples of its device.
 ///
-/// The device holds the force of its tick in both; only the HIP that the other bodies meet differs.
+/// The device holds the force of its tick in both. Only the HIP that other bodies touch differs.
 enum class HipMotion {
   kExtrapolated,  ///< p + v tau, with p and v sampled tau seconds ago at the last tick
-  kContinuous,    ///< the device's own position: the limit that no sampled loop reaches
+  kContinuous,    ///< the device's own position, the limit of infinitely fast sampling
 };
 
 /// Rates and delay of the two sites, which share one clock.
@@ -20,21 +20,20 @@ struct Sampling {
   double duration = 1.0;        ///< [s], a whole number of haptic periods
 };
 
-/// An instant at which something is sampled. Everything due then happens in the order of the
-/// fields.
+/// An instant with a sample. All its events happen in the order of the fields.
 struct Instant {
   double t = 0.0;         ///< [s]
   bool sends = false;     ///< each site sends its state to the other
-  bool receives = false;  ///< each site receives the oldest packet that is under way
+  bool receives = false;  ///< each site receives the oldest packet under way
   bool ticks = false;     ///< each site samples its device and renders a new force
-  bool ends = false;      ///< t is the duration; there is no tick any more
+  bool ends = false;      ///< t is the duration; no tick follows
 };
 
 /// Gives the instants of a run one after the other, each at its exact time.
 ///
 /// An integrator that steps from one instant to the next never has an event inside a step. The
-/// constructor throws std::invalid_argument unless the rates and the duration are positive, the
-/// delay is not negative and the duration is a whole number of haptic periods.
+/// constructor throws std::invalid_argument in three cases: rates or duration are not positive, the
+/// delay is negative, or the duration is no whole number of haptic periods.
 class SampleClock {
  public:
   explicit SampleClock(const Sampling& sampling);

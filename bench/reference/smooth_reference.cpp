@@ -34,7 +34,7 @@ void put(Values& x, std::size_t thing, const Vec3& first, const Vec3& second) {
   }
 }
 
-/// What a contact would exert if it could also pull.
+/// Force of a contact if it could also pull.
 struct Push {
   double overlap = 0.0;
   double force = 0.0;
@@ -45,7 +45,7 @@ class SmoothScene {
  public:
   explicit SmoothScene(const BenchScene& scene);
 
-  /// Moves on to `until` with the targets that hold there.
+  /// Advances to `until` with the targets of that time.
   void advance(double until, double max_step);
   void read(SceneState& state) const;
 
@@ -141,7 +141,7 @@ void SmoothScene::switchPairs(const Values& x) {
     }
 }
 
-/// The part of `step` after which the first pair switches; `after` is the state just behind it.
+/// Part of `step` at which the first pair switches; `after` is the state just after it.
 double SmoothScene::findSwitch(const Values& from, double t, double step, Values& after) {
   Stepper stepper;
   const auto rates = [this](const Values& x, Values& dx, double) { computeRates(x, dx); };

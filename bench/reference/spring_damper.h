@@ -2,7 +2,7 @@
 
 namespace tandem::reference {
 
-/// Gains of a spring-damper, of a contact as well as of a coordination coupling.
+/// Gains of a spring-damper, for contacts and for coordination couplings.
 struct SpringDamper {
   double stiffness = 0.0;  ///< [N/m], or [N m/rad] for a rotation
   double damping = 0.0;    ///< [N s/m], or [N m s/rad] for a rotation

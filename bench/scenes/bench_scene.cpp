@@ -15,7 +15,7 @@ Vec3 computeBoxInertia(const Vec3& h, double mass) {
 
 std::optional<PointState> heldTarget(const BenchTool& tool, double t) {
   if (!tool.device) return std::nullopt;
-  // The slack is rounding: a time that is meant to be a multiple is one.
+  // The slack covers rounding: times meant as multiples count as multiples.
   return tool.device(std::floor(t * kTargetRate + 1e-6) / kTargetRate);
 }
 

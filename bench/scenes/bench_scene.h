@@ -12,14 +12,14 @@
 
 /// \file
 /// The scenes of `tandem bench accuracy`: each is one value that every method and the reference
-/// read. World frame W, z up, SI units. All motion is in the x-z plane or has no plane at all, so
-/// that planar solvers can be compared with spatial ones.
+/// read. World frame W, z up, SI units. All motion is in the x-z plane or in no particular plane.
+/// So planar solvers can be compared with spatial ones.
 namespace tandem::demos::bench {
 
-/// Targets of couplers are sampled and held at this rate [Hz], for every method and the reference.
+/// Every method and the reference sample and hold the couplers' targets at this rate [Hz].
 inline constexpr int kTargetRate = 1000;
-/// Times at which states are compared are whole numbers of 1/kGridRate s: a common multiple of all
-/// host rates and of kTargetRate [Hz].
+/// States are compared at whole multiples of 1/kGridRate s. This is a common multiple of all host
+/// rates and of kTargetRate [Hz].
 inline constexpr int kGridRate = 12000;
 
 struct BoxShape {
@@ -28,26 +28,27 @@ struct BoxShape {
 struct SphereShape {
   double radius = 0.02;  ///< [m]
 };
-/// Everything on the side of p_WB where (p - p_WB) . normal_W < 0; static.
+/// A static half-space: all points with (p - p_WB) . normal_W < 0.
 struct PlaneShape {
   Vec3 normal_W = Vec3::UnitZ();
 };
 
-/// A body that tools touch and that touches other bodies rigidly: restitution 0, friction
-/// BenchScene::friction, no damping, uniform density.
+/// A body that tools touch, and that touches other bodies rigidly. Restitution is 0, friction is
+/// BenchScene::friction, there is no damping, and density is uniform.
 struct BenchBody {
   std::string name;
   std::variant<BoxShape, SphereShape, PlaneShape> shape = BoxShape{};
   double mass = 0.0;       ///< [kg]; 0: static
-  bool is_shared = false;  ///< the plugin shares it; elsewhere a body like any other
+  bool is_shared = false;  ///< the plugin shares it; for other methods a normal body
   RigidState start;
 
   [[nodiscard]] bool isStatic() const { return mass == 0.0; }
 };
 
-/// A sphere that a user holds by a spring-damper, as the plugin holds a remote dynamic proxy. It
-/// does not turn, feels no gravity, and touches bodies by the scene's compliant contact only: force
-/// max(0, K overlap + B overlap') along the normal, no friction. Tools do not touch each other.
+/// A sphere that a user holds by a spring-damper, like the plugin's remote dynamic proxy. It does
+/// not rotate, feels no gravity, and touches bodies by the scene's compliant contact only. Its
+/// contact force is max(0, K overlap + B overlap') along the normal, without friction. Tools do not
+/// touch each other.
 struct BenchTool {
   double radius = 0.01;  ///< [m]
   double mass = 0.1;     ///< [kg]
@@ -59,22 +60,22 @@ struct BenchTool {
 
 struct BenchScene {
   std::string name;                    ///< identifier, for files and options
-  std::string title;                   ///< for readers
+  std::string title;                   ///< title in tables and figures
   double duration = 1.0;               ///< [s]
-  Vec3 gravity_W = Vec3::Zero();       ///< on bodies, not on tools [m/s^2]
+  Vec3 gravity_W = Vec3::Zero();       ///< acts on bodies, not on tools [m/s^2]
   double friction = 0.0;               ///< Coulomb coefficient of every pair of bodies
   CouplerGains coupler{2000.0, 10.0};  ///< tool to its device [N/m, N s/m]
   CouplerGains contact{2000.0, 10.0};  ///< tool to bodies, in total per touching pair
   std::vector<BenchTool> tools;
   std::vector<BenchBody> bodies;
 
-  /// Every contact that acts is a compliant one, and no body turns: the reference is then the
+  /// Every active contact is compliant, and no body rotates. The reference is then the
   /// event-located one, else the fine-stepped planar one.
   bool is_smooth = false;
 };
 
-/// What a tool is tied to at time `t` [s]: its device's state at the last multiple of
-/// 1/kTargetRate, held. Nothing without a coupler.
+/// Target of a tool's coupler at time `t` [s]: its device's state at the last multiple of
+/// 1/kTargetRate, held. Empty without a coupler.
 [[nodiscard]] std::optional<PointState> heldTarget(const BenchTool& tool, double t);
 
 /// Principal moments of a body of uniform density, in B [kg m^2]; zero if it is static.
@@ -83,7 +84,7 @@ struct BenchScene {
 /// All scenes, in the order of tables and figures.
 [[nodiscard]] const std::vector<BenchScene>& allScenes();
 
-/// States of all moving things at one moment, in the order of BenchScene::tools and ::bodies.
+/// States of all moving bodies at one moment, in the order of BenchScene::tools and ::bodies.
 struct SceneState {
   std::vector<PointState> tools;
   std::vector<RigidState> bodies;  ///< static ones stay at their start

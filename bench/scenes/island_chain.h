@@ -7,11 +7,11 @@
 
 namespace tandem::demos::bench {
 
-/// Device, cube and remote user's proxy on a line: the island that the costs of a tick are told
-/// for. The device presses and yields once per second, the targets of proxy and cube creep.
+/// Device, cube and remote user's proxy on a line: the island of the published tick costs. The
+/// device presses and yields once per second; the targets of proxy and cube move slowly.
 class IslandChain {
  public:
-  /// The spheres are `gap` [m] off the cube; negative: they press it.
+  /// The spheres are `gap` [m] away from the cube; a negative gap presses it.
   IslandChain(const CouplerGains& contact, double gap, bool cube_turns)
       : place_(0.5 * kEdge + kRadius + gap) {
     hip_ = island_.addBody(makeBall(Motion::kPrescribed, Vec3(-place_, 0.006, 0.0)));
@@ -31,7 +31,7 @@ class IslandChain {
     island_.prepare();
   }
 
-  /// One haptic period.
+  /// Runs one haptic period.
   void tick() {
     const double w = 6.2831853071795865;
     const double phase = w * 1e-3 * static_cast<double>(++ticks_ % 1000);
@@ -61,15 +61,15 @@ class IslandChain {
   }
 
   Island island_{{}};
-  double place_;  // of the spheres off the cube's middle [m]
+  double place_;  // distance of the spheres from the cube's middle [m]
   BodyIndex hip_, cube_;
   CouplerIndex cube_tie_, proxy_tie_;
   std::uint64_t ticks_ = 0;
 };
 
-/// Nothing in reach of anything.
+/// No body is in reach of another.
 inline IslandChain makeLoneCouplers() { return IslandChain({2000.0, 10.0}, 0.05, false); }
-/// Both spheres press the cube, off its middle, so that it turns.
+/// Both spheres press the cube beside its middle, so it rotates.
 inline IslandChain makeThreeInContact() { return IslandChain({2000.0, 10.0}, -1e-3, true); }
 
 }  // namespace tandem::demos::bench

@@ -11,15 +11,16 @@ constexpr double kToolRadius = 0.01;  // [m]
 constexpr double kFriction = 0.3;
 const Vec3 kGravity{0, 0, -9.81};  // [m/s^2]
 
-/// A part of a device's way: `way` from `start` on, at constant speed but for `ease` at each end.
+/// A part of a device's path: `way` from time `start` on, at constant speed except `ease` at each
+/// end.
 struct Leg {
   double start = 0.0;       // [s]
   double time = 1.0;        // [s]
   Vec3 way = Vec3::Zero();  // [m]
-  double ease = 0.05;       // part of `time` over which speed rises, and over which it falls
+  double ease = 0.05;       // part of `time` for acceleration, and for braking
 };
 
-/// Part of a leg's way that is done at s in [0, 1] of its time, and its slope.
+/// Finished part of a leg's way at s in [0, 1] of its time, and its slope.
 std::pair<double, double> computeShare(double s, double ease) {
   const double top = 1.0 / (1.0 - ease);  // slope in the middle
   if (s <= 0.0) return {0.0, 0.0};
@@ -30,7 +31,7 @@ std::pair<double, double> computeShare(double s, double ease) {
   return {top * (s - 0.5 * ease), top};
 }
 
-/// A device that goes one leg after another and stands still between them.
+/// A device that moves one leg after another and stands still between them.
 std::function<PointState(double)> makeDevice(const Vec3& start_W, std::vector<Leg> legs) {
   return [start_W, legs = std::move(legs)](double t) {
     PointState device{start_W, Vec3::Zero()};
@@ -61,7 +62,7 @@ BenchBody makeBox(std::string name, double mass, const Vec3& p_W,
   return body;
 }
 
-/// The cube that the tool pushes, its lower face at height 0 if `z` is its half edge.
+/// The cube that the tool pushes. Its lower face is at height 0 if `z` is its half edge.
 BenchBody makeCube(double mass, double z = kHalfCube) {
   BenchBody cube = makeBox("cube", mass, {0, 0, z});
   cube.is_shared = true;
@@ -162,7 +163,7 @@ BenchScene makeSphere() {
   return scene;
 }
 
-/// Pressed against the wall with 25 N: 12.5 mm in the coupler and as much in the contact.
+/// Presses the cube against the wall with 25 N: 12.5 mm in the coupler and as much in the contact.
 BenchScene makePushToWall() {
   BenchScene scene = makeFloorScene(
       "wall", "cube on a floor with friction, into a wall", 1.0, 0.25, 0.024,
@@ -179,7 +180,7 @@ BenchScene makeTipOverPost() {
   return scene;
 }
 
-/// No gravity, nothing else: the cube runs into a box that is free.
+/// Without gravity, the cube hits a free box.
 BenchScene makeFreeBox(std::string name, std::string title, double speed) {
   constexpr double kWay = 0.05;  // [m]
   const double time = kWay / speed / (1.0 - 0.1);
@@ -200,7 +201,7 @@ BenchScene makeRow() {
   return scene;
 }
 
-/// 24.5 N held.
+/// The tool holds 24.5 N.
 BenchScene makeSqueeze() {
   BenchScene scene = makeFloorScene("squeeze", "box squeezed against a wall", 0.8, 0.1, kHalfCube,
                                     {{0.0, 0.5, {0.002 + 0.002 + 0.004 + 0.0245, 0, 0}, 0.2}});

@@ -4,7 +4,7 @@
 
 namespace tandem::demos::bench {
 
-/// Where a sphere meets a body.
+/// Contact of a sphere with a body.
 struct Touch {
   double overlap = 0.0;           ///< positive while they overlap [m]
   Vec3 normal_W = Vec3::UnitX();  ///< from the body towards the sphere

@@ -15,10 +15,10 @@ namespace {
 const std::vector<SpeedWay> kAllWays = {SpeedWay::kBare60, SpeedWay::kBare240, SpeedWay::kWhole,
                                         SpeedWay::kIsland};
 
-/// Measures a case for so long, in so many turns.
+/// Duration of a measurement, and number of turns.
 struct Effort {
   int turns;
-  double block_us;  ///< a block is at least so long, and at least one step
+  double block_us;  ///< least time of a block, which has at least one step
 };
 
 double medianOf(std::vector<double> values) {
@@ -27,14 +27,14 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// How often the system has taken the processor away from this thread.
+/// Number of times that the system preempted this thread.
 long countPreemptions() {
   rusage usage{};
   getrusage(RUSAGE_THREAD, &usage);
   return usage.ru_nivcsw;
 }
 
-/// Measures again, a few times, if another program came between.
+/// Measures again, a few times, if another program interrupted.
 template <typename Measure>
 void measureUndisturbed(Measure measure) {
   constexpr int kTries = 4;
@@ -45,7 +45,7 @@ void measureUndisturbed(Measure measure) {
   }
 }
 
-/// A way under way: what its blocks took.
+/// A running way, and the times of its blocks.
 struct Contestant {
   SpeedWay way;
   std::unique_ptr<SpeedRun> run;
@@ -53,7 +53,7 @@ struct Contestant {
 
   void runBlock(double block_us) {
     SpeedTimes times;
-    run->step(times);  // what the others pushed out of the caches comes back
+    run->step(times);  // refills the caches that the others emptied
     measureUndisturbed([&] {
       times = {};
       do {
@@ -68,7 +68,7 @@ struct Contestant {
   }
 };
 
-/// Median over turns of what `compare` says of two ways' blocks.
+/// Median over turns of `compare` on two ways' blocks.
 template <typename Compare>
 double medianOver(const std::vector<double>& a, const std::vector<double>& b, Compare compare) {
   std::vector<double> compared;
@@ -141,7 +141,7 @@ std::vector<Plan> makePlans(bool quick) {
        turns});
   plans.push_back(
       {{"1000 active, row of 3 pushed", {1000, true, 1, SpeedTouch::kRow}, {}}, kAllWays, turns});
-  // The difference is small against the whole: more turns.
+  // The difference is small compared with the whole, so there are more turns.
   for (const bool awake : {true, false})
     for (const int n : bodies)
       plans.push_back({{fmt::format("{} {}, nothing touched", n, stateOf(awake)),
@@ -160,7 +160,7 @@ std::vector<Plan> makePlans(bool quick) {
   return plans;
 }
 
-/// What nobody touches may add to a host step: 1 %, or 0.05 us where that is more.
+/// Limit for untouched bodies in a host step: 1 %, or 0.05 us if that is more.
 SpeedCheck checkNothingTouched(const SpeedCase& c) {
   const double bare = c.find(SpeedWay::kBare60)->us_per_step;
   return {c.name + ": host step beyond Bullet's own", c.find(SpeedWay::kIsland)->step_over_bare,

@@ -9,15 +9,15 @@
 
 namespace tandem::demos::bench {
 
-/// One scene in one way: medians over short blocks of steps. All ways of a scene take turns, and
-/// what compares two of them is the median over turns: load that comes and goes meets both.
+/// One scene in one way: medians over short blocks of steps. All ways of a scene take turns.
+/// Comparisons of two are medians over turns, so that other load affects both.
 struct SpeedResult {
   SpeedWay way = SpeedWay::kBare60;
   double us_per_second = 0.0;   ///< run time per simulated second, ticks included [us]
-  double us_per_step = 0.0;     ///< of Bullet's step with what hooks into it [us]
-  double us_per_tick = 0.0;     ///< of a haptic tick outside of it [us]; 0 where there is none
-  double step_over_bare = 0.0;  ///< us_per_step less that of Bullet alone at 60 Hz [us]
-  double times_cheaper = 0.0;   ///< than the whole world at 1 kHz, per second; 0 without that
+  double us_per_step = 0.0;     ///< Bullet's step with its callbacks [us]
+  double us_per_tick = 0.0;     ///< a haptic tick outside the step [us]; 0 if none
+  double step_over_bare = 0.0;  ///< us_per_step minus that of Bullet alone at 60 Hz [us]
+  double times_cheaper = 0.0;   ///< ratio to the whole world at 1 kHz, per second; 0 without that
 };
 
 struct SpeedCase {
@@ -29,7 +29,7 @@ struct SpeedCase {
   [[nodiscard]] const SpeedResult* find(SpeedWay way) const;
 };
 
-/// The cost of Island::advance for one haptic period.
+/// Cost of Island::advance for one haptic period.
 struct IslandTick {
   std::string name;
   double us = 0.0;
@@ -53,7 +53,7 @@ struct SpeedReport {
   std::vector<SpeedCheck> checks;
 };
 
-/// Told what is being done and the share of the work that is done.
+/// Called with the current activity and the finished share of the work.
 using SpeedProgress = std::function<void(std::string_view what, double share)>;
 
 /// Measures on this machine. `quick`: fewer scenes, blocks and steps.

@@ -9,7 +9,7 @@ namespace tandem::demos::bench {
 struct SpeedCommand {
   bool json = false;
   bool quick = false;
-  std::optional<std::string> folder;  ///< takes speed.json, speed.svg and speed.png
+  std::optional<std::string> folder;  ///< folder for speed.json, speed.svg and speed.png
 };
 
 /// Measures, prints table or JSON, writes files. Throws UsageError or tandem::Error, one line.

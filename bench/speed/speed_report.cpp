@@ -11,7 +11,7 @@ constexpr int kNameWidth = 42;
 const SpeedWay kWays[] = {SpeedWay::kBare60, SpeedWay::kBare240, SpeedWay::kWhole,
                           SpeedWay::kIsland};
 
-/// Three digits, whatever the size.
+/// Formats with three digits at any size.
 std::string number(double value) {
   if (std::abs(value) >= 100.0) return fmt::format("{:.0f}", value);
   return std::abs(value) >= 10.0 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);

@@ -10,7 +10,7 @@ namespace tandem::demos::bench {
 
 [[nodiscard]] std::string makeSpeedTable(const SpeedReport& report);
 
-/// As docs/benchmarks.md describes it.
+/// docs/benchmarks.md describes the format.
 [[nodiscard]] nlohmann::json makeSpeedJson(const SpeedReport& report, bool quick);
 
 }  // namespace tandem::demos::bench

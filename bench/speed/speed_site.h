@@ -8,17 +8,17 @@
 
 namespace tandem::demos::bench {
 
-/// A scene with a site, as a host at 60 Hz has it: a device, and a remote user whose packets come
-/// 128 times per second.
+/// A scene with a site in a host at 60 Hz: a device, and a remote user whose packets come 128 times
+/// per second.
 class SpeedSite {
  public:
   static constexpr double kHapticRate = 1000.0, kHostRate = 60.0;  // [Hz]
 
   explicit SpeedSite(const SpeedScene& scene);
 
-  /// The next haptic tick. Ticks of a host step come before it.
+  /// Runs the next haptic tick. Ticks of a host step come before it.
   void tick() { site_.tick(now()); }
-  /// The ticks that begin before `end` [s]; returns how many.
+  /// Runs the ticks that begin before `end` [s]; returns their number.
   int tickUntil(double end);
   void stepHost() { world_.step(1.0 / kHostRate); }
   [[nodiscard]] const Site& site() const { return site_; }
@@ -36,7 +36,7 @@ class SpeedSite {
     DeviceCapabilities capabilities_{"path"};
   };
 
-  /// Without objects: these stay tied to where they were shared.
+  /// Packets carry no objects: these stay tied to where they were shared.
   class PathLink final : public Link {
    public:
     explicit PathLink(const SpeedScene& scene) : scene_(scene) { packet_.sender = PeerId{2}; }

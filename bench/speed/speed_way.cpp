@@ -21,8 +21,8 @@ double microsecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
-/// The whole world at the haptic rate: contact of hand and proxy with the cube by geometry of our
-/// own, and the proxy's coupler, as impulses F dt before each step.
+/// Steps the whole world at the haptic rate. Our own geometry gives the contact of hand and proxy
+/// with the cube. This and the proxy's coupler are impulses F dt before each step.
 class WholeWorldRun final : public SpeedRun {
  public:
   explicit WholeWorldRun(const SpeedScene& scene)
@@ -30,7 +30,7 @@ class WholeWorldRun final : public SpeedRun {
         world_(scene, 1.0),
         cube_(*world_.cubes().front()),
         proxy_(world_.addProxy(remoteAt(scene, 0.0).p_W, isPressed(scene))) {
-    // The sphere meets the cube by the forces below, and nothing else.
+    // The forces below are the only contact of sphere and cube.
     proxy_.setIgnoreCollisionCheck(&cube_, true);
     cube_.setIgnoreCollisionCheck(&proxy_, true);
   }
@@ -96,9 +96,8 @@ class IslandRun final : public SpeedRun {
   double steps_ = 0;
 };
 
-/// Bullet alone: the remote user's sphere is there, too, as a site would add it. Between steps the
-/// processor does something else, as it does with a site: ticks of one at rest in another world,
-/// which are not counted.
+/// Bullet alone. The remote user's sphere exists, as a site would add it. Between steps the
+/// processor does other work, as with a site: uncounted ticks of a site at rest in another world.
 class BareRun final : public SpeedRun {
  public:
   BareRun(const SpeedScene& scene, int host_rate)

@@ -7,7 +7,7 @@
 
 namespace tandem::demos::bench {
 
-/// Time taken by some host steps and the haptic ticks that belong to them [us].
+/// Time of some host steps and of their haptic ticks [us].
 struct SpeedTimes {
   double host = 0.0;
   double ticks = 0.0;
@@ -21,15 +21,15 @@ class SpeedRun {
   virtual ~SpeedRun() = default;
   /// Steps per second of the host [Hz].
   [[nodiscard]] virtual int hostRate() const = 0;
-  /// One host step with what belongs to it, timed.
+  /// Times one host step with its ticks.
   virtual void step(SpeedTimes& times) = 0;
 };
 
-/// How to simulate.
+/// Way to simulate.
 enum class SpeedWay {
-  kBare60,   ///< Bullet at 60 Hz, nobody touches anything
+  kBare60,   ///< Bullet at 60 Hz, no hand touches anything
   kBare240,  ///< the same at 240 Hz
-  kWhole,    ///< Bullet at 1 kHz with the forces of the touch as impulses in its pre-tick
+  kWhole,    ///< Bullet at 1 kHz; contact forces are impulses in its pre-tick
   kIsland,   ///< Bullet at 60 Hz with a Site, ticked at 1 kHz
 };
 

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kEdge = 2.0 * kSpeedHalfEdge;
 constexpr double kCrowdPitch = 0.2, kCubePitch = 0.2;  // [m]
-constexpr double kPushSpeed = 0.05;                    // of the hand into the row [m/s]
-constexpr double kFloating = 0.2;                      // height of a cube that floats [m]
+constexpr double kPushSpeed = 0.05;                    // speed of the hand into the row [m/s]
+constexpr double kFloating = 0.2;                      // height of a floating cube [m]
 constexpr double kPi = 3.14159265358979323846;
 
-/// In a square, row by row, from its corner.
+/// Places bodies in a square, row by row, from its corner.
 Vec3 placeInSquare(int index, int count, double pitch) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   return Vec3(pitch * (index % side), pitch * (index / side), kSpeedHalfEdge);
@@ -24,7 +24,7 @@ void switchGravityOff(btRigidBody& body) {
   body.setGravity(btVector3(0, 0, 0));
 }
 
-/// Height at which hand and remote user are.
+/// Height of hand and remote user.
 double heightOf(const SpeedScene& scene) {
   return scene.touch == SpeedTouch::kCube ? kFloating : kSpeedHalfEdge;
 }
@@ -49,7 +49,7 @@ SpeedWorld::SpeedWorld(const SpeedScene& scene, double shared_mass_factor) {
   }
   for (int i = 1; i <= 3 && scene.touch == SpeedTouch::kRow; ++i)
     let(addBody(box_shape_, kSpeedMass, Vec3((kEdge + 1e-3) * i, 0.0, kSpeedHalfEdge)), true);
-  // All worlds of a scene begin alike: what is awake has settled.
+  // All worlds of a scene begin alike: awake bodies have settled.
   for (int i = 0; i < 60; ++i) step(1.0 / 240.0);
 }
 

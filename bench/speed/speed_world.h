@@ -10,20 +10,20 @@
 
 namespace tandem::demos::bench {
 
-/// What the hand does.
+/// Action of the hand.
 enum class SpeedTouch {
-  kNothing,  ///< it holds still, away from everything
-  kCube,     ///< it presses the first shared cube, which floats, and a remote user's proxy presses
+  kNothing,  ///< holds still, away from all bodies
+  kCube,     ///< presses the first shared cube, which floats, and a remote user's proxy presses
              ///< back
   kOnFloor,  ///< the same, the cube on the floor
-  kRow,      ///< it pushes that cube along the floor into three boxes of the host's
+  kRow,      ///< pushes that cube along the floor into three boxes of the host's
 };
 
-/// A host's world to be timed, and how it is used.
+/// A host's world to be timed, and its use.
 struct SpeedScene {
-  int bodies = 0;      ///< boxes of the host's that stand on the floor, away from all else
+  int bodies = 0;      ///< boxes of the host's on the floor, away from the rest
   bool awake = false;  ///< these never sleep; else they never wake
-  int objects = 1;     ///< shared cubes, on the floor, too
+  int objects = 1;     ///< shared cubes, also on the floor
   SpeedTouch touch = SpeedTouch::kNothing;
 };
 
@@ -31,15 +31,15 @@ struct SpeedScene {
   return scene.touch == SpeedTouch::kCube || scene.touch == SpeedTouch::kOnFloor;
 }
 
-inline constexpr double kSpeedHalfEdge = 0.02;  ///< of all cubes [m]
-inline constexpr double kSpeedRadius = 0.01;    ///< of device and proxy [m]
-inline constexpr double kSpeedMass = 0.1;       ///< of cubes, and of the proxy [kg]
+inline constexpr double kSpeedHalfEdge = 0.02;  ///< half edge of all cubes [m]
+inline constexpr double kSpeedRadius = 0.01;    ///< radius of device and proxy [m]
+inline constexpr double kSpeedMass = 0.1;       ///< mass of cubes and of the proxy [kg]
 
-/// The world of a scene: floor, host's boxes, cubes that may be shared, perhaps a row of three.
-/// Nothing of Tandem. Cubes sleep but for the one that is touched.
+/// The world of a scene without Tandem: floor, host's boxes, cubes that may be shared, perhaps a
+/// row of three. Cubes sleep except the touched one.
 class SpeedWorld {
  public:
-  /// `shared_mass_factor`: peers that carry a shared cube, where a site takes a share of its mass.
+  /// `shared_mass_factor`: peers that carry a shared cube; a site takes a share of its mass.
   SpeedWorld(const SpeedScene& scene, double shared_mass_factor);
   ~SpeedWorld();
   SpeedWorld(const SpeedWorld&) = delete;
@@ -47,9 +47,9 @@ class SpeedWorld {
 
   [[nodiscard]] btDiscreteDynamicsWorld& world() { return world_; }
   [[nodiscard]] const std::vector<btRigidBody*>& cubes() const { return cubes_; }
-  /// Adds a remote user's sphere as a body of the world; asleep or never asleep.
+  /// Adds a remote user's sphere as a body of the world: asleep or never asleep.
   btRigidBody& addProxy(const Vec3& p_W, bool awake);
-  /// Step without anybody's hand [s].
+  /// Steps the world without a hand [s].
   void step(double dt) { world_.stepSimulation(static_cast<btScalar>(dt), 0); }
 
  private:
@@ -67,7 +67,7 @@ class SpeedWorld {
   std::vector<btRigidBody*> cubes_;
 };
 
-/// Where hand and remote user are at a time [s].
+/// State of hand and remote user at a time [s].
 [[nodiscard]] PointState handAt(const SpeedScene& scene, double time);
 [[nodiscard]] PointState remoteAt(const SpeedScene& scene, double time);
 

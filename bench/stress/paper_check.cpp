@@ -9,10 +9,10 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Copies of the cube.
+/// Number of copies of the cube.
 constexpr double kPeers = 2.0;
 
-/// Displacement that nothing in the scene is below [m].
+/// Smallest displacement that a difference is divided by [m].
 constexpr double kLeastDisplacement = 1e-6;
 
 reference::PaperParameters makeParameters(const StressCase& one) {
@@ -34,7 +34,8 @@ reference::PaperParameters makeParameters(const StressCase& one) {
   p.sampling.packet_rate = one.packet_rate;
   p.sampling.delay = one.network.delay;
   p.sampling.duration = one.duration;
-  // A hundredth of a radian of the fastest oscillation, of the fastest decay's time.
+  // The step is a hundredth of a radian of the fastest oscillation, and of the fastest decay's
+  // time.
   const double lightest =
       has_cube ? std::min(one.proxy_mass, one.bodies.front().mass) : one.proxy_mass;
   const double stiffness = 2.0 * one.contact.stiffness + one.coordination.stiffness;

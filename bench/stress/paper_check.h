@@ -7,11 +7,11 @@
 
 namespace tandem::demos::bench {
 
-/// Follows a case of kind kPaper beside the solver of the paper's equations, which knows nothing of
-/// the library: stable or not, both must say the same.
+/// Compares a case of kind kPaper with the solver of the paper's equations, which shares no code
+/// with the library. Stable or not, both must agree.
 ///
-/// Bouncing contact multiplies any difference at each impact, so the comparison ends when contact
-/// has been made or broken kMostChanges times.
+/// Bouncing contact multiplies any difference at each impact. So the comparison ends after
+/// kMostChanges begins and ends of contact.
 class PaperCheck {
  public:
   static constexpr int kMostChanges = 4;
@@ -22,14 +22,14 @@ class PaperCheck {
   /// Compares the devices at the start of a tick; displacements along the axis [m].
   void compare(std::uint64_t tick, double x1, double x2);
 
-  /// Largest difference by the largest displacement so far.
+  /// Largest difference over the largest displacement so far.
   [[nodiscard]] double worst() const { return worst_; }
 
  private:
   struct Row {
     double x1, x2;
   };
-  std::vector<Row> rows_;  ///< as far as they are compared
+  std::vector<Row> rows_;  ///< as long as they are compared
   double largest_ = 0.0, worst_ = 0.0;
 };
 

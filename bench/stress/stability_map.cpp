@@ -8,12 +8,12 @@
 namespace tandem::demos::bench {
 namespace {
 
-constexpr double kRadius = 0.01, kHalf = 0.05;  // of sphere and cube [m]
-constexpr double kReleased = 0.01;              // above the surface [m]
+constexpr double kRadius = 0.01, kHalf = 0.05;  // radius of the sphere, half edge of the cube [m]
+constexpr double kReleased = 0.01;              // start above the surface [m]
 constexpr double kPressed = 0.005;              // target, below the surface [m]
 
 double computeDamping(double stiffness) {
-  // Of each: both together have the ratio.
+  // Damping of each coupler: both together have the ratio.
   return MapScene::kDampingRatio * std::sqrt(2.0 * stiffness * MapScene::kMass);
 }
 
@@ -34,7 +34,7 @@ BenchScene makeScene(double stiffness) {
   cube.shape = BoxShape{Vec3::Constant(kHalf)};
   scene.bodies.push_back(cube);
   scene.is_smooth = true;
-  // Long enough to come to rest, and for a method to show that it does not.
+  // Long enough to come to rest, or to show instability.
   const double frequency = std::sqrt(stiffness / MapScene::kMass);
   scene.duration = std::max(0.5, 60.0 / frequency);
   return scene;
@@ -49,8 +49,7 @@ double computeEnergy(const BenchScene& scene, const PointState& tool) {
          0.5 * scene.contact.stiffness * overlap * overlap;
 }
 
-/// Grows: in the last half the sphere still has, or has again, more energy than it was released
-/// with.
+/// Unstable if in the last half the sphere has, at any time, more energy than at its release.
 Stability judge(const Method& method, double stiffness, int host_rate) {
   const BenchScene scene = makeScene(stiffness);
   SceneState state = startState(scene);

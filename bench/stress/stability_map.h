@@ -10,10 +10,10 @@ namespace tandem::demos::bench {
 enum class Stability { kStable, kGrows, kNotFinite, kNotApplicable };
 [[nodiscard]] std::string_view nameOf(Stability stability);
 
-/// One way to simulate over a grid of stiffness and host step.
+/// One method over a grid of stiffness and host step.
 struct StabilityMap {
   std::string method;
-  std::vector<double> stiffness;  ///< of contact and coupler alike [N/m]
+  std::vector<double> stiffness;  ///< of contact and coupler [N/m]
   std::vector<int> host_rates;    ///< [Hz]
   std::vector<Stability> cells;   ///< by stiffness, then rate
   [[nodiscard]] Stability at(std::size_t k, std::size_t r) const {
@@ -21,8 +21,8 @@ struct StabilityMap {
   }
 };
 
-/// The scene of the maps: a sphere held by a coupler presses on a fixed cube; the target lies in
-/// the cube, and the sphere is released from outside.
+/// The scene of the maps: a sphere on a coupler presses on a fixed cube. Its target lies in the
+/// cube, and it is released from outside.
 struct MapScene {
   static constexpr double kMass = 0.1;           ///< [kg]
   static constexpr double kDampingRatio = 0.05;  ///< of coupler and contact together

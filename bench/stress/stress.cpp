@@ -15,16 +15,17 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Growth of a closed loop that is no explosion: energy by what came in from outside.
+/// Largest energy of a closed loop over the energy input; beyond this it explodes.
 constexpr double kMostGrowth = 10.0;
 
-/// From the reference, by the largest displacement. A float host rounds what it is told.
+/// Limit of the deviation from the reference, over the largest displacement. A float host rounds
+/// its values.
 constexpr double kMostDeviation = sizeof(btScalar) == sizeof(double) ? 2e-5 : 2e-4;
 
-/// Way beyond what speed allows that is rounding [m].
+/// Way beyond the speed limit that counts as rounding [m].
 constexpr double kLeastJump = 1e-9;
 
-/// A process that runs every n-th case and writes what comes of it to a pipe.
+/// A process that runs every n-th case and writes its outcomes to a pipe.
 class Worker {
  public:
   Worker(const StressOptions& options, std::uint64_t first) : options_(options), next_(first) {
@@ -37,8 +38,8 @@ class Worker {
   [[nodiscard]] int pipe() const { return pipe_; }
   [[nodiscard]] bool isDone() const { return next_ >= options_.cases; }
 
-  /// The next outcome; waits for it. A case that ended the process is a crash, and the next process
-  /// goes on behind it.
+  /// Waits for the next outcome. A case that ended the process is a crash, and a new process
+  /// continues after it.
   StressOutcome take() {
     StressOutcome outcome;
     if (!readWhole(outcome)) {

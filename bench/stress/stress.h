@@ -11,22 +11,22 @@
 
 namespace tandem::demos::bench {
 
-/// What can be wrong with a case.
+/// Kinds of failure of a case.
 enum class StressFailure { kCrash, kNotFinite, kEnergy, kJump, kExplosion, kReference };
 inline constexpr int kStressFailureCount = 6;
 [[nodiscard]] std::string_view nameOf(StressFailure failure);
 
-/// Everything that is wrong; empty: the case is good.
+/// All failures of a case; empty if it is good.
 [[nodiscard]] std::vector<StressFailure> findFailures(const StressOutcome& outcome);
 
 struct StressOptions {
   std::uint64_t seed = 1;
   std::uint64_t cases = 20000;
   bool quick = false;
-  int workers = 2;  ///< processes
+  int workers = 2;  ///< number of processes
 };
 
-/// What `tandem bench stress` found.
+/// Result of `tandem bench stress`.
 struct StressResult {
   StressOptions options;
   std::vector<StressOutcome> outcomes;  ///< by index
@@ -36,11 +36,11 @@ struct StressResult {
   [[nodiscard]] std::size_t countFailed() const;
 };
 
-/// Told what is being done and which share of it all is done.
+/// Called with the current activity and the finished share of the work.
 using StressProgress = std::function<void(std::string_view, double)>;
 
-/// Runs all cases in worker processes, so that one that crashes is a failure and not the end, and
-/// the maps. Throws tandem::Error where no process can be started.
+/// Runs all cases in worker processes, so that a crash is one failure and not the end; then the
+/// maps. Throws tandem::Error if no process can be started.
 [[nodiscard]] StressResult measureStress(const StressOptions& options,
                                          const StressProgress& progress);
 

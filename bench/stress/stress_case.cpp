@@ -7,8 +7,8 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Draws from std::mt19937_64 alone: its numbers are the same everywhere, std::distributions' are
-/// not.
+/// Random draws from std::mt19937_64 alone: its numbers are equal everywhere, unlike
+/// std::distributions'.
 class Draw {
  public:
   Draw(std::uint64_t seed, std::uint64_t index) {
@@ -44,7 +44,7 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// 0 in a tenth of all cases, otherwise even in the logarithm.
+/// 0 in a tenth of all cases, otherwise uniform in the logarithm.
 CouplerGains drawGains(Draw& draw) {
   return {draw.log(10.0, 1e6), draw.chance(0.1) ? 0.0 : draw.log(1e-3, 1e3)};
 }
@@ -59,8 +59,8 @@ Shape drawShape(Draw& draw, double size) {
   return Capsule{0.25 * length(), 0.25 * length()};
 }
 
-/// How far a sphere of `radius` is from touching a shape's bounding ball, along its path: a way of
-/// a few hundredths of a second, or, in a fifth of all cases, deep inside.
+/// Distance of a sphere of `radius` from a shape's bounding ball, along its path. It is the way of
+/// a few hundredths of a second or, in a fifth of all cases, deep inside.
 double drawGap(Draw& draw, double size, double radius, double speed) {
   if (draw.chance(0.2)) return -draw.even(0.0, 0.5 * size + radius);
   return std::min(draw.even(0.0, 0.3) * size, 0.03 * speed);
@@ -96,7 +96,7 @@ void drawCommon(Draw& draw, StressCase& one, double size) {
 
 double drawSpeed(Draw& draw) { return draw.log(0.03, 10.0); }
 
-/// A user's script that comes from `p_W` along `v_W` and does something once it is there.
+/// A user's script: it starts at `p_W` with `v_W`, and acts on arrival.
 StressPath drawPath(Draw& draw, const Vec3& p_W, const Vec3& v_W, double size) {
   StressPath path;
   path.start_W = p_W;
@@ -115,7 +115,7 @@ StressPath drawPath(Draw& draw, const Vec3& p_W, const Vec3& v_W, double size) {
   return path;
 }
 
-/// A scripted user who comes at a body from somewhere.
+/// A scripted user who approaches a body from a random place.
 StressUser drawComer(Draw& draw, const StressBody& body, double radius, double size) {
   const Vec3 from = draw.direction();
   const double speed = drawSpeed(draw);
@@ -179,7 +179,7 @@ void drawGuided(Draw& draw, StressCase& one, double size) {
     const double speed = drawSpeed(draw);
     const double rest = one.radius + (has_cube ? half : 0.0);
     double gap = drawGap(draw, size, one.radius, speed);
-    // Order in the slot is decided by the centres.
+    // The centres decide the order in the slot.
     gap = std::max(gap, -0.9 * rest);
     StressUser user;
     user.path.start_W = one.origin_W + side * (rest + gap) * *one.guide;
@@ -196,7 +196,7 @@ void drawPaper(Draw& draw, StressCase& one) {
   one.angular.reset();
   one.object_damping = 0.0;
   one.network.jitter = one.network.loss = one.network.duplicate = one.network.reorder = 0.0;
-  // The reference takes a packet in at once; the site not in the tick in which it was sent.
+  // The reference takes a packet in at once; the site not in the tick that sent it.
   one.network.delay = std::max(one.network.delay, 2.0 / one.haptic_rate);
   const bool has_cube = draw.chance(0.5);
   constexpr double kHalf = 0.02;
@@ -231,7 +231,7 @@ void drawScripted(Draw& draw, StressCase& one, double size) {
     body.start.v_W = body.start.w_W = Vec3::Zero();
   }
   one.bodies.push_back(body);
-  // The local user comes, too, or is far from everything.
+  // The local user approaches too, or is far from all bodies.
   StressUser local = drawComer(draw, body, one.radius, size);
   if (is_static || draw.chance(0.4)) {
     local.path = {};
@@ -280,7 +280,7 @@ void drawRigid(Draw& draw, StressCase& one, double size) {
   }
   StressUser local;
   local.path.start_W = one.origin_W + 100.0 * size * Vec3(1, 1, 1);
-  // Or it stands in the way.
+  // Otherwise it stands in the way.
   if (draw.chance(0.5)) {
     local.path = drawComer(draw, cube, one.radius, size).path;
     local.path.v_W.setZero();
@@ -297,7 +297,7 @@ void drawNeighbours(Draw& draw, StressCase& one, double size) {
   const double mass = drawMass(draw);
   for (int i = 0; i < boxes; ++i) {
     const double half = 0.5 * size * draw.even(0.5, 1.0);
-    // A row, or a pile; bodies of much the same weight, as scenes have.
+    // A row or a pile, of bodies of similar weight, as in real scenes.
     const Vec3 place = draw.chance(0.5) ? Vec3(0.0, -(1.01 * i + 1.1) * size, half)
                                         : Vec3(-(1.01 * i + 1.1) * size, 0.0, half);
     StressBody box =
@@ -307,7 +307,7 @@ void drawNeighbours(Draw& draw, StressCase& one, double size) {
   }
 }
 
-/// Numbers that analysis calls stable: see isAnalysedStable().
+/// Draws numbers that analysis calls stable: see isAnalysedStable().
 void calmDown(Draw& draw, StressCase& one) {
   one.network = {};
   one.network.seed = one.index + 1;

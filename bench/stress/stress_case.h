@@ -11,21 +11,21 @@
 #include "coordination/src/island/virtual_coupler.h"
 
 /// \file
-/// What `tandem bench stress` draws: scenes with absurd gains, masses, steps and delays.
+/// Random cases of `tandem bench stress`: scenes with absurd gains, masses, steps and delays.
 namespace tandem::demos::bench {
 
 enum class StressKind {
   kTwoSites,    ///< two users, each with a world, share a free body over a simulated link
-  kGuided,      ///< the same in a slot, each user's device on it
-  kPaper,       ///< Experiment I or II of the paper, which has a reference
-  kScripted,    ///< one site; the remote users are scripts, the shared body and obstacles are free
-  kRigid,       ///< cube on a floor with friction, among static boxes, pushed about
+  kGuided,      ///< the same in a slot, with each user's device in it
+  kPaper,       ///< Experiment I or II of the paper, with a reference
+  kScripted,    ///< one site; remote users are scripts, shared body and obstacles are free
+  kRigid,       ///< cube pushed about on a floor with friction, among static boxes
   kNeighbours,  ///< the same among the host's own boxes; several shared bodies
 };
 inline constexpr int kStressKindCount = 6;
 [[nodiscard]] std::string_view nameOf(StressKind kind);
 
-/// Something that the host's world has.
+/// A body of the host's world.
 struct StressBody {
   Shape shape;
   double mass = 0.0;  ///< of this copy [kg]; 0: static
@@ -33,27 +33,27 @@ struct StressBody {
   RigidState start;
 };
 
-/// What a scripted user does: from `start_W` evenly, or to and fro, or by leaps.
+/// Motion of a scripted user from `start_W`: even, to and fro, or by leaps.
 struct StressPath {
   enum class Form { kEven, kSine, kLeaps } form = Form::kEven;
   Vec3 start_W = Vec3::Zero();
-  Vec3 v_W = Vec3::Zero();  ///< at the start [m/s]
-  double turn_time = 0.0;   ///< kEven: when it turns round [s]; kSine: 1/w [s]; kLeaps: between two
-  Vec3 leap_W = Vec3::Zero();  ///< kLeaps: way of one leap, there and back [m]
+  Vec3 v_W = Vec3::Zero();  ///< initial [m/s]
+  double turn_time = 0.0;  ///< kEven: time of turning back [s]; kSine: 1/w [s]; kLeaps: between two
+  Vec3 leap_W = Vec3::Zero();  ///< kLeaps: one leap, there and back [m]
 
   [[nodiscard]] PointState at(double time) const;
 };
 
-/// A user: the device at this site, or a script that stands for a remote.
+/// A user: the device at this site, or a script in place of a remote.
 struct StressUser {
-  StressPath path;  ///< of scripted ones; others start at its start
+  StressPath path;  ///< of scripted users; others start at its start
   bool is_scripted = true;
   double device_mass = 0.1, device_damping = 0.5;  ///< simulated device [kg, N s/m]
-  double max_force = 0.0;                          ///< of the device [N]; 0: no limit
+  double max_force = 0.0;                          ///< limit of the device [N]; 0: none
   Vec3 hand_W = Vec3::Zero();                      ///< constant force of the hand [N]
 };
 
-/// One case: everything that decides its run.
+/// One case: everything that its run depends on.
 struct StressCase {
   std::uint64_t seed = 0;
   std::uint64_t index = 0;
@@ -73,7 +73,7 @@ struct StressCase {
   std::vector<StressUser> users;  ///< the local one, then the remote ones
 };
 
-/// Case `index` of a seed. Equal arguments, equal case.
+/// Case `index` of a seed. Equal arguments give equal cases.
 [[nodiscard]] StressCase drawStressCase(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace tandem::demos::bench

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kCases = 20000, kQuickCases = 1000, kMostCases = 10000000;
 
-/// About this many rows of an account are printed.
+/// Approximate number of printed rows of an account.
 constexpr std::size_t kRows = 40;
 
 void printAccount(const std::vector<AccountRow>& rows) {

@@ -14,8 +14,8 @@ struct KindSummary {
   std::size_t failures[kStressFailureCount] = {};
   double worst_unaccounted = 0.0, worst_growth = 0.0, worst_jump = 0.0, simulated = 0.0;
   double worst_deviation = 0.0;
-  std::uint64_t worst_case = 0;  ///< of energy
-  double worst_strict = 0.0;     ///< unaccounted, where nothing but kEnergyTolerance is allowed
+  std::uint64_t worst_case = 0;  ///< case with the worst energy error
+  double worst_strict = 0.0;     ///< unaccounted, in cases that allow only kEnergyTolerance
 
   void include(const StressOutcome& outcome) {
     ++cases;

@@ -8,8 +8,8 @@
 
 namespace tandem::demos::bench {
 
-/// stress.json: counts and worst values by kind, every failed case, and the maps. Equal in every
-/// run on one machine but for `seconds`.
+/// stress.json: counts and worst values by kind, every failed case, and the maps. Every run on one
+/// machine gives the same, except `seconds`.
 [[nodiscard]] nlohmann::json makeStressJson(const StressResult& result);
 
 /// The same as a table for readers.
@@ -17,7 +17,7 @@ namespace tandem::demos::bench {
 
 /// A case and its energy account over time, for readers.
 [[nodiscard]] std::string describeCase(const StressCase& one);
-/// Everything that decides the case, and what came of it.
+/// All inputs and the outcome of a case.
 [[nodiscard]] nlohmann::json makeCaseJson(const StressCase& one, const StressOutcome& outcome);
 
 }  // namespace tandem::demos::bench

@@ -13,13 +13,12 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Looks and integrator steps after which a case ends early.
+/// Number of looks and integrator steps after which a case ends early.
 constexpr std::uint64_t kMostWork = 100000;
 
-/// Part of the energy that rigid contact may add, by the angle of the fastest motion in an inner
-/// step.
+/// Part of the energy that rigid contact may add, per angle of the fastest motion in an inner step.
 constexpr double kRigidPart = 0.25;
-/// The inner step is shortened so that springs turn no more in it [rad].
+/// The inner step is short enough that springs turn at most this far in it [rad].
 constexpr double kMostAngle = 0.18;
 
 /// A case being run.
@@ -70,12 +69,12 @@ class StressRun {
  private:
   [[nodiscard]] bool isScripted() const { return case_.users[1].is_scripted; }
 
-  /// Along the axis of a case of the paper.
+  /// Displacement along the axis of a case of the paper.
   [[nodiscard]] double displacementOf(std::size_t user, const Vec3& handle_W) const {
     return (handle_W - case_.users[user].path.start_W).x();
   }
 
-  /// What stands for a user moves as fast as the user's device, and may be heavier than it.
+  /// A stand-in for a user moves as fast as the user's device, and may be heavier than it.
   [[nodiscard]] double heaviestStandIn() const {
     double most = 0.0;
     for (const StressUser& user : case_.users)
@@ -113,14 +112,14 @@ class StressRun {
     outcome.unaccounted_time = account.unaccountedTime();
   }
 
-  /// Part of the largest energy by which the account may be off: rounding, what the hand's work is
-  /// not known better than, and what rigid contact is known to add.
+  /// Part of the largest energy by which the account may be off: rounding, the doubt in the hand's
+  /// work, and the known error of rigid contact.
   [[nodiscard]] double computeAllowed(const StressSite& site) const {
     const EnergyAccount& account = site.account();
     double allowed = std::max(kEnergyTolerance, 100.0 * account.rounding() / account.peak());
     allowed += account.doubt() / account.peak();
     if (case_.kind != StressKind::kRigid && case_.kind != StressKind::kNeighbours) return allowed;
-    // Rigid contact is of first order in the inner step.
+    // Rigid contact is first order in the inner step.
     if (site.island().counters().rigid_points == 0) return allowed;
     double fastest = account.fastestSpin();
     const auto touching = static_cast<double>(case_.users.size() - 1);

@@ -10,34 +10,34 @@ namespace tandem::demos::bench {
 /// Part of the largest energy by which an account may be off.
 inline constexpr double kEnergyTolerance = 1e-6;
 
-/// What a case came to. Plain value, so that a worker process can hand it over as bytes.
+/// Outcome of a case. A plain value, so that a worker process can pass it as bytes.
 struct StressOutcome {
   std::uint64_t index = 0;
   std::int32_t kind = 0;
-  bool finite = true;             ///< state, force and Bullet's bodies
-  bool is_stable = false;         ///< its own analysis says so (stress_stability.h)
+  bool finite = true;             ///< state, force and Bullet's bodies are finite
+  bool is_stable = false;         ///< by its own analysis (stress_stability.h)
   bool was_cut = false;           ///< ended early, after kMostWork
   bool refused = false;           ///< the site refused the settings
-  bool crashed = false;           ///< the process that ran it ended
+  bool crashed = false;           ///< the process that ran it crashed
   double simulated = 0.0;         ///< [s]
   double peak = 0.0;              ///< largest energy that took part [J]
-  double unaccounted = 0.0;       ///< part of that by which the account is off
+  double unaccounted = 0.0;       ///< part of the peak by which the account is off
   double unaccounted_time = 0.0;  ///< [s]
-  double jump = 0.0;              ///< way beyond what speed allows [m]
+  double jump = 0.0;              ///< way beyond the speed limit [m]
   double jump_time = 0.0;         ///< [s]
-  double growth = 0.0;            ///< of a closed loop: largest energy by what came in from outside
-  double deviation = 0.0;     ///< of a case of the paper: from the reference, by the largest way
-  double host_contact = 0.0;  ///< spring energy that appeared in a host step, part of the peak
-  double work_in = 0.0;       ///< of hands and targets [J]
+  double growth = 0.0;            ///< of a closed loop: largest energy over energy input
+  double deviation = 0.0;     ///< of a case of the paper: from the reference, over the largest way
+  double host_contact = 0.0;  ///< spring energy that appeared in a host step, as part of the peak
+  double work_in = 0.0;       ///< work of hands and targets [J]
   double start_energy = 0.0, end_energy = 0.0;  ///< [J]
-  double seconds = 0.0;                         ///< it took
-  std::uint64_t steps = 0;                      ///< of the integrators
+  double seconds = 0.0;                         ///< run time [s]
+  std::uint64_t steps = 0;                      ///< steps of the integrators
 
-  /// Part of the largest energy by which the account may be off: kEnergyTolerance and what is known
-  /// to add to it (docs/benchmarks.md).
+  /// Part of the largest energy by which the account may be off: kEnergyTolerance plus known errors
+  /// (docs/benchmarks.md).
   double allowed = kEnergyTolerance;
 
-  /// Something was found by a host step only when a sphere was in it.
+  /// True if a host step found a body only after a sphere had entered it.
   [[nodiscard]] bool isLate() const { return host_contact > kEnergyTolerance; }
   [[nodiscard]] bool isStrict() const { return allowed < 2.0 * kEnergyTolerance; }
 };

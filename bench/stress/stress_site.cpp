@@ -14,13 +14,13 @@ namespace {
 /// Peers that carry a shared body; the host's body has the mass of all copies.
 constexpr int kPeers = 2;
 
-/// Looks in a tick, at the most.
+/// Largest number of looks in a tick.
 constexpr int kMostLooks = 1000;
 
-/// Overlap of rigid bodies below is rounding [m].
+/// Overlap of rigid bodies below this is rounding [m].
 constexpr double kLeastOverlap = 1e-6;
 
-/// A device that follows its script whatever the force.
+/// A device that follows its script under any force.
 class ScriptedDevice final : public HapticDevice {
  public:
   explicit ScriptedDevice(const StressPath& path) : path_(path) {
@@ -162,7 +162,7 @@ SiteSettings StressSite::makeSettings() const {
   settings.hip_radius = case_.radius;
   settings.scheme = &watch_;
   settings.tick_source = TickSource::kCaller;
-  // What the laws do, not what guards make of it.
+  // Tests the laws without the guards.
   settings.passivity.enabled = false;
   settings.max_slew = std::numeric_limits<double>::infinity();
   settings.guide = case_.guide;

@@ -16,26 +16,27 @@ namespace tandem::demos::bench {
 /// One site of a case with its world, its device, and the account of its island.
 class StressSite {
  public:
-  /// `self` is the place of its user among the case's users. `links` go to the other users, in
-  /// order, and must outlive the site; there are none to scripts. Throws what Site throws.
+  /// `self` is the index of its user among the case's users. `links` go to the other users, in
+  /// order, and must outlive the site; scripts have none. Throws the exceptions of Site.
   StressSite(const StressCase& one, std::size_t self, const std::vector<Link*>& links);
   ~StressSite();
   StressSite(const StressSite&) = delete;
   StressSite& operator=(const StressSite&) = delete;
 
-  /// One haptic tick, and the host's steps that end in it.
+  /// Runs one haptic tick, and the host's steps that end in it.
   void tick(std::uint64_t tick);
 
   [[nodiscard]] const EnergyAccount& account() const { return *account_; }
   [[nodiscard]] EnergyAccount& account() { return *account_; }
   [[nodiscard]] const Island& island() const { return *watch_.island(); }
   [[nodiscard]] Site& site() { return *site_; }
-  /// The state of the site, its force and all of the world's bodies are finite numbers.
+  /// True if the site's state, its force and all of the world's bodies are finite.
   [[nodiscard]] bool isFinite() const;
-  /// Kinetic energy of a simulated device [J], and what the hand has put in, without what it took.
+  /// Kinetic energy of a simulated device [J], and the hand's energy input without what it took
+  /// back.
   [[nodiscard]] double deviceEnergy() const;
   [[nodiscard]] double handWork() const { return hand_work_; }
-  /// Where a simulated device was at the start of the latest tick.
+  /// Position of a simulated device at the start of the latest tick.
   [[nodiscard]] Vec3 tickHandle() const {
     return site_->hip().p_W - site_->hip().v_W / case_.haptic_rate;
   }

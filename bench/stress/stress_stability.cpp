@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kMargin = 2.0;
 
-/// A proxy's target stands between two packets and then leaps by v T: each leap gives the spring
-/// K (v T)^2 / 2, which is more than the user has where K T^2 is more than the mass. Its damper
-/// must take that, as for a sampled wall.
+/// A proxy's target stands still between two packets and then leaps by v T. Each leap gives the
+/// spring K (v T)^2 / 2. That is more than the user has if K T^2 is more than the mass. Its damper
+/// must absorb the rest, as for a sampled wall.
 bool isFollowingPassive(const StressCase& one) {
   CouplerGains spring = one.coordination;
   spring.stiffness *= kMargin;
@@ -37,12 +37,12 @@ bool isAnalysedStable(const StressCase& one) {
   if (one.network.loss > 0.0 || one.network.jitter > 0.0 || one.network.reorder > 0.0 ||
       one.network.duplicate > 0.0)
     return false;
-  // A body that is where a packet says gives any energy.
+  // A body that follows packets exactly gives unlimited energy.
   if (one.scheme == "kinematic_proxy") return false;
-  // A packet is up to one packet period older than the delay says.
+  // A packet is up to one packet period older than the delay.
   const double oldest = one.network.delay + 1.0 / one.packet_rate;
-  // What a device touches at the most: a shared body and the other user's proxy. Through that the
-  // force goes round by the other user, and comes back after twice the way and what proxies lag.
+  // A device touches at most a shared body and the other user's proxy. Through the proxy the force
+  // goes round by the other user. It returns after twice the delay and the proxies' lag.
   CouplerGains wall = one.contact;
   wall.stiffness *= 2.0 * kMargin;
   wall.damping *= 2.0 * kMargin;
