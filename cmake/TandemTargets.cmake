@@ -58,7 +58,7 @@ function(tandem_add_library name)
   add_library(tandem_${name} ${arg_SOURCES})
   add_library(tandem::${name} ALIAS tandem_${name})
   target_sources(tandem_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${folder}/include" FILES ${headers})
-  target_include_directories(tandem_${name} PRIVATE "${folder}/src" "${PROJECT_SOURCE_DIR}")
+  target_include_directories(tandem_${name} PRIVATE "${folder}/src")
   target_compile_features(tandem_${name} PUBLIC cxx_std_17)
   target_link_libraries(tandem_${name} PUBLIC ${arg_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:tandem_compile_options> ${arg_PRIVATE})

@@ -57,7 +57,8 @@ class WatchedDevice final : public HapticDevice {
 struct LiveSite {
   static constexpr double kHostPeriod = 1.0 / 60.0;
 
-  LiveSite(int self, const Vec3& hand_force, int boxes = 3)
+  /// `link`: instead of `queue`.
+  LiveSite(int self, const Vec3& hand_force, int boxes = 3, Link* link = nullptr)
       : rig(Vec3(0.0, 0.0, -9.81)), device(makeSettings(self), makeConstantHand(hand_force)) {
     auto& floor = rig.makeShape<btBoxShape>(toBullet(Vec3(2, 2, 0.5)));
     rig.addBody(floor, 0.0, Vec3(0.0, 0.0, -0.52));
@@ -72,7 +73,7 @@ struct LiveSite {
     if (boxes == 0) settings.coordination = {0.0, 0.0};  // nothing holds the cube back
     site = std::make_unique<Site>(settings, rig.world, watched);
     site->share(*cube);
-    site->connect(PeerId{static_cast<std::uint32_t>(3 - self)}, queue,
+    site->connect(PeerId{static_cast<std::uint32_t>(3 - self)}, link ? *link : queue,
                   makeSettings(3 - self).start_W);
   }
 
