@@ -117,7 +117,7 @@ void runPeerCommand(const PeerCommand& command) {
   const auto report = [&](const PeerReport& one) {
     if (!command.quiet) print(one);
   };
-  if (!command.quiet) fmt::print("site {} on {}\n", command.site, toString(run.mesh().bound()));
+  if (!command.quiet) fmt::print("site {} on {}\n", command.site, toString(run.peers().bound()));
   if (!run.waitForPeer(command.patience, stop, report)) return;
   run.run(stop, report,
           [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); });

@@ -23,7 +23,7 @@ nlohmann::json summariseOwnSite(const Scenario& scenario, int number, PeerRun& r
 nlohmann::json summariseNetwork(const PeerRun& run) {
   const PeerStatus peer = run.peerStatus();
   nlohmann::json refused = nlohmann::json::object();
-  for (const RefusedDatagrams& one : run.mesh().refused()) refused[one.reason] = one.count;
+  for (const RefusedDatagrams& one : run.peers().refused()) refused[one.reason] = one.count;
   return {{"round_trip", peer.round_trip},
           {"clock_offset", peer.clock_offset},
           {"playout_wait", peer.wait},
@@ -35,7 +35,7 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
             {"given", peer.states_given},
             {"stale", peer.states_stale},
             {"too_late", peer.states_too_late}}},
-          {"datagrams", {{"received", run.mesh().received()}, {"refused", refused}}}};
+          {"datagrams", {{"received", run.peers().received()}, {"refused", refused}}}};
 }
 
 }  // namespace

@@ -1,25 +1,17 @@
 #include "peer/peer_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "peer/mesh_thread.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
-/// The threads are made so long before the start [s].
-constexpr double kGetReady = 0.05;
-constexpr double kMostBehind = 0.1;  ///< later than this, a site joins one that runs [s]
-constexpr double kFarewell = 0.15;   ///< time to say it [s]
-/// The start lies so far ahead that the other site hears of it in time: this, or round trips.
-constexpr double kCountdown = 1.0;
-constexpr double kCountdownTrips = 6.0;
+constexpr double kMostBehind = 0.1;    ///< later than this, a site joins one that runs [s]
 
 /// In the words of the command line.
 const char* explainRefusal(RefuseCode code) {
@@ -32,18 +24,11 @@ const char* explainRefusal(RefuseCode code) {
 
 PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
                  HapticDevice* device)
-    : scenario_(scenario),
-      index_(site),
-      device_(device),
-      self_(settings.self),
-      other_(peer.id),
-      mesh_(settings,
-            [&] {
-              std::vector<UdpPeer> peers;
-              peers.push_back(std::move(peer));
-              return peers;
-            }()),
-      link_(mesh_.link(other_)) {
+    : scenario_(scenario), index_(site), device_(device), other_(peer.id), peers_(settings, [&] {
+        std::vector<UdpPeer> peers;
+        peers.push_back(std::move(peer));
+        return peers;
+      }()) {
   if (scenario.contact_model != "island" || scenario.injection != "handoff")
     throw UsageError(
         "tandem peer needs contact.model = island and bridge.injection = handoff; the others have "
@@ -53,8 +38,9 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
 
 void PeerRun::makeWorld() {
   world_.reset();
-  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, queue_, *device_)
-                   : std::make_unique<SiteWorld>(scenario_, index_, queue_);
+  Link& link = peers_.link(other_);
+  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, link, *device_)
+                   : std::make_unique<SiteWorld>(scenario_, index_, link);
   Site& own = world_->site();
   const auto ticks = static_cast<std::size_t>(std::llround(duration() * scenario_.haptic_rate));
   const auto arrivals = static_cast<std::size_t>(2.0 * duration() * scenario_.packet_rate) + 64;
@@ -85,71 +71,54 @@ double PeerRun::receivedMean() const {
   return sum / static_cast<double>(recording_->ticks().size());
 }
 
-PeerStatus PeerRun::peerStatus() const { return mesh_.status(other_, readMonotonicClock()); }
-
-void PeerRun::poll() noexcept {
-  const double now = readMonotonicClock();
-  link_.setClock(now);
-  mesh_.poll(now);
-}
+PeerStatus PeerRun::peerStatus() const { return peers_.status(other_, readMonotonicClock()); }
 
 bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
                           const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
+  peers_.agreeOnStart(held, scenario_.packet_rate);
   const double began = readMonotonicClock();
-  double next_send = began, next_report = began;
-  std::optional<double> live_since;
+  double next_report = began;
   for (;;) {
-    poll();
     const double now = readMonotonicClock();
+    peers_.poll(now);
     if (stop()) {
-      leave(ByeReason::kUserLeaves);
+      peers_.sayFarewell(ByeReason::kUserLeaves);
       return false;
     }
-    const PeerStatus status = mesh_.status(other_, now);
-    const bool is_live = status.phase == PeerPhase::kLive && status.round_trip > 0.0;
-    if (!is_live) live_since.reset();
-    if (is_live && !live_since) live_since = now;
-    link_.listenForStart(0.5 * status.round_trip + status.wait);
-    const double lead = std::max(kCountdown, kCountdownTrips * status.round_trip);
-    const bool may_choose = self_ < other_ && live_since && now - *live_since > 0.3;
-    if (may_choose && !link_.start()) link_.setStart(now + lead);
-    if (link_.start() && now >= *link_.start() - kGetReady) {
-      if (now - *link_.start() > kMostBehind) joinLate(now);
+    const std::optional<double> start = peers_.start();
+    if (start && now >= *start - LivePeers::kGetReady) {
+      if (now - *start > kMostBehind) joinLate(now);
       return true;
     }
-    if (!link_.start()) {
+    if (!start) {
       try {
         checkAnswer(now - began, patience);
       } catch (const UsageError&) {
-        leave(ByeReason::kConfigurationsDiffer);
+        peers_.sayFarewell(ByeReason::kConfigurationsDiffer);
         throw;
       } catch (const std::exception&) {
-        leave(ByeReason::kProgramEnds);
+        peers_.sayFarewell(ByeReason::kProgramEnds);
         throw;
       }
     }
-    if (now >= next_send) {
-      link_.sendHeld(held, self_);
-      next_send = std::max(next_send + 1.0 / scenario_.packet_rate, now);
-    }
     if (now >= next_report) {
-      report(makeReport(link_.start() ? now - *link_.start() : 0.0));
+      report(makeReport(start ? now - *start : 0.0));
       next_report += kReportPeriod;
     }
-    mesh_.wait(1e-3);
+    peers_.wait(1e-3);
   }
 }
 
 /// The other site has been running for a while: it and its copies fade in.
 void PeerRun::joinLate(double now) {
-  link_.setStart(now + kMostBehind);
+  peers_.setStart(now + kMostBehind);
   scenario_.starts_live = false;
   makeWorld();
 }
 
 void PeerRun::checkAnswer(double waited, double patience) const {
-  const PeerStatus status = mesh_.status(other_, readMonotonicClock());
+  const PeerStatus status = peers_.status(other_, readMonotonicClock());
   if (status.difference) {
     const ConfigurationDifference& d = *status.difference;
     const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
@@ -174,9 +143,9 @@ void PeerRun::checkAnswer(double waited, double patience) const {
 void PeerRun::run(const std::function<bool()>& stop,
                   const std::function<void(const PeerReport&)>& report,
                   const std::function<void(const std::string&)>& note) {
-  const double start = *link_.start();
+  const double start = *peers_.start();
+  peers_.startThread();
   {
-    const MeshThread network(mesh_, link_, queue_, mesh_mutex_);
     HapticLoopSettings settings;
     settings.begin = start;
     settings.duration = duration();
@@ -195,16 +164,7 @@ void PeerRun::run(const std::function<bool()>& stop,
     loop.stop();
     loop_ = loop.report();
   }
-  leave(stop() ? ByeReason::kUserLeaves : ByeReason::kProgramEnds);
-}
-
-void PeerRun::leave(ByeReason reason) noexcept {
-  const double until = readMonotonicClock() + kFarewell;
-  mesh_.leave(readMonotonicClock(), reason);
-  while (readMonotonicClock() < until) {
-    poll();
-    mesh_.wait(5e-3);
-  }
+  peers_.sayFarewell(stop() ? ByeReason::kUserLeaves : ByeReason::kProgramEnds);
 }
 
 double PeerRun::computeCoherency() const noexcept {
@@ -218,11 +178,8 @@ double PeerRun::computeCoherency() const noexcept {
 PeerReport PeerRun::makeReport(double time) {
   PeerReport report;
   report.time = time;
-  {
-    const std::lock_guard lock(mesh_mutex_);
-    report.has_start = link_.start().has_value();
-    report.peer = peerStatus();
-  }
+  report.has_start = peers_.start().has_value();
+  report.peer = peerStatus();
   world_->site().betweenTicks([&] {
     report.link = world_->site().linkState(0);
     report.force = world_->site().force().norm();

@@ -2,16 +2,13 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "tandem/plugin/haptic_loop.h"
-#include "tandem/plugin/link_queue.h"
+#include "tandem/plugin/live_peers.h"
 #include "tandem/plugin/recording.h"
-#include "tandem/plugin/udp_mesh.h"
 
-#include "peer/start_link.h"
 #include "world/scene.h"
 
 namespace tandem::demos {
@@ -32,7 +29,7 @@ struct PeerReport {
 class PeerRun {
  public:
   /// `site` is 0 or 1. `device` is the user's, and must outlive this; null: simulated, as the
-  /// scenario says. Throws as UdpMesh and SiteWorld do.
+  /// scenario says. Throws as LivePeers and SiteWorld do.
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
           HapticDevice* device = nullptr);
 
@@ -50,7 +47,7 @@ class PeerRun {
 
   [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
   [[nodiscard]] const LoopReport& loop() const noexcept { return loop_; }
-  [[nodiscard]] const UdpMesh& mesh() const noexcept { return mesh_; }
+  [[nodiscard]] const LivePeers& peers() const noexcept { return peers_; }
   [[nodiscard]] SiteWorld& world() noexcept { return *world_; }
   [[nodiscard]] double duration() const noexcept;
   [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
@@ -61,20 +58,15 @@ class PeerRun {
  private:
   void makeWorld();
   void joinLate(double now);
-  void poll() noexcept;
   void checkAnswer(double waited, double patience) const;
-  void leave(ByeReason reason) noexcept;
   [[nodiscard]] PeerReport makeReport(double time);
   [[nodiscard]] double computeCoherency() const noexcept;
 
   Scenario scenario_;
   int index_;
   HapticDevice* device_;
-  PeerId self_, other_;
-  UdpMesh mesh_;
-  StartLink link_;
-  std::mutex mesh_mutex_;  ///< while there is a MeshThread, who touches the two holds it
-  LinkQueue queue_;
+  PeerId other_;
+  LivePeers peers_;
   std::unique_ptr<SiteWorld> world_;
   std::unique_ptr<Recording> recording_;
   Vec3 object_start_W_ = Vec3::Zero();
