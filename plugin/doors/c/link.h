@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "tandem/coordination/link.h"
+#include "tandem/plugin/live_peers.h"
 
 #include "c/handle.h"
 #include "live/spsc_ring.h"
@@ -28,7 +30,15 @@ class ManualLink final : public Link {
   SpscRing<StatePacket> departures_{kRoom}, arrivals_{kRoom};
 };
 
-class MeshLink;
+/// The mesh that a link belongs to, and the peer to whom it leads.
+struct MeshWay {
+  HandleHead* mesh = nullptr;
+  LivePeers* peers = nullptr;
+  PeerId peer{};
+
+  /// From here on a loop ticks the link's site, or none does any more.
+  void setLoop(bool has_one) const { peers->setHapticThread(peer, has_one); }
+};
 
 struct LinkEnd {
   static constexpr std::uint32_t kKind = 0x546c494e;
@@ -38,9 +48,8 @@ struct LinkEnd {
   std::unique_ptr<Link> own;  ///< null: the mesh owns the link
   Link* link = nullptr;
   bool is_simulated = false;
-  ManualLink* manual = nullptr;   ///< null: a link of another kind
-  MeshLink* mesh_link = nullptr;  ///< null: a link of another kind
-  HandleHead* mesh = nullptr;     ///< mesh that owns the link
+  ManualLink* manual = nullptr;  ///< null: a link of another kind
+  std::optional<MeshWay> mesh;   ///< nothing: a link of another kind
 };
 
 }  // namespace tandem::c_door

@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tandem/plugin/udp_mesh.h"
+#include "tandem/plugin/live_peers.h"
 
 #include "c/link.h"
-#include "c/mesh_link.h"
 
 namespace tandem::c_door {
 
@@ -25,7 +24,7 @@ class MeshEnd {
 
   /// Returns the same handle each time. `own` is the handle of this mesh.
   [[nodiscard]] TandemLink* link(std::uint32_t peer, HandleHead& own);
-  [[nodiscard]] std::uint16_t port() const noexcept { return mesh_.bound().port; }
+  [[nodiscard]] std::uint16_t port() const noexcept { return peers_.bound().port; }
   void poll(double now);
   void leave(double now);
   [[nodiscard]] TandemPeerStatus status(std::uint32_t peer, double now) const;
@@ -34,14 +33,13 @@ class MeshEnd {
  private:
   struct Way {
     std::uint32_t peer;
-    std::unique_ptr<MeshLink> link;
     TandemLink* handle;
   };
   void follow(double now);
   void checkPeer(std::uint32_t peer) const;
 
-  std::vector<std::uint32_t> peers_;
-  UdpMesh mesh_;
+  std::vector<std::uint32_t> ids_;
+  LivePeers peers_;
   std::vector<Way> ways_;
   double now_ = 0.0;
   bool has_begun_ = false;

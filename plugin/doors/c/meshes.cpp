@@ -45,7 +45,7 @@ static_assert(TANDEM_PEER_LEFT == static_cast<int>(PeerPhase::kLeft));
 }  // namespace
 
 MeshEnd::MeshEnd(const UdpMeshSettings& settings, std::vector<UdpPeer> peers)
-    : peers_(listIds(peers)), mesh_(settings, std::move(peers)) {}
+    : ids_(listIds(peers)), peers_(settings, std::move(peers)) {}
 
 MeshEnd::~MeshEnd() {
   for (const Way& way : ways_) Shells<TandemLink>::all().discard(*way.handle);
@@ -56,12 +56,10 @@ TandemLink* MeshEnd::link(std::uint32_t peer, HandleHead& own) {
   for (const Way& way : ways_)
     if (way.peer == peer) return way.handle;
   ways_.reserve(ways_.size() + 1);
-  auto link = std::make_unique<MeshLink>(mesh_.link(PeerId{peer}));
   auto end = std::make_unique<LinkEnd>();
-  end->link = end->mesh_link = link.get();
-  end->mesh = &own;
-  if (has_begun_) link->poll(now_);
-  ways_.push_back({peer, std::move(link), Shells<TandemLink>::all().wrap(std::move(end))});
+  end->link = &peers_.link(PeerId{peer});
+  end->mesh = MeshWay{&own, &peers_, PeerId{peer}};
+  ways_.push_back({peer, Shells<TandemLink>::all().wrap(std::move(end))});
   return ways_.back().handle;
 }
 
@@ -74,23 +72,22 @@ void MeshEnd::follow(double now) {
 
 void MeshEnd::poll(double now) {
   follow(now);
-  mesh_.poll(now);
-  for (const Way& way : ways_) way.link->poll(now);
+  peers_.poll(now);
 }
 
 void MeshEnd::leave(double now) {
   follow(now);
-  mesh_.leave(now);
+  peers_.leave(now);
 }
 
 void MeshEnd::checkPeer(std::uint32_t peer) const {
-  if (std::find(peers_.begin(), peers_.end(), peer) == peers_.end())
+  if (std::find(ids_.begin(), ids_.end(), peer) == ids_.end())
     refuseValue("peer", peer, "one of the peers that the mesh was created with");
 }
 
 std::vector<std::string> MeshEnd::explain(std::uint32_t peer) const {
   checkPeer(peer);
-  const PeerStatus status = mesh_.status(PeerId{peer}, now_);
+  const PeerStatus status = peers_.status(PeerId{peer}, now_);
   const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
   std::vector<std::string> lines;
   if (const auto& d = status.difference)
@@ -104,7 +101,7 @@ std::vector<std::string> MeshEnd::explain(std::uint32_t peer) const {
 TandemPeerStatus MeshEnd::status(std::uint32_t peer, double now) const {
   checkPeer(peer);
   requireFinite("now", now);
-  const PeerStatus status = mesh_.status(PeerId{peer}, now);
+  const PeerStatus status = peers_.status(PeerId{peer}, now);
   return {static_cast<TandemPeerPhase>(status.phase), status.silence, status.round_trip,
           status.loss};
 }

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "bullet_bridge/src/world/world_access.h"
-#include "c/mesh_link.h"
 #include "c/values.h"
 
 namespace tandem::c_door {
@@ -57,16 +56,16 @@ TandemBody SiteEnd::connect(std::uint32_t peer, TandemLink& link, const Vec3& st
     throw Refusal(TANDEM_IN_USE, "the link is connected already; each remote has one of its own");
   peers_.reserve(peers_.size() + 1);
   link_uses_.reserve(link_uses_.size() + 2);
-  mesh_links_.reserve(mesh_links_.size() + 1);
+  mesh_ways_.reserve(mesh_ways_.size() + 1);
   proxies_.reserve(proxies_.size() + 1);
   world_.reserveNumber();
   site_.connect(PeerId{peer}, *link.thing->link, start_W);
   peers_.push_back(peer);
   link_uses_.emplace_back(link.head);
   has_simulated_link_ |= link.thing->is_simulated;
-  if (MeshLink* mesh_link = link.thing->mesh_link) {
-    mesh_links_.push_back(mesh_link);
-    link_uses_.emplace_back(*link.thing->mesh);
+  if (const auto& way = link.thing->mesh) {
+    mesh_ways_.push_back(*way);
+    link_uses_.emplace_back(*way->mesh);
   }
   btRigidBody* proxy = site_.proxyBody(site_.remoteCount() - 1);
   if (!proxy) return TANDEM_NO_BODY;
@@ -97,11 +96,11 @@ void SiteEnd::startLoop(int priority) {
   HapticLoopSettings settings;
   settings.priority = priority;
   settings.locks_memory = priority > 0;
-  for (MeshLink* link : mesh_links_) link->setLive(true);
+  for (const MeshWay& way : mesh_ways_) way.setLoop(true);
   try {
     loop_ = std::make_unique<HapticLoop>(site_, settings);
   } catch (...) {
-    for (MeshLink* link : mesh_links_) link->setLive(false);
+    for (const MeshWay& way : mesh_ways_) way.setLoop(false);
     throw;
   }
 }
@@ -109,7 +108,7 @@ void SiteEnd::startLoop(int priority) {
 void SiteEnd::stopLoop() noexcept {
   if (!loop_) return;
   loop_.reset();
-  for (MeshLink* link : mesh_links_) link->setLive(false);
+  for (const MeshWay& way : mesh_ways_) way.setLoop(false);
 }
 
 std::vector<std::string> SiteEnd::warnings() const {

@@ -45,7 +45,7 @@ class SiteEnd {
   World& world_;
   Use world_use_, device_use_;
   std::vector<Use> link_uses_;
-  std::vector<MeshLink*> mesh_links_;
+  std::vector<MeshWay> mesh_ways_;
   bool has_simulated_link_ = false;
   std::vector<std::uint32_t> peers_;
   std::vector<TandemBody> shared_, proxies_;
