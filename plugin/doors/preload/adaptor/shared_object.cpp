@@ -85,7 +85,7 @@ void SharedObject::attach(const ObjectChoice& choice) {
   site_ = std::make_unique<Site>(config_.site, *world_, *device_);
   site_->share(*choice.body, config_.damping);
   if (remote_)
-    site_->connect(config_.link->peer, *remote_,
+    site_->connect(config_.link->peer, remote_->link(),
                    config_.remote_start_W.value_or(config_.device.start_W));
   choice_ = choice;
   body_ = choice.body;
