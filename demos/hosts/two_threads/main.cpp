@@ -1,20 +1,19 @@
-// Two worlds in two threads, each stepped at its own 60 Hz in real time, with a haptic thread each
-// at 1 kHz. The main thread is the network between them.
+// Two sites in one program, over UDP. Each has a world in a thread of its own, stepped at 60 Hz in
+// real time, a haptic thread at 1 kHz and a thread for its socket.
 
-#include <chrono>
+#include <array>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 #include <btBulletDynamicsCommon.h>
 
-#include "tandem/coordination/simulated_link.h"
+#include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/plugin/haptic_loop.h"
-#include "tandem/plugin/link_queue.h"
+#include "tandem/plugin/live_peers.h"
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kDuration = 1.5;  // [s]
+constexpr double kDuration = 2.0, kStep = 1.0 / 60.0;  // [s]
 
 /// A user with a device, at y, and the user's world with a cube.
 struct User {
@@ -26,22 +25,41 @@ struct User {
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   tandem::SimulatedDevice device;
-  tandem::LinkQueue queue;
+  tandem::LivePeers peers;
   tandem::Site site;
 
-  User(unsigned self, double y, double push, double other_y)
+  /// `other`: where the other user is; nothing: waits for the other's call.
+  User(unsigned self, double y, double push, double other_y, std::optional<tandem::Address> other)
       : device(makeSettings(y), tandem::makeConstantHand({0, push, 0})),
+        peers(makeConnection(self), makePeers(3 - self, other)),
         site(makeSiteSettings(self), world, device) {
     world.setGravity(btVector3(0, 0, 0));
     world.addRigidBody(&cube);
     site.share(cube);
-    site.connect(tandem::PeerId{3 - self}, queue, tandem::Vec3(0, other_y, 0));
+    const tandem::PeerId peer{3 - self};
+    site.connect(peer, peers.link(peer), tandem::Vec3(0, other_y, 0));
   }
   static tandem::SimulatedDeviceSettings makeSettings(double y) {
     tandem::SimulatedDeviceSettings settings;
     settings.start_W.y() = y;
     settings.damping = 5.0;
     return settings;
+  }
+  static tandem::UdpMeshSettings makeConnection(unsigned self) {
+    tandem::UdpMeshSettings settings;
+    settings.self = tandem::PeerId{self};
+    settings.bind = tandem::resolveAddress("127.0.0.1:0");
+    settings.configuration = tandem::makeConfiguration({{"object.mass", "0.2"}});
+    return settings;
+  }
+  static std::vector<tandem::UdpPeer> makePeers(unsigned peer,
+                                                std::optional<tandem::Address> address) {
+    // A real program reads a key file: tandem/plugin/key_file.h.
+    std::array<std::uint8_t, tandem::SecretKey::kSize> key;
+    key.fill(42);
+    std::vector<tandem::UdpPeer> peers;
+    peers.push_back({tandem::PeerId{peer}, address, tandem::SecretKey::take(key)});
+    return peers;
   }
   static tandem::SiteSettings makeSiteSettings(unsigned self) {
     tandem::SiteSettings settings;
@@ -51,34 +69,27 @@ struct User {
   }
   /// The host's loop.
   void run() {
+    peers.startThread();
     tandem::HapticLoopSettings modest;
     modest.priority = 0;  // 80 where the system grants real-time priority
     modest.locks_memory = false;
-    const tandem::HapticLoop loop(site, modest);
-    auto next = Clock::now();
-    for (int step = 0; step < static_cast<int>(kDuration * 60.0); ++step) {
-      next += std::chrono::microseconds(16667);
-      std::this_thread::sleep_until(next);
-      world.stepSimulation(1.0 / 60.0, 0);
+    tandem::HapticLoop loop(site, modest);
+    const double begin = tandem::readMonotonicClock();
+    for (int step = 1; step <= static_cast<int>(kDuration / kStep); ++step) {
+      tandem::sleepUntil(begin + step * kStep);
+      world.stepSimulation(kStep, 0);
     }
+    loop.stop();
+    peers.sayFarewell();
   }
   double y() const { return cube.getCenterOfMassPosition().y(); }
 };
 
 int main() {
-  User one(1, -0.031, 1.0, 0.1), two(2, 0.1, 0.0, -0.031);
-  tandem::Impairments network;
-  network.delay = 0.02;
-  const auto links = tandem::makeSimulatedLinks(network);
-  std::thread first([&] { one.run(); }), second([&] { two.run(); });
-  const auto begin = Clock::now();
-  for (double now = 0.0; now < kDuration;) {
-    now = std::chrono::duration<double>(Clock::now() - begin).count();
-    one.queue.exchange(*links.first, now, now + 2e-3);
-    two.queue.exchange(*links.second, now, now + 2e-3);
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
-  }
-  first.join();
+  User two(2, 0.1, 0.0, -0.031, std::nullopt);
+  User one(1, -0.031, 1.0, 0.1, two.peers.bound());
+  std::thread second([&] { two.run(); });
+  one.run();
   second.join();
   std::printf("cube at %.3f m here, %.3f m there; status %u and %u\n", one.y(), two.y(),
               one.site.status(), two.site.status());
