@@ -14,12 +14,13 @@ function(tandem_install_library name)
     DESTINATION "${TANDEM_CONFIG_DIR}" COMPONENT dev)
 endfunction()
 
-# tandem_install_program(NAME): installs a program that finds our shared libraries beside it.
+# tandem_install_program(NAME [OPTIONAL]): installs a program that finds our shared libraries beside it. With OPTIONAL the
+# build may leave it out.
 function(tandem_install_program name)
   file(RELATIVE_PATH libraries
     "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
-  install(TARGETS ${name} RUNTIME COMPONENT tools)
+  install(TARGETS ${name} RUNTIME COMPONENT tools ${ARGN})
 endfunction()
 
 # tandem_install_adaptor(NAME): installs a library that is loaded by its path, where the linker does not look.

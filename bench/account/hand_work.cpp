@@ -5,8 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "tandem/plugin/site.h"
-
 #include "bench/account/between_looks.h"
 #include "bench/account/energy_account.h"
 
@@ -64,7 +62,7 @@ double EnergyAccount::innerRate() const {
       if (island_.follower(c) == b) stiffness += island_.couplerSettings(c).linear.stiffness;
     fastest = std::max(fastest, std::sqrt(stiffness * computeMobility(island_.body(b), true)));
   }
-  const double longest = 1.0 / SiteSettings{}.inner_step;
+  const double longest = 1.0 / IslandSettings{}.inner_step;
   return std::clamp(fastest / 0.18, longest, 64.0 * longest);
 }
 

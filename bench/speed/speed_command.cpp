@@ -1,31 +1,46 @@
-#include "bench/speed/speed_command.h"
+#include <nlohmann/json.hpp>
 
+#include "bench/program/result_output.h"
 #include "bench/speed/speed_report.h"
-#include "demos/program/plot/drawing.h"
-#include "demos/program/run/run_output.h"
-#include "demos/program/terminal/progress_line.h"
-#include "demos/program/terminal/standard_output.h"
+#include "demos/program/command/command.h"
+#include "demos/program/terminal/status_line.h"
 
-namespace tandem::demos::bench {
+namespace tandem::demos {
+namespace {
 
-void runSpeedCommand(const SpeedCommand& command) {
-  if (command.folder) {
-    prepareFolder(*command.folder);
-    requireDrawing();
+/// `tandem bench speed`: run time against the size of the world.
+class SpeedCommand final : public Command {
+ public:
+  void declare(Arguments& arguments) override {
+    arguments.flag("--json", output_.json, "print speed.json to stdout");
+    arguments.flag("--quick", quick_, "fewer worlds, shorter and fewer repeats");
+    arguments.option("--out", output_.folder, "folder for speed.json, speed.svg, speed.png");
   }
-  SpeedReport report;
-  {
-    const ProgressLine line;
-    report = measureSpeed(command.quick,
-                          [&](std::string_view what, double share) { line.show(what, share); });
+
+  ExitStatus run() override {
+    output_.check();
+    const bench::SpeedReport report = measure();
+    output_.write("speed", bench::makeSpeedJson(report, quick_).dump(2) + "\n",
+                  bench::makeSpeedTable(report));
+    return kDone;
   }
-  const std::string json = makeSpeedJson(report, command.quick).dump(2) + "\n";
-  if (command.folder) {
-    const auto file = std::filesystem::path(*command.folder) / "speed.json";
-    writeText(file, json);
-    drawBench(file);
+
+ private:
+  bench::SpeedReport measure() const {
+    ProgressLine line;
+    return bench::measureSpeed(
+        quick_, [&](std::string_view what, double share) { line.show(what, share); });
   }
-  writeOutput(command.json ? json : makeSpeedTable(report));
+
+  bool quick_ = false;
+  bench::ResultOutput output_;
+};
+
+}  // namespace
+
+CommandEntry speedCommand() {
+  return {"speed", "run time against bodies of the host and shared objects, and what it should be",
+          2, makeCommand<SpeedCommand>};
 }
 
-}  // namespace tandem::demos::bench
+}  // namespace tandem::demos

@@ -1,20 +1,22 @@
-#include "bench/stress/stress_command.h"
-
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/program/result_output.h"
 #include "bench/stress/stress.h"
 #include "bench/stress/stress_report.h"
-#include "demos/program/plot/drawing.h"
-#include "demos/program/run/run_output.h"
-#include "demos/program/terminal/progress_line.h"
+#include "demos/program/command/command.h"
 #include "demos/program/terminal/standard_output.h"
+#include "demos/program/terminal/status_line.h"
 #include "demos/program/terminal/usage_error.h"
 
-namespace tandem::demos::bench {
+namespace tandem::demos {
 namespace {
+
+using namespace bench;
 
 constexpr std::uint64_t kCases = 20000, kQuickCases = 1000, kMostCases = 10000000;
 
@@ -37,54 +39,87 @@ void printAccount(const std::vector<AccountRow>& rows) {
   }
 }
 
-bool runOne(const StressCommand& command, std::uint64_t index) {
-  const StressCase one = drawStressCase(command.seed, index);
-  std::vector<std::vector<AccountRow>> accounts;
-  const StressOutcome outcome = runStressCase(one, &accounts);
-  if (command.json) {
-    writeOutput(makeCaseJson(one, outcome).dump(2) + "\n");
-  } else {
-    fmt::print("{}", describeCase(one));
-    for (std::size_t s = 0; s < accounts.size(); ++s) {
-      fmt::print("\nenergy at site {} [s, J]\n", s + 1);
-      printAccount(accounts[s]);
-    }
-    fmt::print("\n{}\n", makeCaseJson(one, outcome)["failures"].empty() ? "good" : "failed");
-    fmt::print("largest energy {:.4g} J, off by {:.2e} of it, {:.2e} allowed\n", outcome.peak,
-               outcome.unaccounted, outcome.allowed);
+void printCase(const StressCase& one, const StressOutcome& outcome,
+               const std::vector<std::vector<AccountRow>>& accounts) {
+  fmt::print("{}", describeCase(one));
+  for (std::size_t s = 0; s < accounts.size(); ++s) {
+    fmt::print("\nenergy at site {} [s, J]\n", s + 1);
+    printAccount(accounts[s]);
   }
-  finishOutput();
-  return findFailures(outcome).empty();
+  fmt::print("\n{}\n", findFailures(outcome).empty() ? "good" : "failed");
+  fmt::print("largest energy {:.4g} J, off by {:.2e} of it, {:.2e} allowed\n", outcome.peak,
+             outcome.unaccounted, outcome.allowed);
 }
+
+/// `tandem bench stress`: drawn cases, each with an energy account.
+class StressCommand final : public Command {
+ public:
+  void declare(Arguments& arguments) override {
+    arguments.flag("--json", output_.json, "print stress.json to stdout");
+    arguments.flag("--quick", quick_, "1000 cases, a coarser map");
+    arguments.option("--cases", cases_, "so many cases");
+    arguments.option("--seed", seed_, "another seed, other cases");
+    arguments.option("--case", one_, "this case alone, with its account");
+    arguments.option("--out", output_.folder,
+                     "folder for stress.json, stability.svg, stability.png");
+  }
+
+  ExitStatus run() override {
+    const bool is_good = one_ ? runOne(*one_) : runAll();
+    return is_good ? kDone : kCheckFailed;
+  }
+
+ private:
+  bool runAll() const {
+    const StressOptions options = makeOptions();
+    output_.check();
+    const StressResult result = measure(options);
+    output_.write("stress", makeStressJson(result).dump(2) + "\n", makeStressTable(result));
+    return result.countFailed() == 0;
+  }
+
+  bool runOne(std::uint64_t index) const {
+    const StressCase one = drawStressCase(seed_, index);
+    std::vector<std::vector<AccountRow>> accounts;
+    const StressOutcome outcome = runStressCase(one, &accounts);
+    if (output_.json) {
+      writeOutput(makeCaseJson(one, outcome).dump(2) + "\n");
+    } else {
+      printCase(one, outcome, accounts);
+    }
+    finishOutput();
+    return findFailures(outcome).empty();
+  }
+
+  StressOptions makeOptions() const {
+    StressOptions options;
+    options.seed = seed_;
+    options.quick = quick_;
+    options.cases = cases_.value_or(quick_ ? kQuickCases : kCases);
+    if (options.cases < 1 || options.cases > kMostCases)
+      throw UsageError(fmt::format("--cases {}: must be 1 to {}", options.cases, kMostCases));
+    return options;
+  }
+
+  static StressResult measure(const StressOptions& options) {
+    ProgressLine line;
+    return measureStress(options,
+                         [&](std::string_view what, double share) { line.show(what, share); });
+  }
+
+  bool quick_ = false;
+  std::uint64_t seed_ = 1;
+  std::optional<std::uint64_t> cases_;  // nothing: kCases or kQuickCases
+  std::optional<std::uint64_t> one_;
+  ResultOutput output_;
+};
 
 }  // namespace
 
-bool runStressCommand(const StressCommand& command) {
-  if (command.one) return runOne(command, *command.one);
-  StressOptions options;
-  options.seed = command.seed;
-  options.quick = command.quick;
-  options.cases = command.cases.value_or(command.quick ? kQuickCases : kCases);
-  if (options.cases < 1 || options.cases > kMostCases)
-    throw UsageError(fmt::format("--cases {}: must be 1 to {}", options.cases, kMostCases));
-  if (command.folder) {
-    prepareFolder(*command.folder);
-    requireDrawing();
-  }
-  StressResult result;
-  {
-    ProgressLine line;
-    result = measureStress(options,
-                           [&](std::string_view what, double share) { line.show(what, share); });
-  }
-  const std::string json = makeStressJson(result).dump(2) + "\n";
-  if (command.folder) {
-    const auto file = std::filesystem::path(*command.folder) / "stress.json";
-    writeText(file, json);
-    drawBench(file);
-  }
-  writeOutput(command.json ? json : makeStressTable(result));
-  return result.countFailed() == 0;
+CommandEntry stressCommand() {
+  return {"stress",
+          "energy account of thousands of scenes with absurd numbers; exit 3 if one fails", 3,
+          makeCommand<StressCommand>};
 }
 
-}  // namespace tandem::demos::bench
+}  // namespace tandem::demos

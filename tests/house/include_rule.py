@@ -167,8 +167,6 @@ class House:
             return None
         if owner == "tests":
             return f"{folder}/ may not include tests/"
-        if owner == "bench" and folder == "demos":
-            return None  # until the benchmarks are a program of their own
         if owner in ("bench", ADAPTORS):
             return f"nothing but tests/ includes {owner.rstrip('/')}/"
         if owner == "demos":

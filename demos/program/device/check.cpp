@@ -5,11 +5,11 @@
 
 #include "device/bars.h"
 #include "device/check_push.h"
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
-#include "terminal/screen_line.h"
 #include "terminal/standard_output.h"
+#include "terminal/status_line.h"
 
 namespace tandem::demos {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kLook = 10.0;           // so long the user moves [s]
 constexpr double kLookUnattended = 0.5;  // [s]
 
 /// The user moves, bars follow. False if asked to end.
-bool lookAtPositions(LiveDevice& device, double duration, ScreenLine& line, const Pause& pause) {
+bool lookAtPositions(LiveDevice& device, double duration, StatusLine& line, const Pause& pause) {
   if (!device.emulated())
     line.print(fmt::format("Move the grip for {:.0f} s and see that the bars follow.", duration));
   return exchange(device, duration, pause, [&](double, const DeviceSample& sample) {
@@ -58,14 +58,14 @@ nlohmann::json toJson(const LiveDevice& device, const std::vector<Push>& pushes)
 
 }  // namespace
 
-bool checkDevice(const DeviceCommand& command, const Pause& pause) {
-  const auto device = openDevice(command.device, placeAlone(), UserWish::kRest);
-  GetReadySettings settings = makeGetReadySettings(command, false);
+bool checkDevice(const DeviceTask& task, const Pause& pause) {
+  const auto device = openDevice(task.device, placeAlone(), UserWish::kRest);
+  GetReadySettings settings = makeGetReadySettings(task, false);
   if (!getReady(*device, settings, pause)) return true;
   std::vector<Push> pushes;
   {
-    ScreenLine line(settings.is_quiet);
-    const double look = command.duration.value_or(device->emulated() ? kLookUnattended : kLook);
+    StatusLine line(settings.is_quiet);
+    const double look = task.duration.value_or(device->emulated() ? kLookUnattended : kLook);
     if (!lookAtPositions(*device, look, line, pause)) return true;
     const double force = std::min(kForce, device->capabilities().max_force);
     if (force > 0.0) {
@@ -82,9 +82,9 @@ bool checkDevice(const DeviceCommand& command, const Pause& pause) {
   }
   const bool is_good =
       std::all_of(pushes.begin(), pushes.end(), [](const Push& one) { return one.fault.empty(); });
-  if (command.json) {
+  if (task.json) {
     writeOutput(toJson(*device, pushes).dump(2) + "\n");
-  } else if (!command.quiet) {
+  } else if (!task.quiet) {
     for (const Push& one : pushes)
       fmt::print("{}  {}\n",
                  showPush(one.where, one.asked_W.norm(), one.asked_W.normalized().dot(one.moved_W)),

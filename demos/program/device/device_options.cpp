@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "command/arguments.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
@@ -14,6 +15,22 @@ void require(bool holds, const char* option, double value, const char* allowed) 
 }
 
 }  // namespace
+
+void declareDeviceOptions(Arguments& arguments, DeviceOptions& options) {
+  arguments.option("--device", options.device,
+                   "falcon, falcon:SERIAL, falcon@/dev/ttyUSB0, falcon@ft260, emulated, simulated, "
+                   "spacemouse[:PATH], hid[:PATH]");
+  arguments.option("--firmware", options.firmware,
+                   "file of the Falcon's image; none comes with us");
+  arguments.option("--motors-per-torque", options.motors_per_torque,
+                   "what a Falcon's motors make of a torque [1/(N m)], 4200");
+  arguments.option("--max-force", options.max_force, "no more than this at the hand [N], 8");
+  arguments.option("--scale", options.scale, "way in the world by way of the hand, 1");
+  arguments.triple("--offset", options.offset, "moves the workspace in the world: x y z [m]");
+  arguments.option("--clutch", options.clutch,
+                   "while pressed the hand goes back alone: plus, forward, centre, minus, or "
+                   "hid:PATH,KIND,REPORT,BYTE,VALUE");
+}
 
 void checkDeviceOptions(const DeviceOptions& options) {
   require(options.motors_per_torque > 0.0 && options.motors_per_torque <= 1e5,

@@ -8,6 +8,8 @@
 
 namespace tandem::demos {
 
+class Arguments;
+
 /// Options that all commands with a device share, as they were written.
 struct DeviceOptions {
   std::string device;                   ///< a DeviceSpec; empty: the first that is plugged in
@@ -18,6 +20,9 @@ struct DeviceOptions {
   double scale = 1.0;                                ///< way in the world by way of the hand
   std::vector<double> offset;  ///< of the workspace in the world [m]; empty or three
 };
+
+/// Declares --device, --firmware, --motors-per-torque, --max-force, --scale, --offset, --clutch.
+void declareDeviceOptions(Arguments& arguments, DeviceOptions& options);
 
 /// Throws UsageError, naming the option and what is allowed.
 void checkDeviceOptions(const DeviceOptions& options);

@@ -5,7 +5,7 @@
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "device/bars.h"
-#include "terminal/screen_line.h"
+#include "terminal/status_line.h"
 
 namespace tandem::demos {
 namespace {
@@ -41,7 +41,7 @@ std::string show(const DeviceReport& report, const LiveDevice& device) {
 /// Three lines, once.
 class Instructions {
  public:
-  void print(ScreenLine& line, const DeviceReport& report, bool to_middle) {
+  void print(StatusLine& line, const DeviceReport& report, bool to_middle) {
     if (report.homed && report.state == "unhomed" && !told_homing_) {
       told_homing_ = true;
       line.print("1. Pull the grip straight out towards you, as far as it goes.");
@@ -61,7 +61,7 @@ class Instructions {
 }  // namespace
 
 bool getReady(LiveDevice& device, const GetReadySettings& settings, const Pause& pause) {
-  ScreenLine line(settings.is_quiet);
+  StatusLine line(settings.is_quiet);
   Instructions instructions;
   const double until = readMonotonicClock() + settings.patience;
   for (;;) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "device/exchange.h"
 
 namespace tandem::demos {
@@ -12,9 +12,8 @@ struct GetReadySettings {
 };
 
 /// As a command asks for it.
-[[nodiscard]] inline GetReadySettings makeGetReadySettings(const DeviceCommand& command,
-                                                           bool to_middle) {
-  return {command.patience, to_middle, command.quiet || command.json};
+[[nodiscard]] inline GetReadySettings makeGetReadySettings(const DeviceTask& task, bool to_middle) {
+  return {task.patience, to_middle, task.quiet || task.json};
 }
 
 /// Until the device gives true positions: prints the lines of instruction when there is something

@@ -5,11 +5,11 @@
 
 #include "tandem/falcon/monotonic_clock.h"
 
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "device/open_device.h"
 #include "device/user_axes.h"
-#include "terminal/screen_line.h"
 #include "terminal/standard_output.h"
+#include "terminal/status_line.h"
 
 namespace tandem::demos {
 namespace {
@@ -17,9 +17,9 @@ namespace {
 constexpr double kLook = 0.005;  // [s]
 
 /// Until it is opened, booted and loaded, or cannot be.
-bool waitUntilStarted(LiveDevice& device, const DeviceCommand& command, const Pause& pause) {
-  ScreenLine line(command.quiet || command.json);
-  const double until = readMonotonicClock() + command.patience;
+bool waitUntilStarted(LiveDevice& device, const DeviceTask& task, const Pause& pause) {
+  StatusLine line(task.quiet || task.json);
+  const double until = readMonotonicClock() + task.patience;
   for (;;) {
     (void)device.read(0.0);
     const DeviceReport report = device.report();
@@ -91,19 +91,19 @@ void print(const nlohmann::json& j) {
 
 Placement placeAlone() { return {computeUserAxes(Quat::Identity(), 0), Vec3::Zero()}; }
 
-void showDevice(const DeviceCommand& command, const Pause& pause) {
-  const auto device = openDevice(command.device, placeAlone(), UserWish::kRest);
-  if (!waitUntilStarted(*device, command, pause)) return;
+void showDevice(const DeviceTask& task, const Pause& pause) {
+  const auto device = openDevice(task.device, placeAlone(), UserWish::kRest);
+  if (!waitUntilStarted(*device, task, pause)) return;
   const DeviceReport before = device->report();
   const double began = readMonotonicClock();
-  if (!exchange(*device, command.duration.value_or(1.0), pause,
+  if (!exchange(*device, task.duration.value_or(1.0), pause,
                 [](double, const DeviceSample&) { return Vec3(Vec3::Zero()); }))
     return;
   const nlohmann::json info =
       makeInfo(*device, before, device->report(), readMonotonicClock() - began);
-  if (command.json) {
+  if (task.json) {
     writeOutput(info.dump(2) + "\n");
-  } else if (!command.quiet) {
+  } else if (!task.quiet) {
     print(info);
   }
   finishOutput();

@@ -7,11 +7,11 @@
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "device/bars.h"
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
-#include "terminal/screen_line.h"
 #include "terminal/standard_output.h"
+#include "terminal/status_line.h"
 
 namespace tandem::demos {
 namespace {
@@ -73,15 +73,15 @@ void printBins(const char* title, const nlohmann::json& part) {
 
 }  // namespace
 
-void measureLatency(const DeviceCommand& command, const Pause& pause) {
-  const auto device = openDevice(command.device, placeAlone(), UserWish::kRest);
-  const GetReadySettings settings = makeGetReadySettings(command, false);
+void measureLatency(const DeviceTask& task, const Pause& pause) {
+  const auto device = openDevice(task.device, placeAlone(), UserWish::kRest);
+  const GetReadySettings settings = makeGetReadySettings(task, false);
   if (!getReady(*device, settings, pause)) return;
 
   nlohmann::json j;
   {
-    ScreenLine line(settings.is_quiet);
-    const double duration = command.duration.value_or(kUsual), began = readMonotonicClock();
+    StatusLine line(settings.is_quiet);
+    const double duration = task.duration.value_or(kUsual), began = readMonotonicClock();
     const DeviceReport before = device->report();
     std::vector<double> lateness;
     const bool is_done = exchange(
@@ -102,9 +102,9 @@ void measureLatency(const DeviceCommand& command, const Pause& pause) {
       j["round_trip"] = describeRoundTrips(subtract(*after.round_trips, *before.round_trips));
     if (!is_done) line.print("ended early");
   }
-  if (command.json) {
+  if (task.json) {
     writeOutput(j.dump(2) + "\n");
-  } else if (!command.quiet) {
+  } else if (!task.quiet) {
     fmt::print("{}: {:.1f} s, loop {:.1f} per second, device {:.1f} per second\n",
                j["device"].get<std::string>(), j["duration"].get<double>(),
                j["loop_rate"].get<double>(), j["device_rate"].get<double>());

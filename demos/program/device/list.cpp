@@ -1,20 +1,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "device/plugged_in.h"
 #include "terminal/standard_output.h"
 
 namespace tandem::demos {
 
-void listDevices(const DeviceCommand& command) {
+void listDevices(const DeviceTask& task) {
   std::vector<PluggedIn> devices = findPluggedIn();
   const bool has_none = devices.empty();
   devices.push_back({{DeviceSpec::Kind::kEmulated, ""},
                      "a Falcon in this process, byte by byte, homed by itself"});
   devices.push_back({{DeviceSpec::Kind::kSimulated, ""}, "a mass in a simulated hand"});
 
-  if (command.json) {
+  if (task.json) {
     nlohmann::json j = {{"built_with_devices", hasDeviceLibraries()},
                         {"plugged_in", devices.size() - 2},
                         {"devices", nlohmann::json::array()}};

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
-#include "terminal/screen_line.h"
 #include "terminal/standard_output.h"
+#include "terminal/status_line.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
@@ -65,26 +65,25 @@ std::string makeCsv(const std::vector<Row>& rows) {
 
 }  // namespace
 
-void recordDevice(const DeviceCommand& command, const Pause& pause) {
-  UnfinishedFile file(command.file);
-  const auto device = openDevice(command.device, placeAlone(), UserWish::kDip);
-  const GetReadySettings settings = makeGetReadySettings(command, false);
+void recordDevice(const DeviceTask& task, const Pause& pause) {
+  UnfinishedFile file(task.file);
+  const auto device = openDevice(task.device, placeAlone(), UserWish::kDip);
+  const GetReadySettings settings = makeGetReadySettings(task, false);
   if (!getReady(*device, settings, pause)) return;
 
-  ScreenLine line(command.quiet);
-  if (!command.duration) line.print("recording until Ctrl-C");
+  StatusLine line(task.quiet);
+  if (!task.duration) line.print("recording until Ctrl-C");
   std::vector<Row> rows;
   const Eigen::Matrix3d r_WD = device->map().settings().q_WD.toRotationMatrix();
   // Ctrl-C ends the recording, not the file.
   (void)exchange(
-      *device, command.duration.value_or(kLongest), pause,
-      [&](double t, const DeviceSample& sample) {
+      *device, task.duration.value_or(kLongest), pause, [&](double t, const DeviceSample& sample) {
         rows.push_back({t, sample, r_WD * device->guard().force, device->report().buttons});
         if (line.isDue()) line.show(fmt::format("{:8.1f} s recorded", t));
         return Vec3(Vec3::Zero());
       });
   file.finish(makeCsv(rows));
-  line.print(fmt::format("{}: {} rows, {:.3f} s", command.file, rows.size(),
+  line.print(fmt::format("{}: {} rows, {:.3f} s", task.file, rows.size(),
                          rows.empty() ? 0.0 : rows.back().t));
   finishOutput();
 }

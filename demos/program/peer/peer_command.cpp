@@ -1,5 +1,3 @@
-#include "peer/peer_command.h"
-
 #include <csignal>
 #include <cstdio>
 #include <string_view>
@@ -10,18 +8,36 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
 
+#include "command/command.h"
+#include "device/device_options.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
 #include "device/user_axes.h"
+#include "files/output_folder.h"
 #include "peer/peer_configuration.h"
 #include "peer/peer_output.h"
 #include "peer/peer_run.h"
-#include "run/run_output.h"
 #include "terminal/standard_output.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
+
+/// Options of `tandem peer`, as they were written.
+struct PeerOptions {
+  std::string scenario;
+  std::vector<std::string> overrides;
+  int site = 0;
+  std::string bind;
+  std::string peer;
+  std::string key;
+  std::optional<std::string> folder;
+  double patience = 30.0;  ///< time to wait for the other site [s]
+  std::string playout = "on";
+  std::string profile = "float32";
+  bool quiet = false;
+  DeviceOptions device;  ///< without --device: simulated, as the scenario says
+};
 
 volatile std::sig_atomic_t stop_asked = 0;
 
@@ -54,40 +70,40 @@ void print(const PeerReport& report) {
   std::fflush(stdout);
 }
 
-void checkCommand(const PeerCommand& command) {
-  if (command.site != 1 && command.site != 2)
-    throw UsageError(fmt::format("--site {}: must be 1 or 2", command.site));
-  if (!(command.patience > 0.0 && command.patience <= 86400.0))
+void checkOptions(const PeerOptions& options) {
+  if (options.site != 1 && options.site != 2)
+    throw UsageError(fmt::format("--site {}: must be 1 or 2", options.site));
+  if (!(options.patience > 0.0 && options.patience <= 86400.0))
     throw UsageError("--wait: must be above 0 and at most 86400 s");
 }
 
-UdpMeshSettings makeSettings(const PeerCommand& command, const Scenario& scenario) {
+UdpMeshSettings makeSettings(const PeerOptions& options, const Scenario& scenario) {
   UdpMeshSettings settings;
-  settings.self = PeerId{static_cast<std::uint32_t>(command.site)};
-  settings.bind = resolveAddress(command.bind);
-  settings.profile = command.profile == "float64" ? WireProfile::kFloat64 : WireProfile::kFloat32;
-  settings.playout.is_on = command.playout == "on";
+  settings.self = PeerId{static_cast<std::uint32_t>(options.site)};
+  settings.bind = resolveAddress(options.bind);
+  settings.profile = options.profile == "float64" ? WireProfile::kFloat64 : WireProfile::kFloat32;
+  settings.playout.is_on = options.playout == "on";
   Configuration items = makePeerConfiguration(scenario);
-  items.push_back({"wire.profile", command.profile});
+  items.push_back({"wire.profile", options.profile});
   settings.configuration = makeConfiguration(std::move(items));
   return settings;
 }
 
 /// The user's own device, ready and where the scenario has the user start; null without --device.
 /// `is_ended` if the user would rather end.
-std::unique_ptr<LiveDevice> openUsersDevice(const PeerCommand& command, const Scenario& scenario,
+std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Scenario& scenario,
                                             bool& is_ended) {
-  if (command.device.device.empty()) {
-    checkDeviceOptions(command.device);
+  if (options.device.device.empty()) {
+    checkDeviceOptions(options.device);
     return nullptr;
   }
   const SceneFrame frame = makeSceneFrame(scenario);
-  const int site = command.site - 1;
+  const int site = options.site - 1;
   const Vec3 start_W = computeStart(scenario, frame, site);
   auto device =
-      openDevice(command.device, {computeUserAxes(frame.q_WS, site), start_W}, UserWish::kReach);
+      openDevice(options.device, {computeUserAxes(frame.q_WS, site), start_W}, UserWish::kReach);
   GetReadySettings settings;
-  settings.is_quiet = command.quiet;
+  settings.is_quiet = options.quiet;
   is_ended = !getReady(*device, settings, [](double seconds) {
     sleepFor(seconds);
     return stop_asked != 0;
@@ -97,34 +113,70 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerCommand& command, const Sc
   return device;
 }
 
-}  // namespace
-
-void runPeerCommand(const PeerCommand& command) {
-  checkCommand(command);
-  const Scenario scenario = loadScenario(command.scenario, command.overrides);
-  if (command.folder) prepareFolder(*command.folder);
-  UdpPeer peer{PeerId{static_cast<std::uint32_t>(3 - command.site)}, resolveAddress(command.peer),
-               readKeyFile(command.key)};
+void runPeer(const PeerOptions& options) {
+  checkOptions(options);
+  const Scenario scenario = loadScenario(options.scenario, options.overrides);
+  if (options.folder) prepareFolder(*options.folder);
+  UdpPeer peer{PeerId{static_cast<std::uint32_t>(3 - options.site)}, resolveAddress(options.peer),
+               readKeyFile(options.key)};
   if (!peer.key.isLocked())
     fmt::print(stderr, "tandem: note: the key may be swapped to disk; raise ulimit -l\n");
-  catchSignals(!command.device.device.empty());
+  catchSignals(!options.device.device.empty());
   bool is_ended = false;
-  const auto device = openUsersDevice(command, scenario, is_ended);
+  const auto device = openUsersDevice(options, scenario, is_ended);
   if (is_ended) return;
-  PeerRun run(scenario, command.site - 1, makeSettings(command, scenario), std::move(peer),
+  PeerRun run(scenario, options.site - 1, makeSettings(options, scenario), std::move(peer),
               device.get());
   const auto stop = [] { return stop_asked != 0; };
   const auto report = [&](const PeerReport& one) {
-    if (!command.quiet) print(one);
+    if (!options.quiet) print(one);
   };
-  if (!command.quiet) fmt::print("site {} on {}\n", command.site, toString(run.peers().bound()));
-  if (!run.waitForPeer(command.patience, stop, report)) return;
+  if (!options.quiet) fmt::print("site {} on {}\n", options.site, toString(run.peers().bound()));
+  if (!run.waitForPeer(options.patience, stop, report)) return;
   run.run(stop, report,
           [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); });
-  const nlohmann::json summary = makePeerSummary(scenario, command.site, run);
-  if (command.folder) writePeerRun(*command.folder, command.site, summary, run);
-  if (!command.quiet) printPeerSummary(summary, command.site);
+  const nlohmann::json summary = makePeerSummary(scenario, options.site, run);
+  if (options.folder) writePeerRun(*options.folder, options.site, summary, run);
+  if (!options.quiet) printPeerSummary(summary, options.site);
   finishOutput();
+}
+
+/// `tandem peer`: one site of a scenario, live over UDP.
+class PeerCommand final : public Command {
+ public:
+  void declare(Arguments& arguments) override {
+    PeerOptions& own = options_;
+    const OptionRules required = {.is_required = true};
+    arguments.option("--scenario", own.scenario, "scenario file (TOML)", required);
+    arguments.repeated("--set", own.overrides, "override a key, as for tandem run");
+    arguments.option("--site", own.site, "which site this is: 1 or 2", required);
+    arguments.option("--bind", own.bind, "own address, e.g. :7001", required);
+    arguments.option("--peer", own.peer, "the other site's address, e.g. host:7002", required);
+    arguments.option("--key", own.key, "key file that both sites share", required);
+    arguments.option("--out", own.folder, "folder for siteN.csv and siteN.json");
+    arguments.option("--wait", own.patience, "seconds to wait for the other site");
+    arguments.option("--playout", own.playout,
+                     "on: jitter becomes constant delay; off: states are applied as they come",
+                     {.choices = {"on", "off"}});
+    arguments.option("--wire", own.profile, "width of numbers on the way",
+                     {.choices = {"float32", "float64"}});
+    declareDeviceOptions(arguments, own.device);
+    arguments.flag("--quiet", own.quiet, "print nothing but errors");
+  }
+
+  ExitStatus run() override {
+    runPeer(options_);
+    return kDone;
+  }
+
+ private:
+  PeerOptions options_;
+};
+
+}  // namespace
+
+CommandEntry peerCommand() {
+  return {"peer", "one site of a scenario, live over UDP", 4, makeCommand<PeerCommand>};
 }
 
 }  // namespace tandem::demos

@@ -1,12 +1,12 @@
 #include "run/run_output.h"
 
-#include <fstream>
+#include <filesystem>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "terminal/usage_error.h"
+#include "files/output_folder.h"
 
 namespace tandem::demos {
 namespace {
@@ -67,14 +67,6 @@ std::string makeSceneCsv(const VirtualRun& run) {
 
 }  // namespace
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file)
-    throw Error("cannot write " + path.string() + ": is the folder there, writable and not full?");
-}
-
 nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run) {
   const RunSummary& s = run.summary();
   nlohmann::json j;
@@ -90,17 +82,6 @@ nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run) {
   j["state_hash"] = fmt::format("{:016x}", s.state_hash);
   j["real_time_factor"] = s.real_time_factor;
   return j;
-}
-
-void prepareFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const std::filesystem::path trial = folder / ".tandem-trial";
-  const bool works = !error && std::ofstream(trial).put('x').good();
-  std::filesystem::remove(trial, error);
-  if (!works)
-    throw UsageError("--out " + folder.string() +
-                     ": cannot make files in this folder; choose one that is writable");
 }
 
 void writeRun(const std::filesystem::path& folder, const nlohmann::json& summary,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,12 +10,6 @@ namespace tandem::demos {
 
 /// summary.json of a finished run.
 [[nodiscard]] nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run);
-
-/// Makes the folder if needed and tries that files can be made in it. Throws UsageError.
-void prepareFolder(const std::filesystem::path& folder);
-
-/// Stores `text` as a file. Throws tandem::Error naming the file.
-void writeText(const std::filesystem::path& path, const std::string& text);
 
 /// Writes site1.csv, site2.csv, scene.csv and summary.json: all of them, or on an error none
 /// (summary.json comes last, so that it stands for a whole run). Throws tandem::Error or

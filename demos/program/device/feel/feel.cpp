@@ -13,8 +13,8 @@
 #include "device/get_ready.h"
 #include "device/open_device.h"
 #include "device/user_axes.h"
-#include "terminal/screen_line.h"
 #include "terminal/standard_output.h"
+#include "terminal/status_line.h"
 #include "world/scene.h"
 
 namespace tandem::demos {
@@ -73,15 +73,15 @@ struct Tally {
 
 /// Steps the world as it comes due and looks after each step.
 LoopReport run(SiteWorld& world, LiveDevice& device, const Scenario& scenario,
-               const DeviceCommand& command, const Pause& pause, Tally& tally) {
+               const DeviceTask& task, const Pause& pause, Tally& tally) {
   HapticLoopSettings settings;
   settings.begin = readMonotonicClock() + kGetReady;
-  settings.duration = command.duration.value_or(std::numeric_limits<double>::infinity());
+  settings.duration = task.duration.value_or(std::numeric_limits<double>::infinity());
   HapticLoop loop(world.site(), settings);
-  const bool is_quiet = command.quiet || command.json;
+  const bool is_quiet = task.quiet || task.json;
   if (!is_quiet)
     for (const std::string& note : loop.notes()) fmt::print(stderr, "tandem: note: {}\n", note);
-  ScreenLine line(is_quiet);
+  StatusLine line(is_quiet);
   const double most_force = std::min(8.0, device.capabilities().max_force);
   for (std::uint64_t step = 1; loop.isRunning(); ++step) {
     const double time = static_cast<double>(step) / scenario.host_rate;
@@ -126,13 +126,13 @@ void print(const nlohmann::json& j) {
 
 }  // namespace
 
-void feelCube(const DeviceCommand& command, const Pause& pause) {
-  const Scenario scenario = makeFeelScenario(command);
+void feelCube(const DeviceTask& task, const Pause& pause) {
+  const Scenario scenario = makeFeelScenario(task);
   const SceneFrame frame = makeSceneFrame(scenario);
   const auto device =
-      openDevice(command.device, {computeUserAxes(frame.q_WS, 0), computeStart(scenario, frame, 0)},
+      openDevice(task.device, {computeUserAxes(frame.q_WS, 0), computeStart(scenario, frame, 0)},
                  UserWish::kDip);
-  const GetReadySettings settings = makeGetReadySettings(command, true);
+  const GetReadySettings settings = makeGetReadySettings(task, true);
   if (!getReady(*device, settings, pause)) return;
   if (!settings.is_quiet)
     fmt::print("{}: {}; end with Ctrl-C\n", toText(device->spec()), scenario.title);
@@ -140,11 +140,11 @@ void feelCube(const DeviceCommand& command, const Pause& pause) {
   SilentLink nobody;
   SiteWorld world(scenario, 0, nobody, *device);
   Tally tally;
-  const LoopReport loop = run(world, *device, scenario, command, pause, tally);
+  const LoopReport loop = run(world, *device, scenario, task, pause, tally);
   const nlohmann::json summary = summarise(*device, world.site(), loop, tally);
-  if (command.json) {
+  if (task.json) {
     writeOutput(summary.dump(2) + "\n");
-  } else if (!command.quiet) {
+  } else if (!task.quiet) {
     print(summary);
   }
   finishOutput();

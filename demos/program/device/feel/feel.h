@@ -1,12 +1,12 @@
 #pragma once
 
-#include "device/device_command.h"
+#include "device/device_task.h"
 
 namespace tandem::demos {
 
 /// `tandem device` without a command: the user homes the device and feels a free cube on a floor,
 /// alone. A haptic thread ticks the site, this one steps the host's world, at 60 Hz. Ends when
-/// `pause` says so or command.duration is over; then the force fades. Throws as the other commands.
-void feelCube(const DeviceCommand& command, const Pause& pause);
+/// `pause` says so or task.duration is over; then the force fades. Throws as the other commands.
+void feelCube(const DeviceTask& task, const Pause& pause);
 
 }  // namespace tandem::demos

@@ -30,9 +30,9 @@ friction = 0.6
 
 }  // namespace
 
-Scenario makeFeelScenario(const DeviceCommand& command) {
-  Scenario scenario = command.scenario ? loadScenario(*command.scenario, {})
-                                       : parseScenario(kCubeOnFloor, "the built-in scene", {});
+Scenario makeFeelScenario(const DeviceTask& task) {
+  Scenario scenario = task.scenario ? loadScenario(*task.scenario, {})
+                                    : parseScenario(kCubeOnFloor, "the built-in scene", {});
   if (scenario.contact_model != "island" || scenario.injection != "handoff")
     throw UsageError(
         "--scenario: tandem device needs contact.model = island and bridge.injection = handoff; "

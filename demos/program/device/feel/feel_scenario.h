@@ -1,12 +1,12 @@
 #pragma once
 
-#include "device/device_command.h"
+#include "device/device_task.h"
 #include "scenario/scenario.h"
 
 namespace tandem::demos {
 
 /// The cube on the floor, or the scenario of the command; the other user is absent. Throws as
 /// loadScenario.
-[[nodiscard]] Scenario makeFeelScenario(const DeviceCommand& command);
+[[nodiscard]] Scenario makeFeelScenario(const DeviceTask& task);
 
 }  // namespace tandem::demos

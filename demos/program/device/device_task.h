@@ -9,7 +9,7 @@
 namespace tandem::demos {
 
 /// Options of `tandem device` and its commands, as they were written.
-struct DeviceCommand {
+struct DeviceTask {
   DeviceOptions device;
   std::optional<double> duration;       ///< [s]
   double patience = 120.0;              ///< until it is ready [s]
@@ -21,13 +21,13 @@ struct DeviceCommand {
 
 /// `tandem device ...`: each runs to its end, or until `pause` says to end. They throw UsageError
 /// or std::invalid_argument (status 2), tandem::Error with the remedy (status 1).
-void listDevices(const DeviceCommand& command);
-void showDevice(const DeviceCommand& command, const Pause& pause);
-void homeDevice(const DeviceCommand& command, const Pause& pause);
+void listDevices(const DeviceTask& task);
+void showDevice(const DeviceTask& task, const Pause& pause);
+void homeDevice(const DeviceTask& task, const Pause& pause);
 /// False: an emulated device's force or motion was not what it must be.
-[[nodiscard]] bool checkDevice(const DeviceCommand& command, const Pause& pause);
-void measureLatency(const DeviceCommand& command, const Pause& pause);
-void recordDevice(const DeviceCommand& command, const Pause& pause);
+[[nodiscard]] bool checkDevice(const DeviceTask& task, const Pause& pause);
+void measureLatency(const DeviceTask& task, const Pause& pause);
+void recordDevice(const DeviceTask& task, const Pause& pause);
 
 /// The placement that they use: user 1's in a scene whose axis is x.
 [[nodiscard]] Placement placeAlone();

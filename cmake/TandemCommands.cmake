@@ -1,0 +1,16 @@
+# tandem_command_table(OUT SOURCE...): the table of a program's commands, as a source that is made of the names of
+# the files <name>_command.cpp. Each defines `CommandEntry <name>Command()`, so a new command is one new file.
+function(tandem_command_table out)
+  set(command_declarations "")
+  set(command_entries "")
+  foreach(source ${ARGN})
+    get_filename_component(name "${source}" NAME_WE)
+    string(REGEX REPLACE "_command$" "Command" function "${name}")
+    string(APPEND command_declarations "CommandEntry ${function}();\n")
+    list(APPEND command_entries "${function}()")
+  endforeach()
+  list(JOIN command_entries ", " command_entries)
+  set(table "${CMAKE_CURRENT_BINARY_DIR}/command_table.cpp")
+  configure_file("${PROJECT_SOURCE_DIR}/demos/program/command/command_table.cpp.in" "${table}" @ONLY)
+  set(${out} "${table}" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,27 @@
+#include "command/command.h"
+#include "plot/drawing.h"
+
+namespace tandem::demos {
+namespace {
+
+/// `tandem plot`: figures and report.html of runs.
+class PlotCommand final : public Command {
+ public:
+  void declare(Arguments& arguments) override {
+    arguments.several("folders", folders_, "folders of runs; the report goes into the first");
+  }
+
+  ExitStatus run() override { return static_cast<ExitStatus>(plotRuns(folders_)); }
+
+ private:
+  std::vector<std::string> folders_;
+};
+
+}  // namespace
+
+CommandEntry plotCommand() {
+  return {"plot", "figures and report.html of one run, or of several compared", 2,
+          makeCommand<PlotCommand>};
+}
+
+}  // namespace tandem::demos
