@@ -35,8 +35,10 @@ endif()
 # tandem_precompile(TARGET headers...): compiles headers once that nearly every source of a target reads. Our headers
 # must still include all they need: tests/house compiles each alone. tandem_precompile(TARGET LIKE other): uses those of
 # another target with the same options.
+# The target's sources are compiled in batches.
 option(TANDEM_PRECOMPILE "Precompile common headers: halves the time of a full build" ON)
 function(tandem_precompile target)
+  tandem_unity(${target})
   if(NOT TANDEM_PRECOMPILE)
     return()
   endif()
@@ -76,7 +78,6 @@ function(tandem_add_library name)
   else()
     tandem_precompile(tandem_${name} LIKE tandem_coordination)
   endif()
-  tandem_unity(tandem_${name})
   if(TANDEM_INSTALL)
     tandem_install_library(${name})
   endif()
