@@ -6,7 +6,7 @@
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/plugin/site.h"
 
-/// Any program with a Bullet world: here one cube of 4 cm and 200 g, no gravity, nothing of Tandem.
+/// Any program with a Bullet world: one cube of 4 cm and 200 g, no gravity, no part of Tandem.
 struct Host {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};

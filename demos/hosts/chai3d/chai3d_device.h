@@ -6,7 +6,7 @@
 
 #include "tandem/falcon/haptic_device.h"
 
-/// Any haptic device that CHAI3D drives, as one of Tandem's.
+/// Wraps any haptic device that CHAI3D drives as one of Tandem's.
 ///
 /// CHAI3D's calls talk to the hardware and may take most of a millisecond: tick the site in
 /// CHAI3D's haptic thread.

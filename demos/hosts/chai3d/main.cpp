@@ -2,7 +2,7 @@
 // first haptic device that CHAI3D finds; without one, a simulated hand pushes with 5 N. User 2 is
 // simulated.
 //
-// Nothing is drawn: the cube is a cBulletBox like any other of your scene.
+// The program draws nothing: the cube is a cBulletBox like any other of your scene.
 
 #include <cstdio>
 #include <memory>
@@ -60,8 +60,8 @@ int main() {
   site2.share(*there.cube->m_bulletRigidBody);
   site2.connect(tandem::PeerId{1}, *to_here, left.start_W);
 
-  // As CHAI3D's haptic thread does. Its world runs at most ten sub-steps of 1 ms a call and drops
-  // what is beyond, so intervals above 10 ms would slow time down.
+  // Steps like CHAI3D's haptic thread. Its world runs at most ten sub-steps of 1 ms per call and
+  // drops the rest. Intervals above 10 ms would slow time down.
   for (int step = 0; step < 1000; ++step) {
     here.world.updateDynamics(1e-3);
     there.world.updateDynamics(1e-3);

@@ -1,5 +1,5 @@
-// A host that has its own tick callbacks and its own use for the world's user pointer. Bullet has
-// one place for each; a site leaves them to the host, and calls what it found there.
+// A host with its own tick callbacks and its own use of the world's user pointer. Bullet has one
+// place for each. A site leaves them to the host, and calls the callbacks that it found there.
 
 #include <cstdio>
 
@@ -9,7 +9,7 @@
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/plugin/site.h"
 
-/// A cube without weight in a breeze, which the host gives in its pre-tick.
+/// A weightless cube in a breeze, which the host applies in its pre-tick.
 struct Host {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -36,7 +36,7 @@ struct Host {
   static void count(btDynamicsWorld* world, btScalar) {
     ++static_cast<Host*>(world->getWorldUserInfo())->after;
   }
-  /// One second in so many calls, of four sub-steps each.
+  /// Steps one second in several calls of four sub-steps each.
   void run() {
     for (int call = 0; call < 60; ++call) world.stepSimulation(1.0 / 60.0, 4, 1.0 / 240.0);
   }
@@ -49,7 +49,7 @@ int main() {
   tandem::SimulatedDevice device(at, tandem::makeConstantHand({0, 0, 0}));
   {
     tandem::SiteSettings settings;
-    settings.peers = 1;  // nobody else carries the cube
+    settings.peers = 1;  // no other peer carries the cube
     tandem::Site site(settings, host.world, device);
     site.share(host.cube);
     host.run();

@@ -1,5 +1,5 @@
 // A program with a Bullet world: a cube and a box on a floor. Two users push the cube, each in a
-// world of their own; here both are in one program, with 50 ms between them.
+// world of their own. Here both are in one program, with 50 ms between them.
 
 #include <cstdio>
 
@@ -9,7 +9,7 @@
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/plugin/site.h"
 
-/// The host: nothing of Tandem in it.
+/// The host, without any part of Tandem.
 struct Host {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -36,7 +36,7 @@ struct Host {
   }
 };
 
-/// A simulated device at x, and the force of the hand on it.
+/// A simulated device at x, and the force of its hand.
 tandem::SimulatedDevice makeDevice(double x, double push) {
   tandem::SimulatedDeviceSettings settings;
   settings.start_W = tandem::Vec3(x, 0, 0.02);

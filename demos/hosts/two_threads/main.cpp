@@ -15,7 +15,7 @@
 
 constexpr double kDuration = 2.0, kStep = 1.0 / 60.0;  // [s]
 
-/// A user with a device, at y, and the user's world with a cube.
+/// A user with a device at y, and the user's world with a cube.
 struct User {
   btBoxShape block{btVector3(0.02, 0.02, 0.02)};
   btRigidBody cube{0.2, nullptr, &block, btVector3(5.3e-5, 5.3e-5, 5.3e-5)};
@@ -64,7 +64,7 @@ struct User {
   static tandem::SiteSettings makeSiteSettings(unsigned self) {
     tandem::SiteSettings settings;
     settings.self = tandem::PeerId{self};
-    settings.tick_source = tandem::TickSource::kCaller;  // the loop's
+    settings.tick_source = tandem::TickSource::kCaller;  // the loop ticks
     return settings;
   }
   /// The host's loop.

@@ -6,7 +6,7 @@
 namespace tandem::demos {
 namespace {
 
-/// Of `width` places; none for what is no number.
+/// Number of filled places out of `width`; 0 for NaN.
 std::size_t countPlaces(double share, int width) {
   if (!(share > 0.0)) return 0;
   return static_cast<std::size_t>(std::lround(std::min(share, 1.0) * width));

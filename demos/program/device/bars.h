@@ -4,13 +4,13 @@
 
 namespace tandem::demos {
 
-/// "[###     ]": `value` of `most`, from 0, in `width` places; what is beyond fills it.
+/// "[###     ]": `value` from 0 to `most` in `width` places. A larger value fills it.
 [[nodiscard]] std::string makeLevel(double value, double most, int width);
 
-/// "[   |##  ]": from -most to most around a middle, `width` places to each side.
+/// "[   |##  ]": `value` from -most to most around a middle, `width` places to each side.
 [[nodiscard]] std::string makeBar(double value, double most, int width);
 
-/// "##########" of `width` places for the share 1; at least one for a share above 0.
+/// "##########" of `width` places for share 1; at least one for a share above 0.
 [[nodiscard]] std::string makeShare(double share, int width);
 
 }  // namespace tandem::demos

@@ -15,9 +15,9 @@ namespace tandem::demos {
 namespace {
 
 constexpr double kForce = 1.0;           // of a push [N]
-constexpr double kShown = 0.06;          // most way that bars of positions show [m]
-constexpr double kShownPush = 0.01;      // and of pushes [m]
-constexpr double kLook = 10.0;           // so long the user moves [s]
+constexpr double kShown = 0.06;          // longest way that position bars show [m]
+constexpr double kShownPush = 0.01;      // longest way that push bars show [m]
+constexpr double kLook = 10.0;           // time in which the user moves [s]
 constexpr double kLookUnattended = 0.5;  // [s]
 
 /// The user moves, bars follow. False if asked to end.

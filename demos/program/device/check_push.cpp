@@ -8,10 +8,10 @@ namespace tandem::demos {
 namespace {
 
 constexpr double kRest = 0.4, kRise = 0.3, kHold = 0.6;  // before, until and during a push [s]
-constexpr double kLast = 0.1;                            // in which places are averaged [s]
-constexpr int kTries = 5;  // of a push during which there were readings without a position
-constexpr double kForceShare = 0.1;  // by which an emulated force may be off
-/// An emulated grip's way is the force by the hand's stiffness, less up to 0.1 N of friction.
+constexpr double kLast = 0.1;                            // time in which places are averaged [s]
+constexpr int kTries = 5;            // attempts at a push with gaps in its positions
+constexpr double kForceShare = 0.1;  // allowed error of an emulated force
+/// The way of an emulated grip is force over the hand's stiffness, minus up to 0.1 N of friction.
 constexpr double kLeastWay = 0.75, kMostWay = 1.15, kMostAside = 0.25;
 
 struct Mean {
@@ -24,7 +24,7 @@ struct Mean {
   [[nodiscard]] Vec3 value() const { return count > 0 ? Vec3(sum / count) : Vec3(Vec3::Zero()); }
 };
 
-/// Nothing: asked to end. A push with gaps in it has `fault`.
+/// Empty if asked to end. A push with gaps in its positions has a `fault`.
 std::optional<Push> push(LiveDevice& device, const char* where, const Vec3& asked_W,
                          const Pause& pause, const ShowPush& show) {
   Push result;

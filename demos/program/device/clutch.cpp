@@ -30,7 +30,7 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-/// Decimal, or with 0x.
+/// Reads a decimal number, or one with 0x.
 std::optional<int> readNumber(std::string_view text, int most) {
   const bool is_hex = text.starts_with("0x");
   if (is_hex) text.remove_prefix(2);

@@ -9,7 +9,7 @@
 
 namespace tandem::demos {
 
-/// What lets a workspace slip while it is pressed.
+/// A switch that disconnects the hand from the workspace while pressed.
 struct ClutchSpec {
   std::uint8_t button = 0;  ///< of FalconButton, on the device itself; 0: a pedal
   std::string path;         ///< of the pedal's hidraw node
@@ -17,8 +17,8 @@ struct ClutchSpec {
 };
 
 /// "plus", "forward", "centre", "minus": a button of a Falcon's grip. Or a pedal:
-/// "hid:PATH,KIND,REPORT,BYTE,VALUE", KIND one of bits, key, usage. Throws UsageError, with what is
-/// allowed.
+/// "hid:PATH,KIND,REPORT,BYTE,VALUE", with KIND one of bits, key, usage. Throws UsageError with the
+/// allowed values.
 [[nodiscard]] ClutchSpec parseClutch(const std::string& text);
 
 }  // namespace tandem::demos

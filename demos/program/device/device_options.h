@@ -12,12 +12,12 @@ class Arguments;
 
 /// Options that all commands with a device share, as they were written.
 struct DeviceOptions {
-  std::string device;                   ///< a DeviceSpec; empty: the first that is plugged in
-  std::optional<std::string> firmware;  ///< file of a Falcon's image
-  std::optional<std::string> clutch;    ///< see clutch.h; nothing: there is none
+  std::string device;                   ///< a DeviceSpec; empty: the first one plugged in
+  std::optional<std::string> firmware;  ///< file of a Falcon's firmware image
+  std::optional<std::string> clutch;    ///< see clutch.h; empty: no clutch
   double motors_per_torque = kUsualMotorsPerTorque;  ///< [1/(N m)]
   double max_force = 8.0;                            ///< [N]
-  double scale = 1.0;                                ///< way in the world by way of the hand
+  double scale = 1.0;                                ///< way in the world over way of the hand [1]
   std::vector<double> offset;  ///< of the workspace in the world [m]; empty or three
 };
 

@@ -4,12 +4,12 @@
 
 namespace tandem::demos {
 
-/// Which device is meant, in the one spelling that all commands share.
+/// The choice of a device, in the one spelling of all commands.
 struct DeviceSpec {
   enum class Kind {
     kFalconUsb,    ///< `place`: serial number, empty for the first
     kFalconTty,    ///< `place`: path of the tty
-    kFalconFt260,  ///< behind the bridge from HID to a serial line
+    kFalconFt260,  ///< through the bridge from HID to a serial line
     kEmulated,     ///< a Falcon in this process, byte by byte
     kSimulated,
     kSpaceMouse,  ///< `place`: path of the hidraw node, empty for the first
@@ -19,11 +19,11 @@ struct DeviceSpec {
   std::string place;
 };
 
-/// "falcon", "falcon:SERIAL", "falcon@/dev/ttyUSB0", "falcon@ft260", "emulated", "simulated",
-/// "spacemouse[:PATH]", "hid[:PATH]". Throws UsageError, with what is allowed.
+/// Reads "falcon", "falcon:SERIAL", "falcon@/dev/ttyUSB0", "falcon@ft260", "emulated", "simulated",
+/// "spacemouse[:PATH]" or "hid[:PATH]". Throws UsageError with the allowed values.
 [[nodiscard]] DeviceSpec parseDeviceSpec(const std::string& text);
 
-/// The same, back.
+/// The spelling of `spec`; inverse of parseDeviceSpec().
 [[nodiscard]] std::string toText(const DeviceSpec& spec);
 
 }  // namespace tandem::demos

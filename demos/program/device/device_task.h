@@ -12,9 +12,9 @@ namespace tandem::demos {
 struct DeviceTask {
   DeviceOptions device;
   std::optional<double> duration;       ///< [s]
-  double patience = 120.0;              ///< until it is ready [s]
-  std::string file;                     ///< of record
-  std::optional<std::string> scenario;  ///< of feel
+  double patience = 120.0;              ///< longest wait until ready [s]
+  std::string file;                     ///< file of `record`
+  std::optional<std::string> scenario;  ///< scenario of `feel`
   bool json = false;
   bool quiet = false;
 };
@@ -29,7 +29,7 @@ void homeDevice(const DeviceTask& task, const Pause& pause);
 void measureLatency(const DeviceTask& task, const Pause& pause);
 void recordDevice(const DeviceTask& task, const Pause& pause);
 
-/// The placement that they use: user 1's in a scene whose axis is x.
+/// The placement of these commands: user 1's in a scene whose axis is x.
 [[nodiscard]] Placement placeAlone();
 
 }  // namespace tandem::demos

@@ -26,7 +26,7 @@ FalconSettings makeFalconSettings(const DeviceOptions& options) {
   return settings;
 }
 
-/// The emulator is a thread of this process, and a busy machine may let it wait for long.
+/// The emulator is a thread of this process, which a busy machine may delay for long.
 FalconSettings makePatient(FalconSettings settings) {
   settings.reply_time = 0.3;
   settings.quiet_time = 0.3;
@@ -45,8 +45,8 @@ FirmwareImage readImage(const DeviceOptions& options) {
   }
 }
 
-/// Opens at once, so that who asked hears why it cannot be; later, after a loss, the device's
-/// thread does. What was opened waits in a shared place because a std::function must be copyable.
+/// Opens at once, so that the caller gets the error; after a loss, the device's thread opens again.
+/// The transport waits in a shared place because a std::function must be copyable.
 OpenTransport openNow(const OpenTransport& open) {
   auto first = std::make_shared<std::unique_ptr<ByteTransport>>(open());
   return [first, open] { return *first ? std::exchange(*first, nullptr) : open(); };
@@ -71,12 +71,12 @@ Driver makeEmulated(const DeviceOptions& options, UserWish wish) {
   return driver;
 }
 
-/// A hand that does what the emulated Falcon's does, but has nothing to home.
+/// A hand that moves like the emulated Falcon's, but needs no homing.
 std::unique_ptr<Hand> makeSimulatedHand(UserWish wish) {
   std::vector<Waypoint> way = {{0.0, Vec3::Zero()}};
   const Vec3 goal =
       EmulatedUser::kDip * (wish == UserWish::kDip ? Vec3(0.0, -1.0, 0.0) : Vec3(0.0, 0.0, -1.0));
-  // It dips for an hour, then rests.
+  // The hand dips for an hour, then rests.
   for (int i = 0; wish != UserWish::kRest && i < 1800; ++i) {
     const double t = 0.5 + EmulatedUser::kDipPeriod * i;
     way.push_back({t, Vec3::Zero()});
@@ -85,7 +85,7 @@ std::unique_ptr<Hand> makeSimulatedHand(UserWish wish) {
   return makeMinimumJerkHand(std::move(way), EmulatedUser::kStiffness, 8.0);
 }
 
-/// Real time reaches it from its first reading on.
+/// A device whose time begins at its first reading.
 class SimulatedFromNow final : public HapticDevice {
  public:
   explicit SimulatedFromNow(UserWish wish) : device_({}, makeSimulatedHand(wish)) {}
@@ -115,7 +115,7 @@ Driver makeSimulated(UserWish wish) {
   return driver;
 }
 
-/// What all HID devices tell.
+/// The report that all HID devices share.
 template <typename Status>
 DeviceReport describeHid(const Status& status) {
   DeviceReport report;

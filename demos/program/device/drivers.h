@@ -12,16 +12,16 @@
 
 namespace tandem::demos {
 
-/// A driver with what a HapticDevice does not tell.
+/// A driver, with functions that a HapticDevice lacks.
 struct Driver {
-  std::unique_ptr<EmulatedUser> emulated;  ///< null: there is none; outlives the device
+  std::unique_ptr<EmulatedUser> emulated;  ///< null: none; outlives the device
   std::unique_ptr<HapticDevice> device;
-  std::function<DeviceReport()> report;   ///< for one thread, the one that made it
-  std::function<std::uint8_t()> pressed;  ///< buttons, wait-free, for any; may be empty
+  std::function<DeviceReport()> report;   ///< only for the thread that made it
+  std::function<std::uint8_t()> pressed;  ///< buttons, wait-free, for any thread; may be empty
 };
 
-/// Opens what `spec` names. A Falcon then boots by itself, in its own thread. Throws tandem::Error
-/// with the remedy if it is not there or may not be opened, or the image cannot be read;
+/// Opens the device of `spec`. A Falcon then boots in its own thread. Throws tandem::Error with the
+/// remedy if the device is missing or may not be opened, or if the image cannot be read. Throws
 /// std::invalid_argument for options out of range.
 [[nodiscard]] Driver openDriver(const DeviceSpec& spec, const DeviceOptions& options,
                                 UserWish wish);

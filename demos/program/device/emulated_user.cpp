@@ -9,13 +9,13 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kDamping = 12.0;            // of the hand [N s/m]
-constexpr double kHomingPeriod = 1.6;        // out and in once [s]
+constexpr double kDamping = 12.0;            // damping of the hand [N s/m]
+constexpr double kHomingPeriod = 1.6;        // one motion out and in [s]
 constexpr double kOut = 0.045, kIn = -0.02;  // from the middle, towards the user [m]
-constexpr double kReturn = 0.8;              // to the middle [s]
+constexpr double kReturn = 0.8;              // way back to the middle [s]
 constexpr double kFirstDip = 1.5;            // after homing [s]
 
-/// 0 at the beginning of a period, 1 in its middle, smooth.
+/// A smooth wave: 0 at the beginning of a period, 1 in its middle.
 double wave(double t, double period) {
   return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * t / period);
 }
@@ -24,7 +24,7 @@ double homingWay(double t) { return kIn + (kOut - kIn) * wave(t, kHomingPeriod);
 
 }  // namespace
 
-/// The hand; goes by the monotonic clock, as the emulator does.
+/// The hand. It uses the monotonic clock, as the emulator does.
 class EmulatedUser::Helper final : public Hand {
  public:
   Helper(const std::atomic<double>& homed_at, UserWish wish) : homed_at_(homed_at), wish_(wish) {}

@@ -7,19 +7,19 @@
 
 namespace tandem::demos {
 
-/// What a simulated user does once the device is homed.
+/// Motion of a simulated user once the device is homed.
 enum class UserWish {
   kRest,  ///< holds the grip softly in the middle
-  kDip,   ///< and goes down and up again, as if to press on something
-  kReach  ///< and goes forward and back
+  kDip,   ///< also moves down and up, as if to press an object
+  kReach  ///< also moves forward and back
 };
 
-/// A Falcon in this process that a simulated user holds, for who has none: bytes go over a pseudo
-/// terminal, the firmware is loaded, and the hand pulls the grip out and pushes it in until the
-/// device is homed.
+/// A Falcon in this process held by a simulated user, for users without a device. Bytes pass a
+/// pseudo terminal, and the firmware is loaded. The hand pulls the grip out and pushes it in until
+/// the device is homed.
 class EmulatedUser {
  public:
-  static constexpr double kStiffness = 300.0;  ///< of the hand [N/m]
+  static constexpr double kStiffness = 300.0;  ///< stiffness of the hand [N/m]
   static constexpr double kDip = 0.03;         ///< [m]
   static constexpr double kDipPeriod = 2.0;    ///< [s]
 
@@ -28,12 +28,12 @@ class EmulatedUser {
 
   [[nodiscard]] const std::string& path() const noexcept { return port_->path(); }
 
-  /// The user may stop homing; wait-free, and at once but for the first time.
+  /// Tells the user to stop homing. Wait-free; all but the first call do nothing.
   void tellHomed() noexcept;
 
-  /// What the motors push the grip with now, in the device's frame [N].
+  /// Force of the motors on the grip now, in the device's frame [N].
   [[nodiscard]] Vec3 pushNow();
-  /// The most they ever did [N].
+  /// Largest force of the motors so far [N].
   [[nodiscard]] double mostFelt();
 
  private:

@@ -11,8 +11,8 @@ namespace tandem::demos {
 namespace {
 
 constexpr double kLook = 0.005;    // [s]
-constexpr double kMiddle = 0.015;  // so near is in the middle [m]
-constexpr double kShown = 0.06;    // most distance that the bar shows [m]
+constexpr double kMiddle = 0.015;  // largest distance that counts as the middle [m]
+constexpr double kShown = 0.06;    // largest distance that the bar shows [m]
 
 std::string showLegs(std::uint8_t homed) {
   std::string text = "homing: ";
@@ -38,7 +38,7 @@ std::string show(const DeviceReport& report, const LiveDevice& device) {
   return text;
 }
 
-/// Three lines, once.
+/// Prints three lines, once.
 class Instructions {
  public:
   void print(StatusLine& line, const DeviceReport& report, bool to_middle) {

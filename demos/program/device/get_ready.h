@@ -7,7 +7,7 @@ namespace tandem::demos {
 
 struct GetReadySettings {
   double patience = 120.0;  ///< [s]
-  bool to_middle = true;    ///< and the grip is held in the middle of its workspace
+  bool to_middle = true;    ///< also waits for the grip in the workspace's middle
   bool is_quiet = false;
 };
 
@@ -16,9 +16,9 @@ struct GetReadySettings {
   return {task.patience, to_middle, task.quiet || task.json};
 }
 
-/// Until the device gives true positions: prints the lines of instruction when there is something
-/// to do, and what it does meanwhile. Throws tandem::Error with the remedy if it cannot boot or is
-/// not ready within `patience`. False if `pause` says to end.
+/// Waits until the device gives valid positions. Prints instructions if the user must act, and
+/// shows progress. Throws tandem::Error with the remedy if it cannot boot or is not ready within
+/// `patience`. Returns false if `pause` returns true.
 bool getReady(LiveDevice& device, const GetReadySettings& settings, const Pause& pause);
 
 }  // namespace tandem::demos

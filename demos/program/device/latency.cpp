@@ -19,7 +19,7 @@ namespace {
 constexpr double kUsual = 5.0;  // [s]
 constexpr int kBar = 50;
 
-/// What came between two looks.
+/// Round trips between two looks.
 FalconRoundTrips subtract(FalconRoundTrips after, const FalconRoundTrips& before) {
   after.count -= before.count;
   after.sum -= before.sum;
@@ -27,7 +27,7 @@ FalconRoundTrips subtract(FalconRoundTrips after, const FalconRoundTrips& before
   return after;
 }
 
-/// Shares of ticks that began later than their moments by up to these times [s].
+/// Prints the share of ticks that began late by up to each of these times [s].
 constexpr std::array<double, 8> kSteps = {20e-6, 50e-6, 100e-6, 200e-6, 500e-6, 1e-3, 5e-3, 100.0};
 
 nlohmann::json describeLateness(std::vector<double> late) {

@@ -11,17 +11,17 @@
 
 namespace tandem::demos {
 
-/// Where a device's middle and axes are in the world.
+/// Place of a device's middle and direction of its axes in the world.
 struct Placement {
   Quat q_WD = Quat::Identity();
   Vec3 centre_W = Vec3::Zero();
 };
 
-/// An opened device with all that stands between it and a site: map, guard, driver, clutch. It is
-/// real, so whatever time a site tells, the monotonic clock counts here.
+/// An opened device with all layers between it and a site: map, guard, driver, clutch. It is real,
+/// so it uses the monotonic clock, not the site's time.
 class LiveDevice final : public HapticDevice {
  public:
-  /// Throws as MappedDevice, GuardedDevice and HidSwitch do.
+  /// Throws like MappedDevice, GuardedDevice and HidSwitch.
   LiveDevice(DeviceSpec spec, Driver driver, const DeviceOptions& options,
              const Placement& placement);
   ~LiveDevice() override;
@@ -32,29 +32,30 @@ class LiveDevice final : public HapticDevice {
   [[nodiscard]] DeviceSample read(double) noexcept override;
   void write(const Vec3& f_W) noexcept override;
 
-  /// How it does; for one thread.
+  /// State of the device; for one thread.
   [[nodiscard]] DeviceReport report() { return driver_.report(); }
 
-  /// From now on the world's point stands at `p_W`, with no force, until somebody writes, as a
-  /// ticking site does; from there it goes on, wherever the hand is then. Not while a site ticks.
+  /// Holds the world's point at `p_W` without force until the first write, as by a ticking site.
+  /// The point then continues from there, at any place of the hand. Do not call it while a site
+  /// ticks.
   void holdUntilTicked(const Vec3& p_W) noexcept;
 
-  /// Hand's way from the middle of its workspace, as of the last read [m].
+  /// Distance of the hand from the middle of its workspace at the last read [m].
   [[nodiscard]] double distanceFromMiddle() const noexcept;
 
-  /// Whether the clutch is in, as of the last read.
+  /// True if the clutch was in at the last read.
   [[nodiscard]] bool isEngaged() const noexcept { return mapped_->isEngaged(); }
   [[nodiscard]] const DeviceSpec& spec() const noexcept { return spec_; }
   [[nodiscard]] const WorkspaceMap& map() const noexcept { return mapped_->map(); }
   [[nodiscard]] const GuardStatus& guard() const noexcept { return guarded_->status(); }
-  /// Null unless it is emulated.
+  /// Null unless the device is emulated.
   [[nodiscard]] EmulatedUser* emulated() noexcept { return driver_.emulated.get(); }
 
  private:
   [[nodiscard]] bool isClutchPressed() const noexcept;
 
   DeviceSpec spec_;
-  Driver driver_;  ///< its device is in mapped_, which therefore goes first
+  Driver driver_;  ///< its device is in mapped_, which is destroyed first
   std::unique_ptr<HidSwitch> pedal_;
   std::uint8_t clutch_button_ = 0;
   GuardedDevice* guarded_ = nullptr;

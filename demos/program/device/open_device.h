@@ -6,9 +6,9 @@
 
 namespace tandem::demos {
 
-/// Opens the device that `options` name, or the first that is plugged in, placed in the world;
-/// `wish` is for a simulated user. Throws UsageError for what cannot be, tandem::Error with the
-/// remedy for what is not there.
+/// Opens the device of `options`, or the first one plugged in, and places it in the world. `wish`
+/// is for a simulated user. Throws UsageError for invalid options, tandem::Error with the remedy
+/// for a missing device.
 [[nodiscard]] std::unique_ptr<LiveDevice> openDevice(const DeviceOptions& options,
                                                      const Placement& placement, UserWish wish);
 

@@ -24,7 +24,7 @@ struct Row {
   int buttons;
 };
 
-/// A file in the making: gone unless it is finished.
+/// A file being written; removed unless it is finished.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::string& target)
@@ -75,7 +75,7 @@ void recordDevice(const DeviceTask& task, const Pause& pause) {
   if (!task.duration) line.print("recording until Ctrl-C");
   std::vector<Row> rows;
   const Eigen::Matrix3d r_WD = device->map().settings().q_WD.toRotationMatrix();
-  // Ctrl-C ends the recording, not the file.
+  // Ctrl-C ends the recording but keeps the file.
   (void)exchange(
       *device, task.duration.value_or(kLongest), pause, [&](double t, const DeviceSample& sample) {
         rows.push_back({t, sample, r_WD * device->guard().force, device->report().buttons});

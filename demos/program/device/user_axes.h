@@ -4,9 +4,9 @@
 
 namespace tandem::demos {
 
-/// Turns a device's axes (x right, y up, z towards the user) into the world's for the user of
-/// `site`, 0 or 1, of a scene with the frame `q_WS`: users stand at the ends of the scene's axis
-/// and look at each other, up is up. So user 1 looks along x: away is +x, left is +y, up is +z.
+/// Rotation from a device's axes (x right, y up, z towards the user) to the world's. `site` is 0 or
+/// 1, `q_WS` the scene's frame. Users stand at the ends of the scene's axis and look at each other;
+/// up is up. So user 1 looks along x: away is +x, left is +y, up is +z.
 [[nodiscard]] Quat computeUserAxes(const Quat& q_WS, int site);
 
 }  // namespace tandem::demos

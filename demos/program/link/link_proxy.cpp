@@ -20,14 +20,14 @@
 namespace tandem::demos {
 namespace {
 
-/// A flood of new ones must not delay those that are due.
+/// A flood of new datagrams must not delay those that are due.
 constexpr int kMostPerRound = 16;
 
 bool isAny(const Address& address) noexcept {
   return std::all_of(address.ip.begin(), address.ip.end(), [](auto byte) { return byte == 0; });
 }
 
-/// 127.0.0.0/8 and ::1.
+/// True for 127.0.0.0/8 and ::1.
 bool isLoopback(const Address& address) noexcept {
   const Address loopback6 = {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, address.port, 0};
   const bool is_mapped = std::all_of(address.ip.begin(), address.ip.begin() + 10,
@@ -36,7 +36,7 @@ bool isLoopback(const Address& address) noexcept {
   return address == loopback6 || (is_mapped && address.ip[12] == 127);
 }
 
-/// ":port" is a server on this machine; answers come from an address, so one is needed.
+/// ":port" is a server on this machine. Answers come from an address, so one is needed.
 Address serverOf(const Address& forward) {
   if (forward.port == 0)
     throw std::invalid_argument("--forward " + toString(forward) +
@@ -63,7 +63,7 @@ LinkProxy::LinkProxy(const LinkProxySettings& settings)
 double LinkProxy::now() const noexcept { return readMonotonicClock() - started_; }
 
 void LinkProxy::run(const StopSignals& stop, double duration) {
-  // Timers are otherwise late by 50 us, to save power.
+  // The default timer slack of 50 us, which saves power, would make timers late.
   (void)prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   started_ = readMonotonicClock();
   for (double time = 0.0; !stop.isAsked() && time < duration; time = now()) {

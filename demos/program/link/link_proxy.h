@@ -14,43 +14,44 @@
 namespace tandem::demos {
 
 struct LinkProxySettings {
-  Address listen;   ///< where the client sends to
-  Address forward;  ///< the server
+  Address listen;   ///< address that the client sends to
+  Address forward;  ///< address of the server
   LinkSettings start;
   std::vector<LinkChange> changes;
 };
 
-/// A bad link between two programs that speak UDP. Who sends to `listen` is the client, at the
-/// address that it last sent from; the server sees the proxy's own second socket, as it would see a
-/// NAT. Takes datagrams of up to kLongest bytes, at most kCapacity of them on the way in each
-/// direction. Not thread safe.
+/// A bad link between two programs that use UDP. The client is the last sender to `listen`, at its
+/// latest address. The server sees the proxy's second socket, as it would see a NAT. Takes
+/// datagrams of up to kLongest bytes, at most kCapacity of them under way in each direction. Not
+/// thread safe.
 class LinkProxy {
  public:
-  static constexpr std::size_t kLongest = 1500;   ///< [bytes]; what an Ethernet carries
+  static constexpr std::size_t kLongest =
+      1500;  ///< longest datagram [bytes], as an Ethernet carries
   static constexpr std::size_t kCapacity = 8192;  ///< 8 s of 1 kHz
 
-  /// Binds. Throws std::invalid_argument, in one line, for an address in use, a bad one, or a
-  /// server that is the proxy itself; tandem::Error if the system gives no socket.
+  /// Binds. Throws std::invalid_argument, in one line, for a bad address, one in use, or a server
+  /// that is the proxy itself; tandem::Error if the system gives no socket.
   explicit LinkProxy(const LinkProxySettings& settings);
 
-  /// Passes on what comes until `stop` is asked or `duration` [s] has passed.
+  /// Passes datagrams on until `stop` is asked or `duration` [s] has passed.
   void run(const StopSignals& stop, double duration);
 
-  /// One direction's account.
+  /// Account of one direction.
   struct Lane {
     explicit Lane(Direction of) : direction(of), channel(of, kCapacity, kLongest) {}
     Direction direction;
     DatagramChannel channel;
     LinkTally tally;
-    std::uint64_t not_passed_on = 0;  ///< not taken by the system
+    std::uint64_t not_passed_on = 0;  ///< refused by the system
   };
 
   [[nodiscard]] Address bound() const noexcept { return listen_.bound(); }
   [[nodiscard]] const Lane& lane(Direction direction) const noexcept {
     return direction == Direction::kForward ? forward_ : back_;
   }
-  [[nodiscard]] double elapsed() const noexcept { return elapsed_; }  ///< of run() [s]
-  /// Datagrams that came to the second socket from elsewhere than the server.
+  [[nodiscard]] double elapsed() const noexcept { return elapsed_; }  ///< time in run() [s]
+  /// Datagrams to the second socket from senders other than the server.
   [[nodiscard]] std::uint64_t strangers() const noexcept { return strangers_; }
 
  private:
@@ -61,14 +62,14 @@ class LinkProxy {
   [[nodiscard]] double now() const noexcept;
 
   net::UdpSocket listen_;
-  std::unique_ptr<net::UdpSocket> outward_;  ///< another one after a rebind
+  std::unique_ptr<net::UdpSocket> outward_;  ///< replaced by a rebind
   Address server_;
-  Address client_;  ///< port 0: none has sent yet
+  Address client_;  ///< port 0: no client has sent yet
   LinkPlan plan_;
   Lane forward_{Direction::kForward}, back_{Direction::kBack};
   std::uint64_t strangers_ = 0;
   double started_ = 0.0, elapsed_ = 0.0;           // [s]
-  std::array<std::uint8_t, kLongest + 1> room_{};  ///< one more, so that a longer one is seen
+  std::array<std::uint8_t, kLongest + 1> room_{};  ///< one more byte, to detect longer ones
 };
 
 }  // namespace tandem::demos

@@ -8,8 +8,8 @@
 
 namespace tandem::demos {
 
-/// Asked against achieved, per direction; shares 0 to 1, times in seconds, null where no datagram
-/// was that would tell.
+/// Asked against achieved, per direction: shares 0 to 1, times in seconds, null where no datagram
+/// applies.
 [[nodiscard]] nlohmann::json makeLinkReport(const LinkProxy& proxy);
 
 /// The same as a table for people.

@@ -18,7 +18,7 @@ constexpr double kLatest = 1e6;  // [s]
 using Parse = std::optional<double> (*)(std::string_view) noexcept;
 using Reader = std::function<void(LinkChange&, const Place&, const toml::node&)>;
 
-/// A text with a unit, or a number in SI units.
+/// Reads a text with a unit, or a number in SI units.
 double readQuantity(const Place& place, const toml::node& node, Parse parse, double most,
                     const char* allowed) {
   std::optional<double> value;

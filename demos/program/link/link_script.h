@@ -8,15 +8,15 @@
 
 namespace tandem::demos {
 
-/// The changes of a script, in TOML:
+/// Reads the changes of a script in TOML:
 ///
 ///     [[change]]
 ///     at = 5.0            # seconds after the start
 ///     delay = "100ms"
 ///     outage = true
 ///
-/// All keys are in docs/network.md. `name` stands in messages. Throws UsageError, one line with
-/// file, key, value and what is allowed.
+/// docs/network.md lists all keys. `name` appears in messages. Throws UsageError, one line with
+/// file, key, value and the allowed values.
 [[nodiscard]] std::vector<LinkChange> parseLinkScript(const std::string& text,
                                                       const std::string& name);
 

@@ -16,7 +16,7 @@ struct Spread {
   double variance = 0.0;  // [s^2]
 };
 
-/// Of a delay that is even in delay +- jitter, with what is below 0 set to 0.
+/// Spread of a delay that is uniform in delay +- jitter, with values below 0 set to 0.
 Spread spreadOf(double delay, double jitter) noexcept {
   if (jitter <= delay) return {delay, jitter * jitter / 3.0};
   const double longest = delay + jitter;

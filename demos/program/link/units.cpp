@@ -11,7 +11,7 @@ struct Unit {
   double per_si;  ///< dividing by a whole number rounds once: "50ms" is the double 0.05
 };
 
-/// A number without sign and the unit after it, in SI.
+/// Reads a number without sign and its unit, in SI.
 template <std::size_t kCount>
 std::optional<double> parseQuantity(std::string_view text, const Unit (&units)[kCount]) noexcept {
   const bool begins_well =

@@ -43,8 +43,8 @@ volatile std::sig_atomic_t stop_asked = 0;
 
 extern "C" void askToStop(int) { stop_asked = 1; }
 
-/// SIGINT and SIGTERM end the run instead of the program; with a device, which must not be left
-/// with force, a closed terminal and a closed pipe neither end the program.
+/// SIGINT and SIGTERM end the run instead of the program. A device must not be left with force.
+/// With one, a closed terminal and a closed pipe do not end the program either.
 void catchSignals(bool has_device) {
   struct sigaction action {};
   action.sa_handler = &askToStop;
@@ -59,7 +59,7 @@ void catchSignals(bool has_device) {
 void print(const PeerReport& report) {
   const PeerStatus& peer = report.peer;
   std::string time = report.has_start ? fmt::format("{:8.1f} s", report.time) : "   waiting";
-  // Once it runs, how the states come says more than that the connection stands.
+  // In a run, the arrival of states says more than the state of the connection.
   const bool is_running = report.time > 0.0 && peer.phase == PeerPhase::kLive;
   const std::string_view state = is_running ? nameOf(report.link) : name(peer.phase);
   fmt::print(
@@ -108,7 +108,7 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Sc
     sleepFor(seconds);
     return stop_asked != 0;
   });
-  // The hand may go where it likes until both sites run.
+  // The hand may move freely until both sites run.
   device->holdUntilTicked(start_W);
   return device;
 }

@@ -10,7 +10,7 @@
 namespace tandem::demos {
 namespace {
 
-/// Values are at most 255 bytes; of longer ones a hash is compared.
+/// Values have at most 255 bytes. Longer ones are compared by a hash.
 std::string shorten(std::string value) {
   if (value.size() <= 200) return value;
   return fmt::format("{}... hash {:08x}", value.substr(0, 100), hashConfiguration({{"", value}}));

@@ -6,8 +6,8 @@
 
 namespace tandem::demos {
 
-/// What both sites of a scenario must have alike: the world, masses, gains and rates, but not what
-/// a user's own hand and device do, and not what only a simulated network has.
+/// Settings that must be equal at both sites of a scenario: world, masses, gains and rates. It
+/// excludes a user's own hand and device, and keys of a simulated network.
 [[nodiscard]] Configuration makePeerConfiguration(const Scenario& scenario);
 
 }  // namespace tandem::demos

@@ -8,11 +8,11 @@
 
 namespace tandem::demos {
 
-/// What one site's live run came to: the keys of summary.json that one site can know, its network
-/// and its loop.
+/// Summary of one site's live run: the keys of summary.json that one site can know, its network and
+/// its loop.
 [[nodiscard]] nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run);
 
-/// Writes siteN.csv and siteN.json: both, or on an error none.
+/// Writes siteN.csv and siteN.json: both or, on an error, none.
 void writePeerRun(const std::filesystem::path& folder, int site, const nlohmann::json& summary,
                   const PeerRun& run);
 

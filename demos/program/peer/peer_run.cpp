@@ -13,7 +13,7 @@ namespace {
 constexpr double kReportPeriod = 1.0;  // [s]
 constexpr double kMostBehind = 0.1;    ///< later than this, a site joins one that runs [s]
 
-/// In the words of the command line.
+/// Explains a refusal in terms of the command line.
 const char* explainRefusal(RefuseCode code) {
   if (code == RefuseCode::kUnknownPeer)
     return "it does not expect this site; compare --site and --peer on both sides";
@@ -153,7 +153,7 @@ void PeerRun::run(const std::function<bool()>& stop,
     for (const std::string& line : loop.notes()) note(line);
     double next_report = 0.0;
     for (std::uint64_t step = 1; loop.isRunning() && !stop(); ++step) {
-      // A step comes when its time is over.
+      // A host step runs when its time is over.
       const double time = static_cast<double>(step) / scenario_.host_rate;
       sleepUntil(start + time);
       world_->stepHostUntil(time);

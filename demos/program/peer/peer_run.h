@@ -13,19 +13,19 @@
 
 namespace tandem::demos {
 
-/// What a user may want to see once a second.
+/// Values shown to the user once a second.
 struct PeerReport {
-  double time = 0.0;  ///< of the site [s]; negative: until the start; nothing is felt yet
+  double time = 0.0;  ///< site time [s]; negative before the start, when no force is felt
   bool has_start = false;
   PeerStatus peer;
-  LinkState link = LinkState::kLive;  ///< what share of the gains is in force
+  LinkState link = LinkState::kLive;  ///< decides the share of the gains
   double force = 0.0;                 ///< on the device, norm [N]
-  double coherency = 0.0;  ///< own copy of the object against the other's as received [m]
+  double coherency = 0.0;             ///< own object copy against the other's as received [m]
 };
 
-/// One site of a scenario, live against the clock: a haptic thread ticks at its absolute moments,
-/// another has the socket, and the one that calls run() steps the host's Bullet world as it comes
-/// due. Until the start one thread does all.
+/// One site of a scenario, live in real time. A haptic thread ticks at absolute moments, and
+/// another thread owns the socket. The caller of run() steps the host's Bullet world when due.
+/// Until the start one thread does all.
 class PeerRun {
  public:
   /// `site` is 0 or 1. `device` is the user's, and must outlive this; null: simulated, as the
@@ -33,15 +33,15 @@ class PeerRun {
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
           HapticDevice* device = nullptr);
 
-  /// Until the other site is there and both know the start. Throws UsageError if it has another
-  /// configuration, tandem::Error if it does not answer within `patience` [s]. False if `stop`
-  /// asked to end.
+  /// Waits until the other site is there and both know the start. Throws UsageError if it has
+  /// another configuration, tandem::Error if it does not answer within `patience` [s]. Returns
+  /// false if `stop` asked to end.
   bool waitForPeer(double patience, const std::function<bool()>& stop,
                    const std::function<void(const PeerReport&)>& report);
 
-  /// Runs until the scenario's duration is over or `stop` asks to end; then the force fades and the
-  /// other site is told. What the system does not grant the haptic thread is told to `note`, one
-  /// line each.
+  /// Runs until the scenario's duration is over or `stop` asks to end. Then the force fades and the
+  /// other site gets a BYE. Calls `note` with one line for each right that the system refuses the
+  /// haptic thread.
   void run(const std::function<bool()>& stop, const std::function<void(const PeerReport&)>& report,
            const std::function<void(const std::string&)>& note);
 
@@ -51,7 +51,7 @@ class PeerRun {
   [[nodiscard]] SiteWorld& world() noexcept { return *world_; }
   [[nodiscard]] double duration() const noexcept;
   [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
-  /// Of the own copy's distance to the other's as received [m].
+  /// Mean distance of the own copy to the other's as received [m].
   [[nodiscard]] double receivedMean() const;
   [[nodiscard]] PeerStatus peerStatus() const;
 

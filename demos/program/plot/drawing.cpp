@@ -22,7 +22,7 @@ struct Drawing {
   std::string package;
 };
 
-// Exit status of a program; -1 when it cannot be started or a signal ended it.
+// Exit status of a program; -1 if it cannot be started or a signal ended it.
 int runAndWait(std::vector<std::string> command, bool is_silent) {
   std::vector<char*> arguments;
   for (std::string& argument : command) arguments.push_back(argument.data());
@@ -43,7 +43,7 @@ int runAndWait(std::vector<std::string> command, bool is_silent) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Beside the program in a build folder; below share/ where it is installed.
+// The package is beside the program in a build folder, and below share/ in an installation.
 std::string findPackage() {
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
   for (const char* place : {"plot", "../demos/plot", TANDEM_DATA_FROM_PROGRAM "/plot"})
@@ -66,7 +66,7 @@ Drawing findDrawing() {
       "python3-matplotlib`");
 }
 
-// -B: leaves the package's folder as it is.
+// -B keeps the package's folder unchanged.
 int draw(const std::string& what, const std::vector<std::string>& arguments, bool is_silent) {
   const Drawing drawing = findDrawing();
   std::vector<std::string> command = {drawing.python, "-B", drawing.package, what};

@@ -11,7 +11,7 @@
 namespace tandem::demos {
 namespace {
 
-/// A folder for files in the making: gone at the end, with all that was not moved out of it.
+/// A folder for files being written; removed at the end with all files still in it.
 class UnfinishedFolder {
  public:
   explicit UnfinishedFolder(const std::filesystem::path& target)
@@ -91,7 +91,7 @@ void writeRun(const std::filesystem::path& folder, const nlohmann::json& summary
     run.recording(s).writeCsv(unfinished / fmt::format("site{}.csv", s + 1), run.frame().q_WS);
   writeText(unfinished / "scene.csv", makeSceneCsv(run));
   writeText(unfinished / "summary.json", summary.dump(2) + "\n");
-  // An older run's summary must not stand for files of this one.
+  // An older run's summary must not belong to the files of this run.
   std::filesystem::remove(folder / "summary.json");
   for (const char* name : {"site1.csv", "site2.csv", "scene.csv", "summary.json"})
     unfinished.finish(name);

@@ -7,10 +7,10 @@
 namespace tandem::demos {
 namespace {
 
-/// Pictures per simulated second.
+/// Frames of the picture per simulated second [Hz].
 constexpr double kFrameRate = 30.0;
 
-/// Packets that one site can take in during a run, all duplicates arrived, with some room.
+/// Largest number of packets that one site can receive in a run, with all duplicates and some room.
 std::size_t countArrivals(const Scenario& scenario) {
   return static_cast<std::size_t>(2.0 * scenario.duration * scenario.packet_rate) + 16;
 }

@@ -24,7 +24,7 @@ struct PlacedSceneBody {
   SceneBody body;
 };
 
-/// What a run comes to: the numbers of summary.json.
+/// Results of a run: the numbers of summary.json.
 struct RunSummary {
   double coherency_mean = 0.0, coherency_max = 0.0;  ///< |object at site 1 - object at site 2| [m]
   SiteSummary sites[2];
@@ -32,14 +32,14 @@ struct RunSummary {
   double real_time_factor = 0.0;
 };
 
-/// Two sites, two Bullet worlds and the way between them, in virtual time: one thread, as fast as
+/// Two sites, two Bullet worlds and the network between, in virtual time: one thread, as fast as
 /// the machine.
 class VirtualRun {
  public:
   explicit VirtualRun(const Scenario& scenario);
 
-  /// Runs to the end; `progress` is told the share done now and then. Throws tandem::Error when a
-  /// site reports a fault (a body taken away, a state that is not finite).
+  /// Runs to the end, and calls `progress` now and then with the finished share. Throws
+  /// tandem::Error if a site reports a fault (a body removed, a state that is not finite).
   void run(const std::function<void(double)>& progress = {});
 
   [[nodiscard]] const RunSummary& summary() const noexcept { return summary_; }

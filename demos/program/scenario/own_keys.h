@@ -5,8 +5,7 @@
 
 namespace tandem::demos {
 
-/// True for a scenario's keys that are a site's own business: two sites of one cooperation may
-/// differ in them.
+/// True for keys that concern one site only: two sites of one cooperation may differ in them.
 [[nodiscard]] inline bool isOwnKey(std::string_view key) {
   constexpr std::array<std::string_view, 15> kOwn = {"title",
                                                      "site1.",

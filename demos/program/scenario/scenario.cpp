@@ -15,7 +15,7 @@
 namespace tandem::demos {
 namespace {
 
-// One reader per type of value; each says what is allowed.
+// One reader per type of value; each error lists the allowed values.
 
 double readNumber(const Place& place, const toml::node& node, double min, double max,
                   bool open_below, const std::string& allowed) {
@@ -44,7 +44,7 @@ std::string readChoice(const Place& place, const toml::node& node,
   refuse(place, node, "one of " + fmt::format("{}", fmt::join(choices, ", ")));
 }
 
-/// A key: how it is read, and how its value is shown.
+/// A key: reader and printer of its value.
 struct Key {
   std::function<void(Scenario&, const Place&, const toml::node&)> read;
   std::function<nlohmann::json(const Scenario&)> show;
@@ -254,7 +254,7 @@ const std::map<std::string, Key>& allKeys() {
 void applyKey(Scenario& scenario, const Place& place, const toml::node& node) {
   const auto key = allKeys().find(place.key);
   if (key == allKeys().end()) {
-    // The keys of the same table are the likely ones.
+    // Keys of the same table are the likely ones.
     const std::string table = place.key.substr(0, place.key.find('.') + 1);
     std::vector<std::string> near;
     for (const auto& [name, unused] : allKeys())
@@ -277,8 +277,8 @@ bool holdsKeys(const std::string& table) {
   return first != allKeys().end() && first->first.rfind(table + ".", 0) == 0;
 }
 
-/// A table by mistake is refused, too: an empty one that there is not, and one in place of a value.
-/// Keys in a table that there is not are refused by their full names.
+/// Refuses unexpected tables too: an empty unknown one, and one in place of a value. Keys in an
+/// unknown table are refused by their full names.
 void applyTable(Scenario& scenario, const std::string& file, const std::string& prefix,
                 const toml::table& table) {
   for (const auto& [key, node] : table) {
@@ -297,7 +297,7 @@ void applyOverride(Scenario& scenario, const std::string& text) {
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--set " + text + ": must be key=value, for instance contact.stiffness=2000");
   const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
-  // A value that is no TOML value is a text without its quotes.
+  // A value that is not valid TOML is a text without its quotes.
   toml::table parsed;
   try {
     parsed = toml::parse("value = " + value);
@@ -314,7 +314,7 @@ void applyOverride(Scenario& scenario, const std::string& text) {
   applyKey(scenario, {"--set", key}, *parsed.get("value"));
 }
 
-/// What Bullet's own means cannot do.
+/// Checks for settings that Bullet's own means do not support.
 void checkNative(const Scenario& s, const std::function<void(const std::string&)>& refuse_pair) {
   const std::string model = "contact.model = \"" + s.contact_model + "\": ";
   if (s.injection == "impulse")
@@ -331,7 +331,7 @@ void checkNative(const Scenario& s, const std::function<void(const std::string&)
                 "than \"kinematic_proxy\", or a scene with an object");
 }
 
-/// What one key alone cannot tell.
+/// Checks that involve several keys.
 void checkTogether(const Scenario& s, const std::string& file) {
   const auto refuse_pair = [&](const std::string& text) { throw UsageError(file + ": " + text); };
   if (s.network.delay > s.duration)

@@ -14,7 +14,7 @@
 
 namespace tandem::demos {
 
-/// What a simulated user's hand does; vectors in the scene's own frame.
+/// Action of a simulated user's hand; vectors in the scene's own frame.
 struct HandScenario {
   std::string kind = "constant";                 ///< constant, sine, minimum_jerk, csv
   Vec3 force = Vec3::Zero();                     ///< constant force, or amplitude of the sine [N]
@@ -24,7 +24,7 @@ struct HandScenario {
   std::vector<std::array<double, 4>> waypoints;  ///< t, and displacement from the start [s, m]
   std::string file;                              ///< of the csv hand, relative to the scenario
   Vec3 start_offset =
-      Vec3::Zero();  ///< where the device starts, from "just in contact on the axis" [m]
+      Vec3::Zero();  ///< start of the device, relative to "just in contact on the axis" [m]
 };
 
 /// A box of a site's own world that is not shared.
@@ -48,7 +48,7 @@ struct Scenario {
   std::string contact_model = "island";
   CouplerGains contact{4000.0, 1.0};
   CouplerGains coordination{200.0, 30.0};
-  double angular_stiffness = -1.0;  ///< below 0: from the linear gains, as SiteSettings says
+  double angular_stiffness = -1.0;  ///< below 0: derived from the linear gains, see SiteSettings
   double angular_damping = -1.0;
 
   double object_mass = 0.2;
@@ -76,21 +76,21 @@ struct Scenario {
 
   double gravity = 0.0;   ///< along -z of the scene [m/s^2]
   bool floor = false;     ///< under the object
-  double friction = 0.5;  ///< of all bodies of the world
+  double friction = 0.5;  ///< friction of all bodies of the world
   std::vector<NeighbourBox> boxes;
 
-  /// No key of the file: false for a site that comes late, so that the other fades in.
+  /// Not a key of the file. False for a site that starts late, so that the other fades in.
   bool starts_live = true;
 
   [[nodiscard]] bool hasObject() const { return kind != "user_contact"; }
 };
 
 /// Reads a scenario and applies `overrides` ("key=value", dotted key). Throws UsageError, one line:
-/// file, key, value, what is allowed.
+/// file, key, value, allowed values.
 [[nodiscard]] Scenario loadScenario(const std::filesystem::path& file,
                                     const std::vector<std::string>& overrides);
 
-/// The same from text, for tests and fuzzing; `name` stands for the file in messages.
+/// The same from text, for tests and fuzzing; `name` replaces the file in messages.
 [[nodiscard]] Scenario parseScenario(const std::string& text, const std::string& name,
                                      const std::vector<std::string>& overrides);
 

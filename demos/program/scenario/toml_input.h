@@ -8,7 +8,7 @@
 
 namespace tandem::demos {
 
-/// Where a value stands, for messages.
+/// Place of a value, for messages.
 struct Place {
   std::string file;
   std::string key;
@@ -20,10 +20,10 @@ struct Place {
 /// Throws UsageError "<file>: <key> = <value>: must be <allowed>".
 [[noreturn]] void refuse(const Place& place, const toml::node& node, const std::string& allowed);
 
-/// The table of a TOML text. Throws UsageError with `name` and the line if it is none.
+/// Parses a TOML text. Throws UsageError with `name` and the line if it is invalid.
 [[nodiscard]] toml::table parseToml(const std::string& text, const std::string& name);
 
-/// All of a file; `kind` says what it should be. Throws UsageError if it cannot be read.
+/// Reads a whole file; `kind` names its expected content. Throws UsageError if it cannot be read.
 [[nodiscard]] std::string readText(const std::filesystem::path& file, const std::string& kind);
 
 }  // namespace tandem::demos

@@ -7,13 +7,13 @@
 
 namespace tandem::demos {
 
-/// What was printed must be out before a program says that all went well. Throws Error.
+/// Flushes standard output; call it before reporting success. Throws Error.
 inline void finishOutput() {
   if (std::fflush(stdout) != 0)
     throw Error("cannot write to the standard output: is its disk full?");
 }
 
-/// For text longer than the buffer, which may fail at once. Throws Error.
+/// Writes text longer than the buffer, which may fail at once. Throws Error.
 inline void writeOutput(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
     throw Error("cannot write to the standard output: is its disk full?");

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-// A handler may touch nothing else.
+// A handler may write no other variable.
 volatile sig_atomic_t is_asked = 0;
 
 void ask(int) { is_asked = 1; }
@@ -30,7 +30,7 @@ StopSignals::StopSignals() {
     // A program under nohup goes on when its terminal closes.
     if (kSignals[i] == SIGHUP && actions_before_[i].sa_handler == SIG_IGN)
       (void)sigaction(SIGHUP, &actions_before_[i], nullptr);
-    // Whoever started us may have had them blocked.
+    // The parent process may have blocked them.
     sigdelset(&before_, kSignals[i]);
   }
 }

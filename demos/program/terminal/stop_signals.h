@@ -6,10 +6,10 @@
 
 namespace tandem::demos {
 
-/// While it lives, SIGINT, SIGTERM and, unless it is ignored, SIGHUP ask to stop instead of ending
-/// the program. They come in only
-/// while somebody waits with whileWaiting() as signal mask (ppoll), so that none is missed between
-/// looking and waiting. One at a time; from the main thread, before others are started.
+/// While it lives, SIGINT, SIGTERM and, unless ignored, SIGHUP ask to stop instead of ending the
+/// program. They arrive only in a wait with whileWaiting() as signal mask (ppoll), so none is
+/// missed between check and wait. One at a time; make it in the main thread, before other threads
+/// start.
 class StopSignals {
  public:
   StopSignals();
@@ -18,7 +18,7 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   [[nodiscard]] bool isAsked() const noexcept;
-  /// Waits so long [s], and says whether it is asked by then: at once if it is.
+  /// Waits for `seconds`. Returns true, at once, if asked to stop.
   [[nodiscard]] bool isAskedWithin(double seconds) const noexcept;
   [[nodiscard]] const sigset_t& whileWaiting() const noexcept { return before_; }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFloorHalfThickness = 0.05;  // [m]
 constexpr double kFloorHalfWidth = 1.0;       // [m]
 
-/// A hand told in the scene's frame.
+/// A hand whose forces are given in the scene's frame.
 class SceneHand final : public Hand {
  public:
   SceneHand(std::unique_ptr<Hand> hand, const SceneFrame& frame)
@@ -103,7 +103,7 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
 SceneFrame makeSceneFrame(const Scenario& scenario) {
   const Vec3 x = Vec3::UnitX();
   if (scenario.axis == x) return {};
-  // Against x there is no shortest turn: about z, so that up stays up.
+  // Opposite to x there is no unique shortest turn: turns about z, so that up stays up.
   if (scenario.axis == -x) return {Quat(0.0, 0.0, 0.0, 1.0)};
   return {Quat::FromTwoVectors(x, scenario.axis)};
 }
@@ -176,7 +176,7 @@ RigidState SiteWorld::pose(const SceneBody& body) const {
 }
 
 void SiteWorld::stepHostUntil(double now) {
-  // Times are counted, not summed up; the slack is their rounding.
+  // Times are counted, not summed; the slack covers their rounding.
   while (static_cast<double>(host_steps_ + 1) / host_rate_ <= now + 1e-9) {
     world_.stepSimulation(static_cast<btScalar>(1.0 / host_rate_), 0);
     ++host_steps_;

@@ -14,8 +14,8 @@
 
 namespace tandem::demos {
 
-/// The scene's own frame S, in which scenarios and results are told: x along the axis from user 1
-/// to user 2, z up, origin at the shared object's start. W is Bullet's world.
+/// The scene's own frame S of scenarios and results: x along the axis from user 1 to user 2, z up,
+/// origin at the shared object's start. W is Bullet's world.
 struct SceneFrame {
   Quat q_WS = Quat::Identity();
   [[nodiscard]] Vec3 toWorld(const Vec3& v_S) const { return q_WS * v_S; }
@@ -24,7 +24,7 @@ struct SceneFrame {
 
 [[nodiscard]] SceneFrame makeSceneFrame(const Scenario& scenario);
 
-/// Where a user's device starts: just in contact, on the axis, plus the scenario's offset; in W.
+/// Start of a user's device in W: just in contact, on the axis, plus the scenario's offset.
 [[nodiscard]] Vec3 computeStart(const Scenario& scenario, const SceneFrame& frame, int site);
 
 /// A body of one site's world, for pictures.
@@ -38,13 +38,13 @@ struct SceneBody {
   bool is_static = false;
 };
 
-/// One site's Bullet world with its bodies, device and site: what a host would have.
+/// One site's Bullet world with its bodies, device and site, as a host would have them.
 class SiteWorld {
  public:
   /// `index` is 0 for site 1, 1 for site 2. `link` leads to the other site. The device is
   /// simulated.
   SiteWorld(const Scenario& scenario, int index, Link& link);
-  /// The same with any device, a replayed one for instance, which must outlive this.
+  /// The same with any device, for instance a replayed one, which must outlive this.
   SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device);
   ~SiteWorld();
   SiteWorld(const SiteWorld&) = delete;
@@ -52,13 +52,13 @@ class SiteWorld {
 
   [[nodiscard]] Site& site() noexcept { return *site_; }
   [[nodiscard]] btDiscreteDynamicsWorld& world() noexcept { return world_; }
-  /// Only if the device is simulated.
+  /// Valid only if the device is simulated.
   [[nodiscard]] SimulatedDevice& device() noexcept { return *simulated_; }
   [[nodiscard]] const std::vector<SceneBody>& bodies() const noexcept { return scene_bodies_; }
   /// Pose of a scene body now, in W.
   [[nodiscard]] RigidState pose(const SceneBody& body) const;
 
-  /// Takes the host steps that end by `now` [s]; all ticks that start inside them have been done.
+  /// Runs the host steps that end by `now` [s]. All ticks that start inside them must be done.
   void stepHostUntil(double now);
 
  private:

@@ -8,7 +8,7 @@
 
 namespace tandem::demos {
 
-/// What a run comes to at one site.
+/// Results of a run at one site.
 struct SiteSummary {
   double received_mean = 0.0;  ///< mean |own object copy - other's as received| [m]
   int contact_transitions = 0;
@@ -18,7 +18,7 @@ struct SiteSummary {
   PassivityObserver passivity;
 };
 
-/// All that the site and its recording tell; `received_mean` and `device_end` are not among it.
+/// All values from the site and its recording, except `received_mean` and `device_end`.
 [[nodiscard]] SiteSummary summariseSite(const Site& site, const Recording& recording);
 
 /// The keys of `site1` and `site2` in summary.json.

@@ -20,16 +20,16 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kGetReady = 0.02;  // the threads are made so long before the first tick [s]
+constexpr double kGetReady = 0.02;  // time from making the threads to the first tick [s]
 
-/// The way to a user who is not there.
+/// The link to an absent user.
 class SilentLink final : public Link {
  public:
   void send(const StatePacket&, double) noexcept override {}
   [[nodiscard]] std::optional<Arrival> receive(double, double) noexcept override { return {}; }
 };
 
-/// What the user feels and does, as of a tick.
+/// The user's force and motion at a tick.
 struct Moment {
   Vec3 hand_S, cube_S, force_S;
 };
@@ -71,7 +71,7 @@ struct Tally {
   }
 };
 
-/// Steps the world as it comes due and looks after each step.
+/// Steps the world when due, and checks after each step.
 LoopReport run(SiteWorld& world, LiveDevice& device, const Scenario& scenario,
                const DeviceTask& task, const Pause& pause, Tally& tally) {
   HapticLoopSettings settings;

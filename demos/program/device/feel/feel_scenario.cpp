@@ -5,7 +5,7 @@
 namespace tandem::demos {
 namespace {
 
-/// The workspace's middle is over the cube: its sides, its top and the floor are in reach.
+/// The workspace's middle is above the cube. Its sides, its top and the floor are in reach.
 constexpr const char* kCubeOnFloor = R"(
 title = "A free cube on a floor"
 [experiment]
