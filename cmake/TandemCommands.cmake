@@ -1,5 +1,5 @@
-# tandem_command_table(OUT SOURCE...): the table of a program's commands, as a source that is made of the names of
-# the files <name>_command.cpp. Each defines `CommandEntry <name>Command()`, so a new command is one new file.
+# tandem_command_table(OUT SOURCE...): generates the table of a program's commands from the names of the files
+# <name>_command.cpp. Each defines `CommandEntry <name>Command()`, so a new command is one new file.
 function(tandem_command_table out)
   set(command_declarations "")
   set(command_entries "")

@@ -34,8 +34,7 @@ endif()
 
 # tandem_precompile(TARGET headers...): compiles headers once that nearly every source of a target reads. Our headers
 # must still include all they need: tests/house compiles each alone. tandem_precompile(TARGET LIKE other): uses those of
-# another target with the same options.
-# The target's sources are compiled in batches.
+# another target with the same options. Both compile the target's sources in batches.
 option(TANDEM_PRECOMPILE "Precompile common headers: halves the time of a full build" ON)
 function(tandem_precompile target)
   tandem_unity(${target})

@@ -51,7 +51,7 @@ void printCase(const StressCase& one, const StressOutcome& outcome,
              outcome.unaccounted, outcome.allowed);
 }
 
-/// `tandem bench stress`: drawn cases, each with an energy account.
+/// `tandem bench stress`: random cases, each with an energy account.
 class StressCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
@@ -109,7 +109,7 @@ class StressCommand final : public Command {
 
   bool quick_ = false;
   std::uint64_t seed_ = 1;
-  std::optional<std::uint64_t> cases_;  // nothing: kCases or kQuickCases
+  std::optional<std::uint64_t> cases_;  // empty: kCases or kQuickCases
   std::optional<std::uint64_t> one_;
   ResultOutput output_;
 };

@@ -1,5 +1,5 @@
-// Two live sites of this process over real sockets. Nothing asserts how long it took; what waits,
-// waits for as long as a loaded machine may need.
+// Two live sites of this process over real sockets. No test asserts times; each waits as long as a
+// loaded machine may need.
 
 #include "tandem/plugin/live_peers.h"
 
@@ -34,7 +34,7 @@ std::unique_ptr<LivePeers> makePeers(PeerId self, PeerId other, std::optional<Ad
   return std::make_unique<LivePeers>(settings, std::move(peers));
 }
 
-/// Site 1 knows where site 2 is, and site 2 waits for the call.
+/// Site 1 knows the address of site 2, which waits for the call.
 struct Two {
   std::unique_ptr<LivePeers> two = makePeers(kTwo, kOne, std::nullopt);
   std::unique_ptr<LivePeers> one = makePeers(kOne, kTwo, two->bound());
@@ -62,7 +62,7 @@ template <typename Done>
 TEST(LivePeers, PolledByTheirHostCarryStates) {
   const Two two;
   ASSERT_TRUE(waitUntil([&] { return two.poll(), two.areBoth(PeerPhase::kLive); }));
-  double time = 3.0;  // of the sites, whose host steps as it likes [s]
+  double time = 3.0;  // site time; the host steps at any time [s]
   std::optional<Arrival> arrival;
   EXPECT_TRUE(waitUntil([&] {
     time += 0.016;
@@ -87,7 +87,7 @@ TEST(LivePeers, WithThreadsAgreeOnAStartAndCarryStates) {
     peers->startThread();
   }
   ASSERT_TRUE(waitUntil([&] { return two.one->start() && two.two->start(); }));
-  // Both go by one clock here; a loaded machine delays one way and not the other.
+  // Both use one clock here. A loaded machine delays one direction and not the other.
   EXPECT_NEAR(*two.one->start(), *two.two->start(), 0.5);
 
   // This thread is the haptic thread of both.

@@ -1,4 +1,5 @@
-// The bridge between a site's time and the clock of its connection, alone: time is passed in.
+// Tests the conversion between a site's time and the clock of its connection alone; time is passed
+// in.
 
 #include "live/peer_link.h"
 
@@ -19,7 +20,7 @@ constexpr double kTick = 1e-3;    // [s]
 constexpr double kAhead = 2e-3;   // [s]
 constexpr double kClock = 500.0;  ///< at site time 0 [s]
 
-/// A link to a peer, over a fake connection that goes by the clock.
+/// A link to a peer, over a fake connection that uses the clock.
 struct Rig {
   FakeLink wire{64};
   ShiftedLink way{wire, 0.0};
@@ -63,7 +64,7 @@ TEST(PeerLink, StampsStatesWithTheClock) {
   EXPECT_EQ(rig.wire.sent[0].time, 0.0);
 }
 
-// The ticks of a step of 16 ms run in one go, and look as if they had taken 16 ms.
+// The ticks of a step of 16 ms run at once, and are stamped as if they took 16 ms.
 TEST(PeerLink, StampsTheTicksOfAHostsStepAsInRealTime) {
   Rig rig;
   rig.link.bridge().setClock(kClock);
@@ -71,7 +72,7 @@ TEST(PeerLink, StampsTheTicksOfAHostsStepAsInRealTime) {
   rig.send(2.0);
   rig.send(2.008);
   EXPECT_EQ(rig.way.stamps, (std::vector<double>{kClock, kClock + 0.008}));
-  // The next step comes late; site time is what the host says.
+  // The next step comes late; the host defines the site's time.
   rig.link.bridge().setClock(kClock + 0.5);
   rig.link.bridge().setSiteTime(2.016);
   rig.arrive(kClock + 0.505);
@@ -80,7 +81,7 @@ TEST(PeerLink, StampsTheTicksOfAHostsStepAsInRealTime) {
   EXPECT_NEAR(arrival->time, 2.021, 1e-12);
 }
 
-// A peer drops states whose number is no higher than before.
+// A peer drops states whose number is not above the last one.
 TEST(PeerLink, NumbersGoOnWhenASiteBeginsAnew) {
   Rig rig;
   rig.link.bridge().setClock(kClock);
@@ -124,7 +125,7 @@ TEST(PeerLink, BringsWhatIsDueToTheHapticThreadBeforehand) {
   EXPECT_NEAR(arrival->time, 1.5e-3, 1e-12);
 }
 
-// States of the countdown are for the start only; those after it have the peer's own time.
+// States of the countdown serve the start only; later ones have the peer's own time.
 TEST(PeerLink, KeepsStatesOfTheCountdownFromTheSite) {
   Rig rig;
   TimeBridge& bridge = rig.link.bridge();

@@ -6,7 +6,7 @@
 
 namespace tandem::test {
 
-/// A link whose end here goes by a clock that is `ahead` [s] of the link's own.
+/// A link whose end here uses a clock that is `ahead` [s] of the link's own.
 class ShiftedLink final : public Link {
  public:
   ShiftedLink(Link& link, double ahead) : link_(link), ahead_(ahead) {}
@@ -21,7 +21,7 @@ class ShiftedLink final : public Link {
     return arrival;
   }
 
-  std::vector<double> stamps;  ///< with which states were sent, by the clock here [s]
+  std::vector<double> stamps;  ///< send times of states, by the clock here [s]
 
  private:
   Link& link_;

@@ -27,8 +27,8 @@ TEST(SiteClock, EvensOutReadingsThatJitter) {
     const double late = random.uniform(0.0, kStep);
     times.note(500.0 + kStep * i + late, kStep * i);
   }
-  // Half a step on average. The estimate remembers 20 readings, so its deviation is a sixth of
-  // that of one.
+  // The delay is half a step on average. The estimate remembers 20 readings, so its deviation is a
+  // sixth of one reading's.
   EXPECT_NEAR(times.toClock(0.0), 500.0 + 0.5 * kStep, 0.2 * kStep);
 }
 

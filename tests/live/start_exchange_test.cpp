@@ -1,4 +1,4 @@
-// Sites whose clocks have nothing to do with each other agree on one moment, in virtual time.
+// Sites with unrelated clocks agree on one moment, in virtual time.
 
 #include "live/start_exchange.h"
 
@@ -19,11 +19,11 @@ constexpr double kPoll = 1e-3;         // [s]
 constexpr double kPacketRate = 128.0;  // [1/s]
 const PointState kHeld{{0.1, 0.2, 0.3}, Vec3::Zero()};
 
-/// All sites of a room, each connected to each other by a simulated link.
+/// All sites of a room; a simulated link connects each pair.
 class Sites {
  public:
   struct Site {
-    double ahead;  ///< its clock - true time [s]
+    double ahead;  ///< its clock minus true time [s]
     std::vector<std::unique_ptr<ShiftedLink>> ways;
     std::vector<std::unique_ptr<TimeBridge>> bridges;
     std::unique_ptr<StartExchange> exchange;
@@ -52,7 +52,7 @@ class Sites {
   }
 
   [[nodiscard]] Site& at(int i) { return sites_[static_cast<std::size_t>(i)]; }
-  /// In true time.
+  /// Start of site `i` in true time.
   [[nodiscard]] std::optional<double> startOf(int i) {
     const auto start = at(i).exchange->start();
     if (!start) return std::nullopt;
@@ -119,7 +119,7 @@ TEST(StartExchange, ThreeSitesBeginAtOneMoment) {
   sites.run(0.5);
   for (const int i : {1, 2}) {
     ASSERT_TRUE(sites.startOf(i));
-    // The third may hear of it from the second.
+    // The third may learn it from the second.
     EXPECT_NEAR(*sites.startOf(i), *sites.startOf(0), 2.0 * kPoll);
   }
 }
@@ -152,7 +152,7 @@ TEST(StartExchange, WaitsUntilAllPeersAreLive) {
   EXPECT_TRUE(poll(2.5, 2.7, true, 0.02));
 }
 
-// A site that begins anew learns when the others began.
+// A site that restarts learns when the others began.
 TEST(StartExchange, ALateSiteLearnsAStartThatHasPassed) {
   Sites sites(2, {.delay = 0.02});
   sites.run(3.0);

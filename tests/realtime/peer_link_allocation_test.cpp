@@ -1,5 +1,5 @@
-// The haptic thread's side of a peer's link takes nothing from the heap and no lock, and neither
-// does that of the thread that has the socket.
+// The haptic thread's side of a peer's link neither allocates nor locks. The same holds for the
+// side of the socket's thread.
 
 #include <gtest/gtest.h>
 

@@ -27,7 +27,7 @@ std::unique_ptr<LivePeers> makePeers(std::uint32_t self, std::optional<Address> 
   return std::make_unique<LivePeers>(settings, std::move(peers));
 }
 
-// While states go both ways, hosts step and ask how their peer is.
+// While states go both ways, hosts step and read the status of their peer.
 TEST(LivePeersThreads, CarryAnObjectFromSiteToSite) {
   const auto second_peers = makePeers(2, std::nullopt);
   const auto first_peers = makePeers(1, second_peers->bound());

@@ -1,5 +1,5 @@
-// Two sites in one program, over UDP. Each has a world in a thread of its own, stepped at 60 Hz in
-// real time, a haptic thread at 1 kHz and a thread for its socket.
+// Two sites in one program, over UDP. Each has a world in its own thread, stepped at 60 Hz in real
+// time. Each also has a haptic thread at 1 kHz and a thread for its socket.
 
 #include <array>
 #include <cstdio>
@@ -28,7 +28,7 @@ struct User {
   tandem::LivePeers peers;
   tandem::Site site;
 
-  /// `other`: where the other user is; nothing: waits for the other's call.
+  /// `other` is the other user's address; empty: waits for the other's call.
   User(unsigned self, double y, double push, double other_y, std::optional<tandem::Address> other)
       : device(makeSettings(y), tandem::makeConstantHand({0, push, 0})),
         peers(makeConnection(self), makePeers(3 - self, other)),

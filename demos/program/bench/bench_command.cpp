@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kProgram =
     TANDEM_BULLET_SCALAR_BYTES == 8 ? "tandem-bench" : "tandem-bench-float";
 
-/// Becomes the program of the benchmarks, which stands beside this one.
+/// Replaces this process by the program of the benchmarks, which is beside this one.
 [[noreturn]] void startBench(char** arguments) {
   std::error_code ignored;
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", ignored);

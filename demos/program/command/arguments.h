@@ -10,15 +10,14 @@ class App;
 
 namespace tandem::demos {
 
-/// What an option may be besides optional and free.
+/// Rules of an option; by default it is optional and takes any value.
 struct OptionRules {
   bool is_required = false;
-  std::vector<std::string> choices = {};  ///< the values that are allowed; empty: any
+  std::vector<std::string> choices = {};  ///< allowed values; empty: any
 };
 
-/// The arguments that a command takes. Values given on the command line are written into the
-/// variables when the program parses it, so these must live until then.
-/// Together with CommandLine the only part of the program that knows CLI11.
+/// The arguments of a command. Parsing the command line writes their values into the given
+/// variables, which must live until then. Only this class and CommandLine know CLI11.
 class Arguments {
  public:
   explicit Arguments(CLI::App& app);
@@ -28,24 +27,24 @@ class Arguments {
 
   void flag(const std::string& name, bool& value, const std::string& help);
 
-  /// `name` is "--name", or "name" for an argument that is known by its position. `Value` is
+  /// Declares an option "--name", or an argument "name" known by its position. `Value` is
   /// std::string, double, int or std::uint64_t, or std::optional of one of them.
   template <class Value>
   void option(const std::string& name, Value& value, const std::string& help,
               const OptionRules& rules = {});
 
-  /// An option that may be given several times, with one value each.
+  /// Declares an option that may be given several times, with one value each.
   void repeated(const std::string& name, std::vector<std::string>& values, const std::string& help);
-  /// Positional arguments, at least one.
+  /// Declares positional arguments, at least one.
   void several(const std::string& name, std::vector<std::string>& values, const std::string& help);
-  /// An option with three numbers.
+  /// Declares an option with three numbers.
   void triple(const std::string& name, std::vector<double>& values, const std::string& help);
 
-  /// A command of this command, with arguments of its own.
+  /// Declares a sub-command with its own arguments.
   Arguments& command(const std::string& name, const std::string& help);
-  /// One of the commands must be given; without this, none may be.
+  /// Requires exactly one of the sub-commands; without this call it may be absent.
   void requireCommand();
-  /// True if the command line has this command.
+  /// True if the command line contains this command.
   [[nodiscard]] bool has(const std::string& command) const;
 
  private:
@@ -53,7 +52,7 @@ class Arguments {
   std::vector<std::unique_ptr<Arguments>> commands_;
 };
 
-/// The command line of a program that is made of commands.
+/// The command line of a program with commands.
 class CommandLine {
  public:
   /// `name` is what users type, `summary` the first line of --help.
@@ -64,7 +63,7 @@ class CommandLine {
 
   [[nodiscard]] Arguments& arguments() noexcept { return *arguments_; }
 
-  /// Fills the variables. False if help was asked for, which is printed then. Throws UsageError.
+  /// Fills the variables. Prints help and returns false if the user asks for it. Throws UsageError.
   [[nodiscard]] bool parse(int argc, char** argv);
 
  private:

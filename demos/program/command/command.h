@@ -15,11 +15,11 @@ class Command {
  public:
   virtual ~Command() = default;
 
-  /// Declares the arguments that the command takes.
+  /// Declares the arguments of the command.
   virtual void declare(Arguments& arguments) = 0;
 
-  /// Runs with the arguments as they were parsed. Throws UsageError or std::invalid_argument for
-  /// bad use, and any other std::exception for what went wrong; each has one line with the remedy.
+  /// Runs with the parsed arguments. Throws UsageError or std::invalid_argument for bad use, and
+  /// any other std::exception for other failures. Each has one line with the remedy.
   virtual ExitStatus run() = 0;
 };
 
@@ -28,14 +28,14 @@ template <class Kind>
   return std::make_unique<Kind>();
 }
 
-/// How a command is listed and started. The file <name>_command.cpp in the command's folder defines
-/// `CommandEntry <name>Command()`; the build makes the table of all commands from these files.
+/// Name, help and factory of a command. The file <name>_command.cpp in the command's folder defines
+/// `CommandEntry <name>Command()`. The build generates the table of all commands from these files.
 struct CommandEntry {
-  std::string name;     ///< as it is typed
+  std::string name;     ///< name as typed
   std::string summary;  ///< its line in --help
-  int place = 0;        ///< its place in lists, lowest first
+  int place = 0;        ///< place in lists, lowest first
   std::unique_ptr<Command> (*make)() = nullptr;
-  /// Instead of make: becomes a program of its own, which gets the arguments behind the name.
+  /// Used instead of `make` if set: runs another program with the arguments after the name.
   void (*start)(char** arguments) = nullptr;
 };
 

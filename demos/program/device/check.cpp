@@ -20,7 +20,7 @@ constexpr double kShownPush = 0.01;      // longest way that push bars show [m]
 constexpr double kLook = 10.0;           // time in which the user moves [s]
 constexpr double kLookUnattended = 0.5;  // [s]
 
-/// The user moves, bars follow. False if asked to end.
+/// The user moves, and bars follow. Returns false if asked to end.
 bool lookAtPositions(LiveDevice& device, double duration, StatusLine& line, const Pause& pause) {
   if (!device.emulated())
     line.print(fmt::format("Move the grip for {:.0f} s and see that the bars follow.", duration));

@@ -32,7 +32,7 @@ class DeviceCommand final : public Command {
  private:
   void declareOutput(Arguments& arguments, bool has_json);
   void declareTimes(Arguments& arguments, const char* duration);
-  /// Runs the command that was given. False if it is a check that failed.
+  /// Runs the given command. Returns false if a check failed.
   bool runOne(const Pause& pause);
 
   Arguments* arguments_ = nullptr;
@@ -97,7 +97,7 @@ ExitStatus DeviceCommand::run() {
   checkTimes(task_);
   // Threads that start later leave these signals to this thread.
   const StopSignals stop;
-  // A reader that goes away must not end the program while there is force.
+  // A closed pipe must not end the program while the device renders force.
   (void)std::signal(SIGPIPE, SIG_IGN);
   return runOne([&](double seconds) { return stop.isAskedWithin(seconds); }) ? kDone : kCheckFailed;
 }

@@ -10,7 +10,7 @@ namespace tandem::demos {
 
 class Arguments;
 
-/// Options that all commands with a device share, as they were written.
+/// Options of all commands with a device, as written.
 struct DeviceOptions {
   std::string device;                   ///< a DeviceSpec; empty: the first one plugged in
   std::optional<std::string> firmware;  ///< file of a Falcon's firmware image
@@ -24,7 +24,7 @@ struct DeviceOptions {
 /// Declares --device, --firmware, --motors-per-torque, --max-force, --scale, --offset, --clutch.
 void declareDeviceOptions(Arguments& arguments, DeviceOptions& options);
 
-/// Throws UsageError, naming the option and what is allowed.
+/// Throws UsageError that names the option and the allowed values.
 void checkDeviceOptions(const DeviceOptions& options);
 
 }  // namespace tandem::demos

@@ -8,7 +8,7 @@
 
 namespace tandem::demos {
 
-/// Options of `tandem device` and its commands, as they were written.
+/// Options of `tandem device` and its commands, as written.
 struct DeviceTask {
   DeviceOptions device;
   std::optional<double> duration;       ///< [s]
@@ -19,12 +19,12 @@ struct DeviceTask {
   bool quiet = false;
 };
 
-/// `tandem device ...`: each runs to its end, or until `pause` says to end. They throw UsageError
-/// or std::invalid_argument (status 2), tandem::Error with the remedy (status 1).
+/// Commands of `tandem device`. Each runs to its end, or until `pause` returns true. They throw
+/// UsageError or std::invalid_argument (status 2), or tandem::Error with the remedy (status 1).
 void listDevices(const DeviceTask& task);
 void showDevice(const DeviceTask& task, const Pause& pause);
 void homeDevice(const DeviceTask& task, const Pause& pause);
-/// False: an emulated device's force or motion was not what it must be.
+/// Returns false if an emulated device had a wrong force or motion.
 [[nodiscard]] bool checkDevice(const DeviceTask& task, const Pause& pause);
 void measureLatency(const DeviceTask& task, const Pause& pause);
 void recordDevice(const DeviceTask& task, const Pause& pause);

@@ -11,7 +11,7 @@ struct GetReadySettings {
   bool is_quiet = false;
 };
 
-/// As a command asks for it.
+/// Settings from a command's options.
 [[nodiscard]] inline GetReadySettings makeGetReadySettings(const DeviceTask& task, bool to_middle) {
   return {task.patience, to_middle, task.quiet || task.json};
 }

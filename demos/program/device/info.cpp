@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLook = 0.005;  // [s]
 
-/// Until it is opened, booted and loaded, or cannot be.
+/// Waits until the device is opened, booted and loaded, or has failed.
 bool waitUntilStarted(LiveDevice& device, const DeviceTask& task, const Pause& pause) {
   StatusLine line(task.quiet || task.json);
   const double until = readMonotonicClock() + task.patience;

@@ -5,7 +5,7 @@
 
 namespace tandem::demos {
 
-/// Makes the folder of --out if needed and tries that files can be made in it. Throws UsageError.
+/// Makes the folder of --out if needed, and checks that it is writable. Throws UsageError.
 void prepareFolder(const std::filesystem::path& folder);
 
 /// Stores `text` as a file. Throws Error with the file's name.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kLongestRun = 1e6;  // [s]
 
-/// Options of `tandem link`, as they were written.
+/// Options of `tandem link`, as written.
 struct LinkOptions {
   std::string listen, forward;
   std::string delay = "0s", jitter = "0s";
@@ -29,7 +29,7 @@ struct LinkOptions {
   bool keep_order = false;
   std::string seed = "0";
   std::optional<std::string> script;    ///< file
-  std::optional<std::string> duration;  ///< nothing: until SIGINT or SIGTERM
+  std::optional<std::string> duration;  ///< empty: until SIGINT or SIGTERM
   bool json = false;
   bool quiet = false;
 };
@@ -90,7 +90,7 @@ void runLink(const LinkOptions& options) {
   const StopSignals stop;
   if (!options.quiet) {
     fmt::print(options.json ? stderr : stdout, "listening on {}\n", toString(proxy.bound()));
-    finishOutput();  // programs wait for this line
+    finishOutput();  // other programs wait for this line
   }
   proxy.run(stop, duration);
   const nlohmann::json report = makeLinkReport(proxy);

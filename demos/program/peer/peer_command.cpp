@@ -23,7 +23,7 @@
 namespace tandem::demos {
 namespace {
 
-/// Options of `tandem peer`, as they were written.
+/// Options of `tandem peer`, as written.
 struct PeerOptions {
   std::string scenario;
   std::vector<std::string> overrides;
@@ -36,7 +36,7 @@ struct PeerOptions {
   std::string playout = "on";
   std::string profile = "float32";
   bool quiet = false;
-  DeviceOptions device;  ///< without --device: simulated, as the scenario says
+  DeviceOptions device;  ///< without --device: simulated, by the scenario
 };
 
 volatile std::sig_atomic_t stop_asked = 0;
@@ -89,8 +89,8 @@ UdpMeshSettings makeSettings(const PeerOptions& options, const Scenario& scenari
   return settings;
 }
 
-/// The user's own device, ready and where the scenario has the user start; null without --device.
-/// `is_ended` if the user would rather end.
+/// Opens the user's own device, ready at the user's start in the scenario; null without --device.
+/// Sets `is_ended` if the user asks to end.
 std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Scenario& scenario,
                                             bool& is_ended) {
   if (options.device.device.empty()) {

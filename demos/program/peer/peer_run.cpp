@@ -11,7 +11,7 @@ namespace tandem::demos {
 namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
-constexpr double kMostBehind = 0.1;    ///< later than this, a site joins one that runs [s]
+constexpr double kMostBehind = 0.1;    ///< a site later than this joins a running one [s]
 
 /// Explains a refusal in terms of the command line.
 const char* explainRefusal(RefuseCode code) {

@@ -28,8 +28,8 @@ struct PeerReport {
 /// Until the start one thread does all.
 class PeerRun {
  public:
-  /// `site` is 0 or 1. `device` is the user's, and must outlive this; null: simulated, as the
-  /// scenario says. Throws as LivePeers and SiteWorld do.
+  /// `site` is 0 or 1. `device` is the user's, and must outlive this; null means simulated, by the
+  /// scenario. Throws like LivePeers and SiteWorld.
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
           HapticDevice* device = nullptr);
 

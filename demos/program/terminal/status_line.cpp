@@ -17,7 +17,7 @@ bool StatusLine::isDue() const { return !is_quiet_ && readMonotonicClock() >= ne
 
 void StatusLine::show(const std::string& text) {
   next_ = readMonotonicClock() + period_;
-  // A narrow terminal must not wrap a long line; its end is not seen then.
+  // A narrow terminal must cut a long line, not wrap it.
   fmt::print(stream_, "{}{}{}", is_terminal_ ? "\r\033[?7l" : "", text,
              is_terminal_ ? "\033[K\033[?7h" : "\n");
   is_open_ = is_terminal_;

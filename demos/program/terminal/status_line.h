@@ -6,17 +6,17 @@
 
 namespace tandem::demos {
 
-/// One line that says what is going on. On a terminal it is written over and over, at most ten
-/// times a second; in a pipe it is a line a second.
+/// A status line. On a terminal it is overwritten at most ten times a second; in a pipe it prints a
+/// line a second.
 class StatusLine {
  public:
-  /// A quiet one prints nothing.
+  /// A quiet line prints nothing.
   explicit StatusLine(bool is_quiet, std::FILE* stream = stdout);
   ~StatusLine() { clear(); }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// True if it is time for the next text; until then nobody need make it.
+  /// True if show() would print now; else the caller need not make the text.
   [[nodiscard]] bool isDue() const;
   void show(const std::string& text);
   /// Prints a line that stays.
@@ -30,13 +30,12 @@ class StatusLine {
   double period_, next_ = 0.0;  // [s]
 };
 
-/// How far a long computation has come and how long the rest will take, on stderr; silent if stderr
-/// is not a terminal.
+/// Progress of a long computation and the time left, on stderr; silent if stderr is not a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(bool is_quiet = false);
 
-  /// `share` of the work is done, 0 to 1; `what` is being done.
+  /// Shows the current activity `what` and the finished share of the work, 0 to 1.
   void show(std::string_view what, double share);
 
  private:

@@ -5,8 +5,8 @@
 
 namespace tandem::demos {
 
-/// The cube on the floor, or the scenario of the command; the other user is absent. Throws as
-/// loadScenario.
+/// The cube on the floor, or the command's scenario; the other user is absent. Throws like
+/// loadScenario().
 [[nodiscard]] Scenario makeFeelScenario(const DeviceTask& task);
 
 }  // namespace tandem::demos
