@@ -6,23 +6,24 @@
 
 namespace tandem {
 
-/// The shared objects, and a list of all bodies whose motion the island decides: these objects,
-/// neighbours of the host's world, and proxies, always in this order.
+/// Owns the shared objects and lists all bodies whose motion the island decides. The list order is
+/// fixed: objects, neighbours of the host's world, proxies.
 class Bodies {
  public:
   std::vector<SharedObject> objects;
 
-  /// Set-up, whenever a body has come: lists them anew. Allocates.
+  /// Set-up: the list is built anew whenever a body is added. Allocates.
   void clearList() noexcept { all_.clear(); }
   void list(SiteBody& body) { all_.push_back(&body); }
 
-  /// Calls `visit` with each body that the island holds. In the tick and in what is asked of it.
+  /// Calls `visit` with each body that the island holds. For the tick, and for work that the host's
+  /// thread hands to it.
   template <typename Visit>
   void forEach(Visit visit) const {
     for (SiteBody* body : all_)
       if (body->is_held) visit(*body);
   }
-  /// The same without bodies that are missing in the host's world. For the host's thread.
+  /// Like forEach(), but skips bodies that are missing in the host's world. For the host's thread.
   template <typename Visit>
   void forEachPresent(Visit visit) const {
     for (SiteBody* body : all_)

@@ -6,14 +6,17 @@
 
 namespace tandem {
 
-/// The way on which a target is led to where a peer has its copy, from where ours is, when the peer
-/// comes back. While a link is cut copies go their own ways; a spring between them that gets its
-/// gain back would be stretched already, and the energy in it would come from nowhere. Led along,
-/// it is not: copies meet at a walking pace.
+// clang-format off
+/// Moves a coupler's target smoothly from our copy of an object to a peer's, when the peer comes
+/// back. Copies drift apart while a link is cut. A spring between them that regained its stiffness
+/// would be stretched, with energy from nowhere. With a detour it is not: copies meet at walking
+/// pace.
 ///
-///   speed = min(max(0.25 m/s, d / 2 s), d / 0.1 s),   the same for the turn with 2.5 rad/s
+///   speed = min(max(0.25 m/s, d0 / 2 s), d / 0.1 s)
 ///
-/// with the distance d at the start in the first, now in the second. Plain value without a clock.
+/// d0 is the distance at the start and d the present one. The rotation follows the same law, with
+/// 2.5 rad/s. Plain value without a clock.
+// clang-format on
 class Detour {
  public:
   void start(const RigidState& ours, const RigidState& theirs) noexcept {
@@ -26,7 +29,7 @@ class Detour {
     settle();
   }
 
-  /// By `dt` [s].
+  /// Moves on by `dt` [s].
   void advance(double dt) noexcept {
     if (isOver()) return;
     offset_W_ += dt * velocity();
@@ -35,7 +38,7 @@ class Detour {
   }
 
   [[nodiscard]] bool isOver() const noexcept { return angle_ == 0.0 && offset_W_ == Vec3::Zero(); }
-  /// Where the target is meanwhile, for a copy that is `theirs`.
+  /// Target during the detour to a copy at `theirs`.
   [[nodiscard]] RigidState apply(RigidState theirs) const noexcept {
     if (isOver()) return theirs;
     theirs.p_W += offset_W_;

@@ -8,44 +8,45 @@ namespace tandem {
 
 class Timeline;
 
-/// The account of what this site puts into the connection (PassivityObserver):
+// clang-format off
+/// Accounts for the energy that this site puts into the connection (PassivityObserver):
 ///
-///   the hand             -f . dp, the force as rendered, over each tick: exact, as it is held
+///   the hand             -f . dp of the rendered force over each tick; exact, as the force is held
 ///   weight, host forces  f . dp + t . w dt of the bodies that the island moves
-///   impulses             J . (v + v') / 2: the host's, and of contact with bodies that Bullet
-///   keeps neighbours           their kinetic energy when the island takes them, and gives them
-///   back
+///   impulses             J . (v + v') / 2 of the host, and of contact with bodies of Bullet
+///   neighbours           their kinetic energy when they enter (+) and leave (-) the island
 ///
-/// What the host moves by hand, a kinematic body or a body put elsewhere, has no measure: it fills
-/// the tank. Where Bullet moves the bodies nobody knows what it did to them: there is no account
-/// then, and packets say so. Real-time safe.
+/// A kinematic body, or a body that the host repositions, does unknown work and refills the tank.
+/// Where Bullet moves the bodies their energy is unknown, so no account is kept and packets say so.
+/// Real-time safe.
+// clang-format on
 class EnergyPort {
  public:
-  /// `island_moves`: the bodies are the island's, so the account can be kept.
+  /// `island_moves`: the island moves the bodies, so the account can be kept.
   EnergyPort(const PassivitySettings& settings, bool island_moves) noexcept
       : observer_(settings), is_kept_(settings.enabled && island_moves) {}
 
   [[nodiscard]] const PassivityObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] bool isKept() const noexcept { return is_kept_; }
-  /// Ticks in which the hand was about to get too much.
+  /// Number of ticks in which the force was reduced to limit the hand's energy.
   [[nodiscard]] std::uint64_t limitedCount() const noexcept { return limited_; }
 
-  /// The hand went so far while this force was rendered.
+  /// Adds the hand's work: it moved by `way_W` [m] while `f_W` [N] was rendered.
   void countHand(const Vec3& f_W, const Vec3& way_W) noexcept { observer_.addOwn(-f_W.dot(way_W)); }
-  /// Some force of the world acts on some body: its work counts from now on.
+  /// A force of the world acts on a body: countWorld() has work to do from now on.
   void noteWorldForce() noexcept { world_pushes_ = true; }
-  /// Work of the world's forces over the tick that has just been run.
+  /// Adds the work of the world's forces over the tick that has just run.
   void countWorld(const Island& island, const Timeline& timeline) noexcept;
   void countImpulse(const RigidState& before, const RigidState& after,
                     const Momentum& impulse) noexcept;
-  /// A neighbour comes with its kinetic energy (`sign` 1) or takes it along (-1).
+  /// A neighbour enters the island with its kinetic energy (`sign` 1) or takes it away (-1).
   void countNeighbour(const IslandBody& body, const RigidState& state, double sign) noexcept;
-  /// The host has moved something by hand.
+  /// Refills the tank: the host moved something, with unknown work.
   void refill() noexcept { observer_.refill(); }
-  /// A peer has put in so much more [J].
+  /// Adds energy that a peer reports to have put in [J].
   void addReported(double energy) noexcept { observer_.addReported(energy); }
 
-  /// The force that a hand of velocity `v_W` may get over `duration` [s].
+  /// The share of `wanted_W` [N] that a hand of velocity `v_W` may get over `duration` [s].
   [[nodiscard]] Vec3 limit(const Vec3& wanted_W, const Vec3& v_W, double duration) noexcept;
 
  private:

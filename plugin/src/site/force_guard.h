@@ -7,26 +7,26 @@
 
 namespace tandem {
 
-/// The last hand on the force before the device: never beyond the device's limit (direction kept),
-/// never changing faster than allowed, never not finite, and after a fault down to zero by a
-/// bounded slew instead of at once.
+/// Limits the force last, before the device. The force stays finite and within the device's limit,
+/// with its direction kept. It changes at a bounded rate, and fades to zero at a bounded rate after
+/// a fault.
 class ForceGuard {
  public:
-  /// `max_force` [N] and `change_per_tick` [N] may be infinite; `fade_per_tick` [N], which is no
-  /// faster than other changes.
+  /// `max_force` [N] and `change_per_tick` [N] may be infinite. `fade_per_tick` [N] is limited to
+  /// `change_per_tick`.
   ForceGuard(double max_force, double change_per_tick, double fade_per_tick) noexcept
       : max_force_(max_force),
         change_per_tick_(change_per_tick),
         fade_per_tick_(std::min(fade_per_tick, change_per_tick)) {}
 
-  /// What the device can give of a force.
+  /// Shortens a force to the device's limit.
   [[nodiscard]] Vec3 clamp(const Vec3& wanted_W) noexcept {
     if (!(wanted_W.norm() > max_force_)) return wanted_W;
     ++clamped_;
     return shorten(wanted_W, max_force_);
   }
 
-  /// Goes from the last tick's force to this one, as fast as allowed.
+  /// Moves from the last tick's force towards `allowed_W`, as fast as allowed.
   [[nodiscard]] Vec3 follow(const Vec3& allowed_W, bool fault) noexcept {
     if (fault || !allowed_W.allFinite()) {
       last_W_ = shorten(last_W_, last_W_.norm() - fade_per_tick_);
@@ -43,9 +43,9 @@ class ForceGuard {
     return last_W_;
   }
 
-  /// Ticks in which the force was beyond the device's limit.
+  /// Number of ticks in which the force exceeded the device's limit.
   [[nodiscard]] std::uint64_t clampedCount() const noexcept { return clamped_; }
-  /// Ticks in which it would have changed too fast.
+  /// Number of ticks in which the force was limited in its change.
   [[nodiscard]] std::uint64_t slewedCount() const noexcept { return slewed_; }
 
  private:

@@ -1,7 +1,7 @@
 #include "site/hand_off_step.h"
 
-// The host's thread in a step with hand-off. What touches the island is asked for, once on the way
-// in and once on the way out.
+// Hand-off in the host's thread. Work on the island runs where the ticks run: once on the way in
+// and once on the way out.
 
 namespace tandem {
 
@@ -47,7 +47,7 @@ void HandOffStep::after(double dt) noexcept {
   site_.bodies.forEachPresent([&](SiteBody& body) { takeBack(body); });
   site_.bodies.forEachPresent([&](SiteBody& body) { site_.rest.parkIfItStood(body); });
   if (!site_.ticksInHostStep()) site_.surroundings.lookAtDriven(step_end_);
-  // With a haptic thread what is known of the island is as old as Bullet's step.
+  // With a haptic thread the island's mirror is as old as Bullet's step.
   site_.surroundings.look(dt, step_end_, site_.desk.isOpen() ? dt : 0.0);
   site_.desk.run([&] { goOut(dt); });
   site_.surroundings.giveBack();
@@ -56,7 +56,7 @@ void HandOffStep::after(double dt) noexcept {
   fallQuiet();
 }
 
-/// What the host did to its bodies for its coming step.
+/// Reads how the host changed its bodies for its coming step.
 void HandOffStep::lookAtBodies(double dt) noexcept {
   site_.bodies.forEachPresent([&](SiteBody& body) {
     HapticBody& bullet = *body.bullet;
@@ -71,7 +71,7 @@ void HandOffStep::lookAtBodies(double dt) noexcept {
   site_.surroundings.lookAtDamping();
 }
 
-/// Bullet gets its bodies' states at the end of the step.
+/// Gives Bullet the states of its bodies at the end of the step.
 void HandOffStep::handOff(double dt) noexcept {
   for (Peer& peer : site_.peers)
     if (peer.proxy.sphere && peer.proxy.sphere->isAlive())
@@ -89,7 +89,7 @@ void HandOffStep::handOff(double dt) noexcept {
   });
 }
 
-/// What Bullet's solver did besides: contact with moving bodies that are not held.
+/// Reads the impulses of Bullet's solver: contact with moving bodies that the island does not hold.
 void HandOffStep::takeBack(SiteBody& body) noexcept {
   HostChange change;
   HapticBody& bullet = *body.bullet;
@@ -103,19 +103,19 @@ void HandOffStep::takeBack(SiteBody& body) noexcept {
   body.step.hit = {dropRounding(change.impulse_W), dropRounding(change.angular_impulse_W)};
 }
 
-/// Springs may have been stretched by what was just found. With a haptic thread what is found now
-/// acts from the next way in.
+/// A new neighbour may meet stretched springs. With a haptic thread the obstacles found now act
+/// from the next way in.
 void HandOffStep::lookFarther() {
   if (!site_.surroundings.mustLookFarther()) return;
   site_.surroundings.lookFarther();
   if (!site_.desk.isOpen()) site_.surroundings.takeObstacles();
 }
 
-/// After a host step with everything done: the next is quiet if all sleep.
+/// Called at the end of a complete host step: the next one is quiet if all bodies sleep.
 void HandOffStep::fallQuiet() {
   bool all_parked = true;
   site_.bodies.forEachPresent([&](const SiteBody& body) { all_parked &= body.bullet->isParked(); });
-  // What the host moves by hand may come at any step, and wakes nobody.
+  // A kinematic body may start to move at any step, and that wakes nothing.
   if (!all_parked || (!site_.isBare() && site_.surroundings.isAnythingDriven())) return;
   site_.rest.fallQuiet(site_.bodies);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-// The tick, and what the host's step asks of whoever ticks. hand_off_host.cpp has the host's
-// thread.
+// The tick, and the work that the host's step hands to the ticking thread. hand_off_host.cpp has
+// the host's thread.
 
 namespace tandem {
 
@@ -26,8 +26,8 @@ void HandOffStep::finishSetUp() {
   lookAround(step);
 }
 
-/// Ticks that the caller has left out: the island moves on over them, and does what was due, but
-/// nothing is felt. The hand goes steadily to where it is now.
+/// Moves the island over ticks that the caller left out, with their packets and host steps but
+/// without a rendered force. The HIP moves steadily to the hand's present position.
 void HandOffStep::makeUp(double now, double most) noexcept {
   Timeline& timeline = site_.timeline;
   if (now - timeline.time() <= kSameTime || site_.log.hasStopped()) return;
@@ -44,7 +44,7 @@ void HandOffStep::makeUp(double now, double most) noexcept {
   }
 }
 
-/// Time that nobody has had: nothing moves, nothing is sent, and no host's step ends in it.
+/// Skips lost time: nothing moves or is sent, and no host step ends in it.
 void HandOffStep::loseTime(double until) noexcept {
   site_.forces.settle();
   site_.timeline.lose(until);
@@ -52,8 +52,7 @@ void HandOffStep::loseTime(double until) noexcept {
   site_.sender.skipTo(until);
 }
 
-/// Events inside the period split it: packets, host steps that end, the end of the host's own
-/// force, sends.
+/// Events split the period: packets, ends of host steps, the end of the host's forces, sends.
 void HandOffStep::advance(double now, double end) noexcept {
   for (;;) {
     const double event = std::min({site_.peers.nextArrival(now, end), site_.timeline.announcedEnd(),
@@ -72,7 +71,7 @@ void HandOffStep::moveTo(double until) noexcept {
   site_.forces.endIfDue();
 }
 
-/// The way in.
+/// The way in: the island takes the host's changes and moves on.
 void HandOffStep::goIn(double dt, bool looks_quiet) noexcept {
   if (site_.rest.begin(looks_quiet, site_.island)) return restOn(dt);
   site_.surroundings.takeLeaving();
@@ -90,7 +89,7 @@ void HandOffStep::goIn(double dt, bool looks_quiet) noexcept {
   site_.surroundings.mirror();
 }
 
-/// The way in of a step in which nothing moves, as far as is known. Its own ticks may end that.
+/// The way in of a quiet step, in which nothing is known to move. Its own ticks may end the quiet.
 void HandOffStep::restOn(double dt) noexcept {
   site_.followHostClock(dt);
   step_end_ = site_.clock.time() + dt;
@@ -102,7 +101,7 @@ void HandOffStep::restOn(double dt) noexcept {
   site_.surroundings.mirror();
 }
 
-/// What the host did to its bodies goes to the island.
+/// Passes the host's changes of its bodies to the island.
 void HandOffStep::passHostChanges(double dt) noexcept {
   site_.bodies.forEach([&](SiteBody& body) {
     if (body.step.is_told && body.step.change.moved) moveBody(body, body.step.change);
@@ -111,8 +110,8 @@ void HandOffStep::passHostChanges(double dt) noexcept {
   site_.surroundings.followDamping();
 }
 
-/// A body that the host has put elsewhere: the island's body goes along, and so does what is kept
-/// for the host's steps to come.
+/// Moves the island's body along when the host repositions its body. Kept states for coming host
+/// steps move too.
 void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexcept {
   site_.timeline.changeAfter(site_.clock.time() + kClockTolerance, body.index,
                              [&](RigidState state) {
@@ -123,7 +122,7 @@ void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexc
   site_.hand.energy().refill();
 }
 
-/// Where bodies are at the end of the host's step.
+/// Looks up the states of all bodies at the end of the host's step.
 void HandOffStep::findEnds() noexcept {
   const std::vector<RigidState>* states = site_.timeline.findStates(step_end_);
   site_.bodies.forEach([&](SiteBody& body) {
@@ -134,7 +133,7 @@ void HandOffStep::findEnds() noexcept {
   });
 }
 
-/// The way out.
+/// The way out: the island takes solver impulses, neighbours and obstacles.
 void HandOffStep::goOut(double dt) noexcept {
   site_.clock.endStep(dt);
   site_.bodies.forEach([&](SiteBody& body) { receive(body); });

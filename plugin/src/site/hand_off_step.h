@@ -4,17 +4,18 @@
 
 namespace tandem {
 
+// clang-format off
 /// The island moves the bodies, and Bullet gets their average velocity over its step.
 ///
-///                host's thread                                asked of whoever ticks
-///   pre-tick     look: what the host did to its bodies        goIn: the island gets it and moves
-///   on
-///                hand off where they are at the step's end
-///   Bullet       steps
-///   post-tick    take back what its solver did                goOut: the island gets it, and who
-///                look around                                  comes and goes does so
+///              host's thread                          thread that ticks
+///   pre-tick   look: how the host changed its bodies  goIn: the island takes them, moves on
+///              hand off their states at the end
+///   Bullet     steps
+///   post-tick  take back its solver's impulses        goOut: the island takes them;
+///              look around                            neighbours enter and leave
 ///
-/// With a haptic thread each asking waits for it, a period at the most.
+/// With a haptic thread each request waits for the running tick, one period at most.
+// clang-format on
 class HandOffStep final : public IslandStep {
  public:
   explicit HandOffStep(SiteParts& parts);
@@ -24,7 +25,7 @@ class HandOffStep final : public IslandStep {
   void beginLive() override { lookAround(site_.clock.expectedStep()); }
   void makeUp(double now, double most) noexcept override;
   void advance(double now, double end) noexcept override;
-  /// The next hand-off tells Bullet.
+  /// Nothing to do: the next hand-off shows it in Bullet.
   void showProxy(Peer&) noexcept override {}
   void before(double dt) noexcept override;
   void after(double dt) noexcept override;
@@ -39,7 +40,7 @@ class HandOffStep final : public IslandStep {
   void takeBack(SiteBody& body) noexcept;
   void lookFarther();
   void fallQuiet();
-  // Asked of whoever ticks.
+  // In the thread that ticks, at the request of the host's thread.
   void goIn(double dt, bool looks_quiet) noexcept;
   void restOn(double dt) noexcept;
   void passHostChanges(double dt) noexcept;

@@ -5,13 +5,13 @@
 namespace tandem {
 namespace {
 
-/// A host later than this, besides what it may, has dropped the time [s].
+/// A host that is later than this, besides its stall, has dropped the time [s].
 constexpr double kLostTime = 0.5;
 
-/// A live host's clock is set on by the least lateness in so long [s].
+/// A live host's clock is advanced by the least lateness within this time [s].
 constexpr double kWatch = 1.0;
 
-/// The lateness of the host's forces falls by this part of the host's time.
+/// The lateness of the host's forces falls by this much per second of host time [s/s].
 constexpr double kLatenessDecay = 0.02;
 
 }  // namespace

@@ -6,8 +6,8 @@
 namespace tandem {
 namespace {
 
-/// Rounding leaves less than this of an account, and so does Bullet's arithmetic of a hand-off; it
-/// would keep bodies awake [N s, N m s].
+/// Momentum below this is rounding, of the account or of Bullet's hand-off; it would keep bodies
+/// awake [N s, N m s].
 constexpr double kNoMomentum = 1e-15;
 
 }  // namespace
@@ -34,7 +34,7 @@ void HostForces::pass(double dt, bool is_behind) noexcept {
   settle();
   const double window_end = clock_.time() + (is_behind ? dt : 2.0 * dt + clock_.lateness());
   const double rest = window_end - timeline_.time();
-  // Ticks that will run until the host is heard again: what is owed besides is paid over them.
+  // The rest of the owed momentum is paid over the ticks that run before the host's next step.
   const double period = timeline_.period();
   const double ticks_ahead = std::ceil((rest - kClockTolerance) / period);
   const double pay_over = std::max(ticks_ahead, 1.0) * period;

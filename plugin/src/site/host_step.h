@@ -11,28 +11,28 @@ struct Peer;
 struct SharedObject;
 struct SiteParts;
 
-/// Who moves the bodies: what a tick of the site and a step of the host do for it. One for each
-/// way: the island, with hand-off to Bullet; Bullet by impulses; Bullet by contact and constraints
-/// of its own.
+/// Strategy for moving the bodies: its part of a site's tick and of a host step. There are three:
+/// the island with hand-off to Bullet; Bullet with impulses; Bullet with its own contact and
+/// constraints.
 class HostStep {
  public:
   virtual ~HostStep() = default;
 
   /// @name Set-up; may throw.
   /// @{
-  /// Throws std::invalid_argument for a copy of an object that would be unstable.
+  /// Throws std::invalid_argument if a copy of an object of this mass [kg] would be unstable.
   virtual void checkObject(double mass) const { static_cast<void>(mass); }
-  /// Contact of a new object, or of a new proxy, with what is there already.
+  /// Sets up contact of a new object, or a new proxy, with everything added before.
   virtual void addObject(SharedObject& object) = 0;
   virtual void addProxy(Peer& peer, const Vec3& start_W) = 0;
-  /// The counterpart of a coupler of the island.
+  /// Adds the counterpart of a coupler of the island.
   virtual void addCoupler(SharedObject& object, CouplerIndex index,
                           const CouplerSettings& coupler) = 0;
-  /// After each of these, with all bodies listed.
+  /// Called after each of these, when all bodies are listed.
   virtual void finishSetUp() = 0;
-  /// From now on a thread of its own ticks.
+  /// A haptic thread ticks from now on.
   virtual void beginLive() {}
-  /// True if all is in the host's world that should be; raises kBodyMissing if not.
+  /// True if all bodies are in the host's world; raises kBodyMissing if not.
   [[nodiscard]] virtual bool areBodiesPresent() noexcept = 0;
   /// @}
 
@@ -40,13 +40,14 @@ class HostStep {
   /// @{
   /// Contact force on the hand, in W [N].
   [[nodiscard]] virtual Vec3 computeContactForce() noexcept = 0;
-  /// Moves over ticks that were left out before `now`, for `most` [s] at the most.
+  /// Moves over ticks left out before `now`, for at most `most` [s].
   virtual void makeUp(double now, double most) noexcept = 0;
-  /// The period from `now` to `end`: motion, and what arrives and is due in it.
+  /// Advances the period from `now` to `end`: motion, packets and events.
   virtual void advance(double now, double end) noexcept = 0;
-  /// True if a proxy overlaps nothing, which is known up to `unknown` [m].
+  /// True if a proxy overlaps nothing. `unknown` [m] is how far it has moved since the last search
+  /// around it.
   [[nodiscard]] virtual bool isPlaceFree(const Peer& peer, double unknown) const noexcept = 0;
-  /// A proxy has become a ghost, or has ended being one.
+  /// Shows in Bullet that a proxy became a ghost or stopped being one.
   virtual void showProxy(Peer& peer) noexcept = 0;
   /// @}
 
@@ -54,14 +55,14 @@ class HostStep {
   /// @{
   virtual void before(double dt) noexcept = 0;
   virtual void after(double dt) noexcept = 0;
-  /// Neighbours go back to the host.
+  /// Gives all neighbours back to the host.
   virtual void leaveNeighbours() {}
-  /// What stands in the host's world besides the bodies goes.
+  /// Removes everything else that the site put into the host's world.
   virtual void leaveWorld() {}
   /// @}
 };
 
-/// The strategy that the settings ask for. `parts` must outlive it.
+/// Makes the strategy for the settings. `parts` must outlive it.
 [[nodiscard]] std::unique_ptr<HostStep> makeHostStep(SiteParts& parts);
 
 }  // namespace tandem

@@ -52,7 +52,7 @@ void ImpulseStep::showProxy(Peer& peer) noexcept {
   if (!peer.proxy.sphere || !peer.proxy.sphere->isAlive()) return;
   const bool is_ghost = site_.island.isGhost(*peer.user.body);
   peer.proxy.sphere->setGhost(is_ghost);
-  // Bullet moves it from here.
+  // Bullet moves the proxy on from here.
   if (!is_ghost) peer.proxy.body.bullet->setState(site_.island.state(*peer.user.body));
 }
 

@@ -6,8 +6,8 @@
 
 namespace tandem {
 
-/// Bullet moves the bodies: with impulses under the forces of each tick's start, at the haptic
-/// rate. For comparison, and for worlds where everything runs at 1 kHz anyway.
+/// Bullet moves the bodies, with impulses of the forces at each tick's start. The host steps at the
+/// haptic rate. For comparison, and for worlds where everything runs at 1 kHz.
 class ImpulseStep final : public IslandStep {
  public:
   explicit ImpulseStep(SiteParts& parts);
@@ -28,7 +28,7 @@ class ImpulseStep final : public IslandStep {
 
   void checkStable(const char* what, double mass) const;
 
-  std::vector<Wrench> wrenches_;  ///< by body, for the coming host step
+  std::vector<Wrench> wrenches_;  ///< by body, for the next host step
 };
 
 }  // namespace tandem

@@ -3,13 +3,13 @@
 namespace tandem {
 namespace {
 
-/// So far from where was searched last everything that stands is known [m].
+/// Obstacles are known up to this distance from the place of the last search [m].
 constexpr double kKnownAround = 0.02;
 
-/// States kept besides those that a host as late as it may be asks for.
+/// Snapshots kept in addition to those that a late host may ask for.
 constexpr std::size_t kSpareMoments = 4;
 
-/// While nobody ticks what stands is looked at once in so many steps.
+/// Before the first tick, surroundings are searched once in this many host steps.
 constexpr int kStepsBetweenLooks = 64;
 
 }  // namespace
@@ -54,7 +54,7 @@ void IslandStep::leaveNeighbours() {
   site_.surroundings.giveBack();
 }
 
-/// With a haptic thread the count of ticks is not to be read here.
+/// With a haptic thread the tick count must not be read here.
 bool IslandStep::isWaiting() const noexcept {
   return !site_.desk.isOpen() && !site_.timeline.hasBegun() && site_.isBare() &&
          !site_.ticksInHostStep();

@@ -5,8 +5,8 @@
 
 namespace tandem {
 
-/// What the ways with an island have in common: contact is the island's, and proxies stand in the
-/// host's world as spheres.
+/// Shared part of the strategies with an island: the island computes contact, and proxies are
+/// spheres in the host's world.
 class IslandStep : public HostStep {
  public:
   explicit IslandStep(SiteParts& parts) : site_(parts) {}
@@ -22,14 +22,14 @@ class IslandStep : public HostStep {
   void leaveNeighbours() override;
 
  protected:
-  /// With nothing registered and nobody who ticks yet a host's step is not looked at.
+  /// True while nothing is registered and no tick has run: host steps need no work.
   [[nodiscard]] bool isWaiting() const noexcept;
-  /// The end of such a step. What stands may be moved before the first tick: it is looked at now
-  /// and then.
+  /// Ends a host step of a waiting site. Obstacles may move before the first tick, so they are
+  /// searched now and then.
   void wait(double dt);
-  /// Looks around at once, outside of a host's step.
+  /// Searches the surroundings at once, outside of a host step.
   void lookAround(double dt);
-  /// Room for the moments that a host as late as it may be asks for.
+  /// Makes room for the snapshots that a late host may ask for.
   void makeRoomFor(double dt);
 
   SiteParts& site_;

@@ -11,50 +11,54 @@
 
 namespace tandem {
 
-/// The local user's hand: its device, the haptic interface point in the island, the energy that it
-/// may get, and the force that is rendered.
+// clang-format off
+/// The local user's hand: its device, its haptic interface point (HIP) in the island, its energy
+/// account and the rendered force.
 ///
-///     read -> place (HIP) -> energy of the last tick -> force: contact -> clamp -> energy -> slew
+///     read -> place the HIP -> energy of the last tick -> contact force -> clamp -> energy -> slew
 ///     -> write
+// clang-format on
 class LocalHand {
  public:
-  /// Puts the HIP into the island. Throws tandem::Error if the device gives no position.
+  /// Adds the HIP to the island. Throws tandem::Error if the device gives no position.
   LocalHand(HapticDevice& device, const SiteSettings& settings, Island& island, bool island_moves);
 
   [[nodiscard]] BodyIndex hip() const noexcept { return hip_; }
   [[nodiscard]] const DeviceSample& sample() const noexcept { return sample_; }
-  /// True if the latest sample says where the hand is.
+  /// True if the latest sample has a usable position.
   [[nodiscard]] bool isThere() const noexcept { return sample_.valid && isFinite(sample_.hip); }
 
   void read(double now) noexcept { sample_ = device_.read(now); }
-  /// The HIP is where the hand is. If nobody knows that, it stays and pushes no further.
+  /// Moves the HIP to the hand. Without a usable sample the HIP stays and its velocity is zero.
   void place() noexcept;
-  /// The HIP goes steadily to where the hand is, for as long as ticks were left out [s].
+  /// Gives the HIP a steady velocity to the hand's position, reached after `duration` [s]. For
+  /// ticks that were left out.
   void lead(double duration) noexcept;
-  /// The work of the force of the last tick.
+  /// Adds the work of the last tick's force to the energy account.
   void countWork() noexcept;
 
-  /// Contact force on the HIP in the island [N]; computed anew when something has moved.
+  /// Contact force on the HIP in the island [N], cached while the island sleeps.
   [[nodiscard]] const Vec3& computeContactForce() noexcept;
-  /// The force of this tick. `shares_energy`: all peers keep accounts. With a `fault` it fades.
+  /// Computes the force of this tick. `shares_energy`: all peers keep accounts. With a `fault` the
+  /// force fades.
   void render(const Vec3& contact_W, bool shares_energy, bool fault) noexcept;
   void write() noexcept { device_.write(force_W_); }
-  /// No force, at once and without a slew.
+  /// Writes zero force at once, without a slew.
   void letGo() noexcept { device_.write(Vec3::Zero()); }
-  /// From now on the force fades to zero and stays there, or it may rise again.
+  /// True: the force fades to zero and stays there. False: it may rise again.
   void setFading(bool fades) noexcept { fades_ = fades; }
 
-  /// Contact force on the device as the model has it, and the force as rendered, in W [N].
+  /// Contact force of the model and the rendered force, in W [N].
   [[nodiscard]] const Vec3& contact() const noexcept { return contact_W_; }
   [[nodiscard]] const Vec3& force() const noexcept { return force_W_; }
-  /// The HIP at `time` [s], for a packet. Inside a tick a continuous device is asked again.
+  /// The HIP at `time` [s], for a packet. Inside a tick a continuous device is read again.
   [[nodiscard]] PointState pointAt(double time, double tick_start) noexcept;
 
   [[nodiscard]] EnergyPort& energy() noexcept { return energy_; }
   [[nodiscard]] const EnergyPort& energy() const noexcept { return energy_; }
   [[nodiscard]] const ForceGuard& guard() const noexcept { return guard_; }
 
-  /// After set-up all that was computed is news.
+  /// Drops the cached contact force, after set-up.
   void forgetRest() noexcept { contact_rest_.clear(); }
 
  private:
@@ -65,9 +69,9 @@ class LocalHand {
   ForceGuard guard_;
   EnergyPort energy_;
   DeviceSample sample_;
-  std::optional<Vec3> p_before_W_;  ///< where the hand was a tick ago, if that is known
+  std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
   Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
-  RestMark contact_rest_;  ///< the contact force was computed
+  RestMark contact_rest_;  ///< when the contact force was computed
   bool fades_ = false;
 };
 

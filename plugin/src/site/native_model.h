@@ -13,42 +13,42 @@ namespace tandem {
 class HapticBody;
 class SphereBody;
 
-/// A site's contact and couplers by what Bullet itself offers, in the host's own world and at the
-/// host's rate. The island then moves nothing: it keeps the states and targets that the site's tick
-/// reads and writes.
+/// Contact and couplers by Bullet's own means, in the host's world and at the host's rate. The
+/// island moves nothing: it keeps the states and targets that the site's tick reads and writes.
 ///
-/// The local hand is a kinematic sphere. With soft contact the spheres carry the gains and what
-/// they touch is rigid. Two spheres would be in series, so the hand carries only where it has
-/// something else to touch: a shared object.
+/// The local hand is a kinematic sphere. With soft contact the spheres carry the gains and other
+/// bodies are rigid. Two soft spheres would act in series, so the hand carries gains only once an
+/// object is shared.
 class NativeModel {
  public:
   NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& settings, const Vec3& hand_W);
-  /// The damping of objects is off again, as HapticBody has it.
+  /// Switches the damping of objects off again, as HapticBody sets it.
   ~NativeModel();
   NativeModel(const NativeModel&) = delete;
   NativeModel& operator=(const NativeModel&) = delete;
 
-  /// Set-up, once for each thing; may throw std::invalid_argument. Objects must outlive this; their
-  /// rigid bodies too unless they have left the world, but with joints and guides.
+  /// Set-up, once for each body; may throw std::invalid_argument. Objects must outlive this. So
+  /// must rigid bodies with joints or guides, and all others until they leave the world.
   void addObject(const HapticBody& object, double damping);
   void addProxy(BodyIndex body, const SphereBody& proxy);
-  /// A proxy that is what it was told: a kinematic sphere that stands at the state of `body`.
+  /// Adds a prescribed proxy: a kinematic sphere held at the state of `body`.
   KinematicSphere& addHeldProxy(BodyIndex body, const Vec3& p_W);
-  /// The counterpart of the island's coupler `index`, with its target.
+  /// Adds the counterpart of the island's coupler `index`, with its target.
   void addCoupler(btRigidBody& body, CouplerIndex index, CouplerSettings coupler);
 
-  /// False once somebody has taken the hand or a held proxy out of the world.
+  /// False once the hand or a held proxy was removed from the world.
   [[nodiscard]] bool isPresent() const noexcept;
 
-  /// Pre-tick: takes over the shares of couplers, contacts and damping that the island has. Rigid
-  /// contact has no gain to take a share of.
+  /// Pre-tick: takes over the island's shares of couplers, contacts and damping. Rigid contact has
+  /// no gain to scale.
   void followShares(const Island& island) noexcept;
 
-  /// Pre-tick and post-tick of a host step of dt [s], over which the hand moves to `hand_end_W`.
+  /// Pre-tick and post-tick of a host step of dt [s], in which the hand moves to `hand_end_W`.
   void beginStep(const Island& island, const Vec3& hand_end_W, double dt) noexcept;
   void endStep(double dt) noexcept;
 
-  /// Contact force on the hand: the impulses of the latest host step over its length, in W [N].
+  /// Contact force on the hand, in W [N]: the impulses of the latest host step divided by its
+  /// length.
   [[nodiscard]] const Vec3& handForce() const noexcept { return hand_force_W_; }
 
  private:

@@ -55,7 +55,7 @@ void NativeStep::showProxy(Peer& peer) noexcept {
   const BodyIndex index = *peer.user.body;
   const bool is_ghost = site_.island.isGhost(index);
   setNativeGhost(*rigid, is_ghost);
-  // Bullet moves it from here.
+  // Bullet moves the proxy on from here.
   if (!is_ghost && peer.proxy.sphere) peer.proxy.body.bullet->setState(site_.island.state(index));
 }
 
@@ -65,7 +65,7 @@ void NativeStep::before(double dt) noexcept {
   const double end = site_.clock.time() + dt;
   if (site_.ticksInHostStep()) site_.runTicksUntil(end);
   site_.clock.setStep(dt);
-  // The hand goes on from its latest sample, as it does in the island.
+  // The hand moves on from its latest sample, as it does in the island.
   const RigidState& hand = site_.island.state(site_.hand.hip());
   const double ahead = std::max(0.0, end - site_.timeline.tickStart());
   if (site_.settings.link_loss.enabled) model_->followShares(site_.island);
@@ -91,7 +91,7 @@ bool NativeStep::areBodiesPresent() noexcept {
   return site_.areBodiesPresent();
 }
 
-/// Bullet would move them on.
+/// Keeps ghosts in place; Bullet would move them.
 void NativeStep::holdGhosts() noexcept {
   for (Peer& peer : site_.peers) {
     if (!peer.proxy.sphere || !site_.island.isGhost(peer.proxy.body.index)) continue;

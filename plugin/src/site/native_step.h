@@ -8,14 +8,16 @@
 
 namespace tandem {
 
-/// Bullet moves the bodies, with contact and couplers of its own. The island keeps the states and
+// clang-format off
+/// Bullet moves the bodies, with its own contact and couplers. The island keeps the states and
 /// targets that ticks read and write.
 ///
-///   pre-tick    the hand's sphere gets its way over this step; held proxies and couplers, the
+///   pre-tick    the hand's sphere gets its path over this step; held proxies and couplers get the
 ///               states that packets brought
 ///   Bullet      moves everything
-///   post-tick   contact impulses become the force on the device until the next host step; bodies'
-///               states go to the island, where the tick finds them
+///   post-tick   contact impulses become the device's force until the next host step; the bodies'
+///               states go to the island, where the tick reads them
+// clang-format on
 class NativeStep final : public HostStep {
  public:
   explicit NativeStep(SiteParts& parts);
@@ -39,7 +41,7 @@ class NativeStep final : public HostStep {
   void holdGhosts() noexcept;
 
   SiteParts& site_;
-  std::unique_ptr<NativeModel> model_;  ///< null from the end of the host's world on
+  std::unique_ptr<NativeModel> model_;  ///< null once the host's world has ended
 };
 
 }  // namespace tandem

@@ -3,13 +3,14 @@
 
 #include "site/surroundings.h"
 
-// Whoever ticks: what the host's thread has found acts, and newcomers catch up with the island.
+// Runs in the thread that ticks: applies the results of the host's searches, and moves newcomers on
+// to the island's time.
 
 namespace tandem {
 namespace {
 
-/// A kinematic body was guessed off the host's way by a little, and gets back in this time [s].
-/// Longer leaves it off for longer; shorter hits what it touches harder.
+/// Time in which the prediction error of a kinematic body is corrected [s]. A longer time leaves
+/// the error for longer; a shorter one hits touched bodies harder.
 constexpr double kMendingTime = 0.1;
 
 }  // namespace
@@ -75,14 +76,14 @@ void Surroundings::takeNewcomers() noexcept {
   }
 }
 
-/// Newcomers come in the state of the host's time; the island may be ahead of it.
+/// Newcomers start with their state at the host's time; the island may be ahead of it.
 void Surroundings::catchUp() noexcept {
   if (newcomers_.empty()) return;
   double time = clock_.time();
   std::fill(asides_.begin(), asides_.end(), Aside{});
   readStates(time, from_states_);
   while (timeline_.time() - time > kClockTolerance) {
-    // They stop where the host's next steps end: it will ask for their states there.
+    // Stop where the host's next steps end: the host asks for their states there.
     const double stop = std::min(timeline_.time(), timeline_.nextKeptAfter(time + kClockTolerance));
     readStates(stop, to_states_);
     island_.catchUp(newcomers_, from_states_, to_states_, stop - time, asides_);
@@ -97,7 +98,7 @@ void Surroundings::catchUp() noexcept {
     hand_.energy().countNeighbour(island_.body(b), island_.state(b), 1.0);
   }
   newcomers_.clear();
-  // Whom they touched in the past gets the momentum now.
+  // Bodies that newcomers touched in the past receive the momentum now.
   bodies_.forEach([&](SiteBody& body) {
     const Aside& aside = asides_[static_cast<std::size_t>(body.index)];
     const RigidState& now = island_.state(body.index);
@@ -107,7 +108,7 @@ void Surroundings::catchUp() noexcept {
   });
 }
 
-/// States of all bodies at a moment.
+/// Reads the states of all bodies at `time` [s].
 void Surroundings::readStates(double time, std::vector<RigidState>& states) noexcept {
   timeline_.readStates(time, states);
   for (const Neighbour& neighbour : neighbours_)
@@ -115,7 +116,7 @@ void Surroundings::readStates(double time, std::vector<RigidState>& states) noex
       states[static_cast<std::size_t>(neighbour.body.index)] = neighbour.driven->at(time);
 }
 
-/// What springs that are stretched now can add to the speed of any body at the most [m/s]: a spring
+/// Upper bound of the speed that stretched springs can add to any body [m/s]. A spring of stiffness
 /// K stretched by x moves m no faster than x sqrt(K / m).
 double Surroundings::computeSpeedInSprings() const noexcept {
   double most = 0.0;
@@ -140,7 +141,7 @@ double Surroundings::computeSpeedInSprings() const noexcept {
   return most;
 }
 
-/// The host may change a body's damping while the island holds it.
+/// Updates damping that the host changed while the island holds the body.
 void Surroundings::followDamping() noexcept {
   for (Neighbour& neighbour : neighbours_) {
     if (!neighbour.body.is_held || !neighbour.followDamping()) continue;
@@ -150,9 +151,9 @@ void Surroundings::followDamping() noexcept {
   }
 }
 
-/// The step that kinematic bodies were seen in is still to come for an island whose ticks run
-/// inside of it: then they are there in time. Else it is over, what was guessed was wrong by a
-/// little, and is mended slowly.
+/// Steers kinematic bodies to the host's latest pose. If the ticks of the host's step are still to
+/// run, they arrive in time. Otherwise the step is over, and the small prediction error is
+/// corrected slowly.
 void Surroundings::steerDriven(bool ticks_in_step) noexcept {
   for (Neighbour& neighbour : neighbours_) {
     if (!neighbour.driven || neighbour.is_new || neighbour.body.is_leaving) continue;

@@ -11,10 +11,10 @@ class btRigidBody;
 
 namespace tandem {
 
-/// A body of the host that all peers have a copy of.
+/// A body of the host of which every peer has a copy.
 struct SharedObject {
-  btRigidBody* rigid = nullptr;        ///< the host's
-  std::unique_ptr<HapticBody> bullet;  ///< what `body` points to
+  btRigidBody* rigid = nullptr;        ///< the host's body
+  std::unique_ptr<HapticBody> bullet;  ///< `body` points to it
   SiteBody body;
   ObjectId id = 0;
   double damping = 0.0;  ///< of this copy [N s/m]

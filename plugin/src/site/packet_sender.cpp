@@ -6,12 +6,12 @@
 namespace tandem {
 namespace {
 
-/// Slower bodies do not move [m/s]; a free island has the same limit.
+/// Slower bodies count as still [m/s]; a free island uses the same limit.
 constexpr double kStill = 1e-9;
 
-/// Without motion for so long, a site is idle [s].
+/// A site without motion for this long is idle [s].
 constexpr double kIdleAfter = 0.5;
-/// States that say so at the full rate, before they become rare: some may be lost.
+/// Idle packets sent at the full rate before packets become rare: some may be lost.
 constexpr int kIdleNotices = 5;
 
 bool isSame(const RigidState& a, const RigidState& b) noexcept {
@@ -63,7 +63,7 @@ void PacketSender::lookForIdleness(double now) noexcept {
   if (was_idle && !is_idle_) send(now);
 }
 
-/// A guided island never sleeps: its maps cost the same whatever moves.
+/// A guided island never sleeps, because its maps cost the same whatever moves.
 bool PacketSender::isStill() const noexcept {
   if (!settings_.guide) return island_.isAsleep();
   for (BodyIndex b = 0; b < island_.bodyCount(); ++b)

@@ -10,9 +10,9 @@
 
 namespace tandem {
 
-/// Sends this site's state to all peers: packet n leaves at start + n / packet_rate, with the
-/// island's state of exactly that moment. While nothing moves or touches packets are rare, and say
-/// so. Real-time safe.
+/// Sends this site's state to all peers. Packet n leaves at start + n / packet_rate with the
+/// island's state of exactly that moment. While nothing moves or touches, packets are rare and
+/// marked idle. Real-time safe.
 class PacketSender {
  public:
   PacketSender(const SiteSettings& settings, const Island& island, const Timeline& timeline,
@@ -25,14 +25,14 @@ class PacketSender {
   [[nodiscard]] double due() const noexcept {
     return timeline_.start() + static_cast<double>(packets_due_) / settings_.packet_rate;
   }
-  /// Sends what is due until then. `is_exact`: the island is at the moment of each packet, else at
-  /// `until` for all.
+  /// Sends the packets due by `until` [s]. `is_exact`: the island is at the moment of each packet.
+  /// Otherwise its state is sent as that of `until`.
   void sendIfDue(double until, bool is_exact) noexcept;
-  /// Nothing is sent for time that was lost.
+  /// Skips the packets of lost time.
   void skipTo(double until) noexcept;
 
-  /// Once a tick: after half a second without motion and touch packets become rare. The first
-  /// motion is sent at once.
+  /// Called once a tick. Packets become rare after half a second without motion and touch. The
+  /// first motion is sent at once.
   void lookForIdleness(double now) noexcept;
 
  private:
@@ -47,12 +47,12 @@ class PacketSender {
   Peers& peers_;
   SiteLog& log_;
   std::uint64_t packets_due_ = 0, sequence_ = 0;
-  std::uint64_t idle_stride_;  ///< one in so many is sent while they are rare
-  int idle_notices_ = 0;       ///< to be sent before packets become rare
+  std::uint64_t idle_stride_;  ///< one packet in this many is sent while rare
+  int idle_notices_ = 0;       ///< idle packets left to send at the full rate
   bool is_idle_ = false;
-  double busy_until_ = 0.0;  ///< since then nothing has moved or touched [s]
+  double busy_until_ = 0.0;  ///< last time of motion or touch [s]
   PacketTurns turns_;
-  std::vector<RigidState> sent_;  ///< by object, as in the latest packet that had it
+  std::vector<RigidState> sent_;  ///< by object, as last sent
 };
 
 }  // namespace tandem

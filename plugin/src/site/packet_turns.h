@@ -7,10 +7,10 @@
 
 namespace tandem {
 
-/// Which shared objects go into a packet, where there are more than fit: those that have moved
-/// since they were sent last, and the others where room is left. Both take turns, and one place is
-/// always the others': so none waits for ever, and one that came to rest while its last packet was
-/// lost is told again.
+/// Chooses the shared objects of a packet when not all fit. Objects that moved since they were last
+/// sent go first, and the others fill the rest. Both groups take turns. One place is always left to
+/// the others, so none waits forever. An object that came to rest while its last packet was lost is
+/// also sent again.
 class PacketTurns {
  public:
   /// Allocates.
@@ -32,7 +32,8 @@ class PacketTurns {
   }
 
  private:
-  /// Once round from `next`, which goes behind the last one taken, until so many are chosen.
+  /// Goes round once from `next`, until `until` objects are chosen. `next` then follows the last
+  /// one taken.
   template <typename IsWanted>
   void take(std::size_t& next, std::size_t until, IsWanted is_wanted) noexcept {
     const std::size_t count = is_chosen_.size(), first = next;

@@ -14,33 +14,33 @@
 
 namespace tandem {
 
-/// A remote user at this site: what it said, and what stands for it here.
+/// A remote user at this site: its packets and its representation here.
 struct Peer {
   PeerId id{};
-  int place = 0;  ///< among the peers, in the order of connect()
+  int place = 0;  ///< index among the peers, in the order of connect()
   Link* link = nullptr;
 
-  // What it said.
-  std::optional<Arrival> pending;  ///< fetched, not yet taken in
+  // Packets received.
+  std::optional<Arrival> pending;  ///< fetched, not yet applied
   StatePacket latest;
-  bool is_heard = false;           ///< `latest` is a packet
-  std::optional<double> reported;  ///< energy that it has put in, as heard last [J]
+  bool is_heard = false;           ///< `latest` holds a packet
+  std::optional<double> reported;  ///< energy it last reported to have put in [J]
 
-  // What stands for it here.
+  // Its representation here.
   RemoteUser user;
-  UserTrack track;  ///< of the user, as the scheme is told
+  UserTrack track;  ///< user state given to the scheme
   Proxy proxy;
   std::vector<Tie> ties;  ///< by object
 
-  // What its silence has left of that.
+  // Its link, and the effects of silence.
   LinkHealth health{LinkLossSettings{}, 1.0};
-  LinkState acted_on = LinkState::kLive;     ///< state of `health` that was acted on last
-  std::optional<std::uint64_t> rejoined_by;  ///< packet with which it came back last
-  bool is_detouring = false;                 ///< some object's target is not where its copy is
-  bool is_restrained = false;                ///< something is not as with a live peer
-  Vec3 searched_W = Vec3::Zero();            ///< around here what is near the proxy is known
+  LinkState acted_on = LinkState::kLive;     ///< state of `health` that was last applied
+  std::optional<std::uint64_t> rejoined_by;  ///< packet that ended its last silence
+  bool is_detouring = false;                 ///< some object's target is on a detour
+  bool is_restrained = false;                ///< gains or targets differ from a live peer's
+  Vec3 searched_W = Vec3::Zero();            ///< where obstacles near the proxy were last searched
 
-  /// False for an object that the peer has not told of since it came back.
+  /// False for an object that the peer has not sent since it came back.
   [[nodiscard]] bool isRenewed(const Tie& tie) const noexcept {
     return !rejoined_by || (tie.sequence && *tie.sequence >= *rejoined_by);
   }

@@ -3,7 +3,7 @@
 #include "site/host_step.h"
 #include "site/peers.h"
 
-// What is left of a remote peer that falls silent. LinkHealth decides, here it is applied.
+// Reduces the influence of a silent peer. LinkHealth decides; this file applies it.
 
 namespace tandem {
 
@@ -47,8 +47,9 @@ void Peers::countLinks() noexcept {
   }
 }
 
-/// Nothing is where the proxy is, as far as that is known, and objects are where the user has them.
-/// Else the proxy might come in on the wrong side of one, and hold it off its target.
+/// True if the proxy's place is free, as far as that is known, and objects are where the user has
+/// them. Otherwise the proxy might return on the wrong side of an object and hold it off its
+/// target.
 bool Peers::mayComeIn(const Peer& peer, const HostStep& host_step) const noexcept {
   if (!peer.user.body) return true;
   const bool may_yet_agree = peer.health.objectShare() < 1.0 || peer.is_detouring;
@@ -66,7 +67,7 @@ bool Peers::doCopiesAgree(const Peer& peer) const noexcept {
       });
 }
 
-/// A ghost that may come back is where the user is.
+/// Moves a ghost that may return to the user's position.
 void Peers::carryGhost(const Peer& peer, double now) noexcept {
   if (!peer.user.body) return;
   const PointState user = peer.track.at(now, peer.health.velocityShare());
@@ -76,8 +77,8 @@ void Peers::carryGhost(const Peer& peer, double now) noexcept {
   island_.setState(*peer.user.body, state);
 }
 
-/// The velocities of what shared objects are pulled to die away. A target of another packet than
-/// the latest keeps what it has lost already.
+/// Slows the targets of shared objects while the peer is silent. A target keeps the slowing that it
+/// already has, until a packet renews it.
 void Peers::slowTargets(Peer& peer) noexcept {
   const double share = peer.health.velocityShare();
   for (Tie& tie : peer.ties) {

@@ -77,7 +77,7 @@ void Peers::takeIn(Peer& peer, const Arrival& arrival, double time) noexcept {
   ++(has_news ? log_.counters.packets_taken : log_.counters.packets_stale);
 }
 
-/// A state newer than all before.
+/// Applies a user state that is newer than all before.
 void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
   LinkHealth& health = peer.health;
   const double silence = health.isOverdue(time) ? health.computeAge(time) : 0.0;
@@ -91,9 +91,9 @@ void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
   scheme_.follow(island_, peer.user, peer.track.at(time, 1.0));
 }
 
-/// Only what a packet says of energy beyond the one before counts. The first after a silence says
-/// where the peer is, not what it did meanwhile. Of three sites that do not all hear each other,
-/// one would see what another took and not what the third gave: then takings do not count.
+/// Adds the change of the reported energy since the packet before. The first packet after a silence
+/// only sets the reference. If links fail among three sites, one might see what another took but
+/// not what the third gave. Takings then do not count.
 void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
   const std::optional<double> before = std::exchange(peer.reported, packet.port_energy);
   if (!before || !packet.port_energy) return;
@@ -104,7 +104,7 @@ void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
   if (more > 0.0 || std::all_of(peers_.begin(), peers_.end(), is_live)) energy_.addReported(more);
 }
 
-/// A packet that was overtaken may still have the newest state of some object.
+/// An overtaken packet may still have the newest state of some object. True if it has one.
 bool Peers::hearObjects(Peer& peer, const StatePacket& packet) noexcept {
   bool has_news = false;
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {

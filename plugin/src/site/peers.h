@@ -13,15 +13,17 @@ namespace tandem {
 class EnergyPort;
 class HostStep;
 
-/// The remote users: takes in what they say and follows what their silence leaves.
+// clang-format off
+/// The remote users: applies their packets and reduces their influence while they are silent.
 ///
-///   object ties       share of K and B; a target not renewed since the peer came back has none
-///   the proxy         share of its coupler and of all its contacts; damping while they fade
-///   lost, waiting     the proxy is a ghost, in the island and in Bullet
-///   heard again       objects are led to where the peer has them, so that no spring is stretched;
-///                     the ghost is carried to where the user is, and let in where nothing is
+///   object ties    a share of K and B; zero for a target not renewed since the peer came back
+///   the proxy      a share of its coupler and contacts, with damping while they fade
+///   lost, waiting  the proxy is a ghost, in the island and in Bullet
+///   heard again    targets of objects move to the peer's copies, so that no spring is stretched;
+///                  the ghost follows the user and returns where its place is free
 ///
-/// Nothing of it is looked at while a peer is live. For whoever ticks; real-time safe but add().
+/// Live peers skip all of this. For the thread that ticks; real-time safe except add().
+// clang-format on
 class Peers {
  public:
   Peers(const SiteSettings& settings, Island& island, Bodies& bodies, EnergyPort& energy,
@@ -36,28 +38,28 @@ class Peers {
   [[nodiscard]] auto begin() const noexcept { return peers_.begin(); }
   [[nodiscard]] auto end() const noexcept { return peers_.end(); }
 
-  /// Set-up. The scheme makes what stands for the user in the island.
+  /// Set-up. The scheme adds the user's representation to the island.
   [[nodiscard]] Peer make(PeerId id, Link& link, const Vec3& start_W);
   void add(Peer&& peer) { peers_.push_back(std::move(peer)); }
-  /// Set-up: ties an object to the copies of peers that it is not tied to yet. Calls `made` with
-  /// the index and settings of each coupler.
+  /// Set-up: ties an object to peers' copies that it is not tied to yet. Calls `made` with the
+  /// index and settings of each coupler.
   template <typename Made>
   void tie(const SharedObject& object, Made made);
 
-  /// When the next packet arrives that is due before `until` [s]; `now` is the tick's start.
+  /// Arrival time of the next packet that is due before `until` [s]; `now` is the tick's start.
   [[nodiscard]] double nextArrival(double now, double until) noexcept;
   void takeInUntil(double time, double now) noexcept;
   void send(const StatePacket& packet, double time) noexcept {
     for (Peer& peer : peers_) peer.link->send(packet, time);
   }
 
-  /// Once a tick. `host_step` shows in Bullet what changes of a proxy.
+  /// Called once a tick. `host_step` shows changes of a proxy in Bullet.
   void followLinks(double now, double period, HostStep& host_step) noexcept;
 
-  /// Around where proxies are now all that stands is known.
+  /// Notes that all obstacles around the proxies' present positions are known.
   void noteSearched() noexcept;
 
-  /// True if there are peers, and all that were heard keep accounts of energy.
+  /// True if there are peers and all that were heard keep energy accounts.
   [[nodiscard]] bool keepAccounts() const noexcept;
 
  private:

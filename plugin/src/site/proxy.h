@@ -8,13 +8,13 @@
 
 namespace tandem {
 
-/// The Bullet body of a remote user. Empty where the scheme has none.
+/// The Bullet body of a remote user. Empty if the scheme has none.
 struct Proxy {
-  std::unique_ptr<SphereBody> sphere;  ///< moved by forces
-  KinematicSphere* held = nullptr;     ///< in its place in a native model, if it is what it is told
-  SiteBody body;                       ///< of the sphere
+  std::unique_ptr<SphereBody> sphere;  ///< if forces move it
+  KinematicSphere* held = nullptr;     ///< if prescribed, in a native model
+  SiteBody body;                       ///< island body of the sphere
 
-  /// Null where there is none, and where the host has deleted it.
+  /// Null if there is none or the host has deleted it.
   [[nodiscard]] btRigidBody* findRigid() const noexcept {
     if (held) return held->isInWorld() ? &held->rigid() : nullptr;
     return sphere && sphere->isAlive() ? &sphere->rigid() : nullptr;

@@ -5,10 +5,10 @@
 namespace tandem {
 namespace {
 
-/// A body that has stood for so many host steps may sleep.
+/// A body may sleep after standing still for this many host steps.
 constexpr int kStepsToPark = 4;
 
-/// Bodies at rest do not stand on what is farther away than this [m].
+/// Objects farther away than this do not support a body at rest [m].
 constexpr double kWatchMargin = 0.04;
 
 }  // namespace

@@ -7,11 +7,12 @@
 
 namespace tandem {
 
-/// A moment at which an island slept. It tells later whether anything has changed since: a changed
-/// state wakes the island, and only an advance that raises its revision lets it sleep again.
+/// Marks a moment at which an island slept, and tells later whether anything has changed since. A
+/// changed state wakes the island, and it can only sleep again after an advance that raises its
+/// revision.
 class RestMark {
  public:
-  /// Now, if the island is asleep; else never.
+  /// Marks the present if the island sleeps; otherwise clears the mark.
   void set(const Island& island) noexcept {
     revision_ = island.isAsleep() ? island.revision() : kNever;
   }

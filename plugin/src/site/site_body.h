@@ -16,22 +16,22 @@ struct Momentum {
   }
 };
 
-/// Momentum that an island body got at a time that the host has not come to yet.
+/// Momentum that an island body received at a time that the host has not reached yet.
 struct LateMomentum {
   double time = 0.0;  ///< of the island [s]
   Momentum momentum;
 };
 
-/// What the host does to a body of the island by forces and impulses. Kept by HostForces.
+/// Forces and impulses of the host on a body of the island. Kept by HostForces.
 struct HostLoad {
-  Vec3 f_gravity_W = Vec3::Zero();                        ///< weight, always on the island body
-  Vec3 f_host_W = Vec3::Zero(), t_host_W = Vec3::Zero();  ///< the host's own, on it now
-  Momentum owed;                   ///< of the host's forces, still to be given
-  std::vector<LateMomentum> late;  ///< what Bullet's state does not have yet; room is reserved
+  Vec3 f_gravity_W = Vec3::Zero();                        ///< weight, always applied
+  Vec3 f_host_W = Vec3::Zero(), t_host_W = Vec3::Zero();  ///< host force applied now
+  Momentum owed;                                          ///< of the host's forces, not yet given
+  std::vector<LateMomentum> late;                         ///< not yet in Bullet's state; reserved
 
   /// Allocates.
   void makeRoom() { late.reserve(kMostLate); }
-  /// Without room the latest two count as one.
+  /// Without room it is added to the latest entry.
   void note(const LateMomentum& momentum) noexcept;
   /// True if no force of the host acts and none is owed.
   [[nodiscard]] bool isSettled() const noexcept {
@@ -42,30 +42,30 @@ struct HostLoad {
   static constexpr std::size_t kMostLate = 64;
 };
 
-/// A body in the present step of the host, where the island hands it off. Kept by HandOffStep.
+/// A body's hand-off in the present host step. Kept by HandOffStep.
 struct HandOver {
-  // Seen by the host's thread on the way in.
-  bool is_told = false;  ///< `change` and `f_gravity_W` are news
+  // Read by the host's thread on the way in.
+  bool is_told = false;  ///< `change` and `f_gravity_W` are new
   HostChange change;
   Vec3 f_gravity_W = Vec3::Zero();
   // Answered by the island.
   RigidState end;         ///< at the end of the step
-  bool is_ghost = false;  ///< meets nothing then
+  bool is_ghost = false;  ///< collides with nothing
   bool may_park = false;  ///< the host's forces are settled
-  // Seen by the host's thread on the way out.
-  bool stands = false;          ///< where it was a step ago
-  bool was_parked = false;      ///< when Bullet's step ended
-  bool was_near_awake = false;  ///< parked, but Bullet woke it: something awake is near
-  Momentum hit;                 ///< by Bullet's solver
-  int steps_stood = 0;          ///< in which nothing moved or hit it
+  // Read by the host's thread on the way out.
+  bool stands = false;          ///< it is where it was a step ago
+  bool was_parked = false;      ///< parked when Bullet's step ended
+  bool was_near_awake = false;  ///< parked, but Bullet woke it: an awake body is near
+  Momentum hit;                 ///< impulse of Bullet's solver
+  int steps_stood = 0;          ///< host steps without motion or impact
 };
 
 /// A btRigidBody whose motion the island decides.
 struct SiteBody {
-  HapticBody* bullet = nullptr;  ///< null before it is held and after the end of the host's world
+  HapticBody* bullet = nullptr;  ///< null while not held, and after the host's world
   BodyIndex index = 0;
-  bool is_held = false;     ///< the island moves it; neighbours come and go
-  bool is_leaving = false;  ///< for the host's thread: about to be given back
+  bool is_held = false;     ///< the island moves it; may change for neighbours
+  bool is_leaving = false;  ///< about to be given back; for the host's thread
   RigidState seen;          ///< Bullet's state for the haptic thread, which must not read Bullet
   HostLoad load;
   HandOver step;

@@ -9,15 +9,15 @@ void Site::Impl::beforeHostStep(double dt) noexcept {
 
 void Site::Impl::afterHostStep(double dt) noexcept { host_step->after(dt); }
 
-/// The host destroys its world while a site is attached. Everything is given back in that very
-/// call, while bodies and broadphase are still there; from then on nothing of the world is touched.
+/// The host destroys its world while a site is attached. This call gives everything back while
+/// bodies and broadphase still exist. The world is not touched afterwards.
 void Site::Impl::hostWorldEnds() noexcept {
   log.raiseFromHost(kWorldGone);
   host_step->leaveNeighbours();
   keepLastLook();
   surroundings.forgetWorld();
 
-  // What gives back when it ends. Ticks know nothing of it when it does.
+  // These restore Bullet's bodies when destroyed. By then no tick refers to them.
   std::vector<std::unique_ptr<HapticBody>> shared;
   std::vector<std::unique_ptr<SphereBody>> spheres;
   shared.reserve(bodies.objects.size());
@@ -39,7 +39,7 @@ void Site::Impl::hostWorldEnds() noexcept {
   shared.clear();
 }
 
-/// Bodies as the host had them at last, and what there was to be said about them.
+/// Keeps the last state of each body and its warnings.
 void Site::Impl::keepLastLook() {
   bodies.forEach([&](SiteBody& body) {
     log.warnings.insert(log.warnings.end(), body.bullet->warnings().begin(),

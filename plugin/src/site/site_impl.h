@@ -7,10 +7,12 @@
 
 namespace tandem {
 
-/// A site: its parts, and the strategy by which the host's steps and the ticks share the motion.
+// clang-format off
+/// A site: its parts, and the strategy by which host steps and ticks move the bodies.
 ///
 ///     tick        device sample -> packets -> force -> device; then the island moves on
-///     host step   the host's changes -> island -> Bullet -> what its solver did -> island
+///     host step   the host's changes -> island -> Bullet -> its solver's impulses -> island
+// clang-format on
 struct Site::Impl final : HostStepListener, SiteParts {
   Impl(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
        BulletAbi abi);
@@ -19,7 +21,7 @@ struct Site::Impl final : HostStepListener, SiteParts {
   // Set-up: site_set_up.cpp
   ObjectId share(btRigidBody& rigid, double damping);
   void connect(PeerId id, Link& link, const Vec3& start_W);
-  /// From now on a thread of its own ticks.
+  /// A haptic thread ticks from now on.
   void beginLive();
 
   // The tick: site_tick.cpp

@@ -16,17 +16,17 @@ namespace tandem {
 class LocalHand;
 class Peers;
 
-/// Status bits that stay, and stop the island.
+/// Status bits that stay set and stop the island.
 inline constexpr std::uint32_t kForGood = kBodyMissing | kStateNotFinite | kWorldGone;
 
-/// What a site reports: status bits, counters, the hash of its states, a recording, warnings.
+/// Reports of a site: status bits, counters, a hash of its states, a recording, warnings.
 class SiteLog {
  public:
   SiteCounters counters;
   Recording* recording = nullptr;
-  std::vector<std::string> warnings;  ///< of bodies that the site has let go
+  std::vector<std::string> warnings;  ///< of bodies that the site released
 
-  // Status. The haptic thread raises bits of the present tick, the host's thread bits that stay.
+  // The haptic thread raises bits of the present tick; the host's thread raises bits that stay.
   void startTick() noexcept { now_ = (ever_ | of_host_) & kForGood; }
   void raise(std::uint32_t bits) noexcept { now_ |= bits; }
   std::uint32_t endTick() noexcept {
@@ -38,10 +38,10 @@ class SiteLog {
   [[nodiscard]] bool isWorldGone() const noexcept { return (of_host_ & kWorldGone) != 0; }
   /// True if this tick has no usable force: the force fades.
   [[nodiscard]] bool hasFault() const noexcept { return (now_ & (kDeviceInvalid | kForGood)) != 0; }
-  /// True if the island stands still for good.
+  /// True if the island has stopped for good.
   [[nodiscard]] bool hasStopped() const noexcept { return (now_ & kForGood) != 0; }
 
-  /// The states of the island at the start of a tick, where something has moved.
+  /// Hashes the states at the start of a tick, if anything has moved.
   void addToHash(double now, const Vec3& force_W, const Island& island) noexcept;
   [[nodiscard]] std::uint64_t hash() const noexcept { return hash_.value(); }
 
@@ -50,7 +50,7 @@ class SiteLog {
   void recordArrival(int peer, const Arrival& arrival) noexcept {
     if (recording) recording->addArrival({peer, arrival});
   }
-  /// `reads_bullet`: no other thread steps the world now.
+  /// `reads_bullet`: Bullet may be read, as no other thread steps the world now.
   void recordTick(double now, const LocalHand& hand, const Bodies& bodies, const Peers& peers,
                   const Island& island, bool reads_bullet) noexcept;
 
@@ -61,11 +61,11 @@ class SiteLog {
   std::uint32_t now_ = kTickOk, ever_ = kTickOk;
   std::atomic<std::uint32_t> of_host_{kTickOk};
   StateHash hash_;
-  RestMark hash_rest_;  ///< its states went into the hash
+  RestMark hash_rest_;  ///< when states last went into the hash
   std::vector<BodyRecord> objects_, proxies_;
 };
 
-/// True if all states that may have changed are numbers.
+/// True if the states of all awake bodies are finite.
 [[nodiscard]] bool areAwakeFinite(const Island& island) noexcept;
 
 }  // namespace tandem

@@ -8,8 +8,8 @@
 
 namespace tandem {
 
-/// The parts of a site. Each owns its state; data flow through a tick and a host's step from the
-/// first to the last.
+/// The parts of a site. Each owns its state. In a tick and in a host step, data flow from the first
+/// part to the last.
 struct SiteParts {
   SiteParts(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
             BulletAbi abi, HostStepListener& listener);
@@ -17,15 +17,15 @@ struct SiteParts {
   SiteParts& operator=(const SiteParts&) = delete;
   virtual ~SiteParts() = default;
 
-  /// One haptic period from `now`. Of ticks that were left out at most `most_made_up` is moved over
-  /// [s].
+  /// Runs one haptic period from `now`. Moves over ticks that were left out, for at most
+  /// `most_made_up` [s].
   virtual std::uint32_t tick(double now, double most_made_up) noexcept = 0;
 
   /// Runs the ticks that start before `time`.
   void runTicksUntil(double time) noexcept;
-  /// The host's clock for its step of `dt`, which has just begun.
+  /// Updates the host's clock for its step of `dt`, which has just begun.
   void followHostClock(double dt) noexcept;
-  /// A step for which a body is missing: the hand still gets its fading force.
+  /// Passes a host step in which a body is missing: the hand still gets its fading force.
   void passStepWithout(double dt) noexcept;
   /// True if all bodies are in the host's world; raises kBodyMissing if not.
   bool areBodiesPresent() noexcept;
@@ -33,9 +33,9 @@ struct SiteParts {
   [[nodiscard]] bool ticksInHostStep() const noexcept {
     return settings.tick_source == TickSource::kHostStep;
   }
-  /// Nothing shared and nobody connected: a hand alone.
+  /// True if nothing is shared and no peer is connected: only the hand exists.
   [[nodiscard]] bool isBare() const noexcept { return bodies.objects.empty() && peers.isEmpty(); }
-  /// The island moves the bodies, and Bullet gets them by hand-off.
+  /// True if the island moves the bodies and hands them off to Bullet.
   [[nodiscard]] bool handsOff() const noexcept {
     return settings.contact_model == ContactModel::kIsland &&
            settings.injection == Injection::kHandoff;
@@ -43,7 +43,7 @@ struct SiteParts {
 
   const SiteSettings settings;
   SiteLog log;
-  IslandDesk desk;  ///< where the host's thread asks for what belongs to whoever ticks
+  IslandDesk desk;  ///< runs the host thread's requests where ticks run
   HostWorld host_world;
   Island island;
   Timeline timeline;
@@ -57,7 +57,7 @@ struct SiteParts {
   Rest rest;
 };
 
-/// Ticks that were left out are moved over by the next one, for so long at the most [s].
+/// The next tick moves over ticks that were left out, for at most this long [s].
 inline constexpr double kMostMadeUp = 0.05;
 
 }  // namespace tandem

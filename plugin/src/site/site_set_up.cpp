@@ -8,8 +8,8 @@
 namespace tandem {
 namespace {
 
-/// A live host is expected to ask for nothing that is longer ago than this, besides its stalls [s],
-/// and to step no faster than this [Hz].
+/// Limits of a live host: the oldest state it asks for, besides stalls [s], and its fastest step
+/// rate [Hz].
 constexpr double kLongestHorizon = 0.25, kFastestHost = 240.0;
 constexpr double kMostMoments = 2048.0;
 
@@ -21,7 +21,7 @@ Site::Impl::Impl(const SiteSettings& wanted, btDiscreteDynamicsWorld& world, Hap
   finishSetUp();
 }
 
-// Proxies take the filters of their contacts along.
+// Proxies remove their contact filters themselves.
 Site::Impl::~Impl() { host_step->leaveNeighbours(); }
 
 void Site::Impl::checkOpenToSetUp() {
@@ -53,7 +53,7 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
   checkOpenToSetUp();
   checkShareable(rigid);
   const Shape shape = getShareableShape(rigid);
-  host_step->leaveNeighbours();  // it may be among them
+  host_step->leaveNeighbours();  // the body may be a neighbour
 
   SharedObject object;
   object.id = static_cast<ObjectId>(bodies.objects.size());
@@ -133,7 +133,7 @@ void Site::Impl::listBodies() {
 void Site::Impl::beginLive() {
   host_step->beginLive();
   bodies.forEach([](SiteBody& body) { body.seen = body.bullet->state(); });
-  // A live host's steps come as they like: room for all that it may ask for, made now.
+  // A live host's steps are irregular, so room for all states that it may ask for is made now.
   const double moments = (kLongestHorizon + settings.host_stall) * kFastestHost;
   timeline.makeRoom(static_cast<std::size_t>(std::min(moments, kMostMoments)));
 }

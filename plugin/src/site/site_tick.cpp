@@ -18,7 +18,7 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
   peers.takeInUntil(now, now);
   peers.followLinks(now, timeline.period(), *host_step);
 
-  // Force of the tick: that of its start.
+  // The force of a tick is computed from its start.
   hand.render(host_step->computeContactForce(), peers.keepAccounts(), log.hasFault());
   log.countForces(hand);
   log.recordTick(now, hand, bodies, peers, island, !desk.isOpen());
@@ -34,7 +34,7 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
   return log.endTick();
 }
 
-/// Time begins with the first tick.
+/// Site time begins with the first tick.
 void Site::Impl::begin(double now) noexcept {
   timeline.begin(now, clock.begin(now));
   forces.skip();

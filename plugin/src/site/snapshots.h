@@ -9,9 +9,9 @@
 
 namespace tandem {
 
-/// States of all island bodies at the moments where a host step ends: a tick may straddle such a
-/// moment, and a host that is late asks long after it. Keeps the last ones, as many as there is
-/// room for. Moments of an island at rest share one copy.
+/// States of all island bodies at the ends of host steps. Such a moment may lie inside a tick, and
+/// a late host asks for it long after. Keeps as many of the latest moments as there is room for.
+/// Moments of an island at rest share one copy.
 class Snapshots {
  public:
   Snapshots() : ring_(8) {}
@@ -22,7 +22,7 @@ class Snapshots {
     for (Snapshot& s : ring_) s.states.resize(count);
   }
 
-  /// Room for at least this many moments; those that are kept stay. May allocate.
+  /// Makes room for at least this many moments and keeps the present ones. May allocate.
   void makeRoom(std::size_t moments) {
     if (moments <= ring_.size()) return;
     std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(newest_) + 1,
@@ -33,26 +33,26 @@ class Snapshots {
     newest_ = ring_.size() - 1;
   }
 
-  /// Moments that are kept.
+  /// Number of moments that fit.
   [[nodiscard]] std::size_t room() const noexcept { return ring_.size(); }
 
-  /// Room for the states at `time` [s]; overwrites the oldest.
+  /// Returns the vector to fill with the states at `time` [s]; overwrites the oldest.
   std::vector<RigidState>& add(double time) noexcept {
     Snapshot& s = next(time);
     s.is_rest = false;
     return s.states;
   }
 
-  /// Room for the states of an island that has come to rest.
+  /// Returns the vector to fill with the states of an island that has come to rest.
   std::vector<RigidState>& startRest() noexcept {
     for (Snapshot& s : ring_) giveOwnStates(s);
     return rest_states_;
   }
 
-  /// The states of the latest rest, at `time` [s].
+  /// Adds the states of the latest rest as those at `time` [s].
   void addRest(double time) noexcept { next(time).is_rest = true; }
 
-  /// The earliest moment kept that is later than `time`; infinity if there is none.
+  /// The earliest kept moment later than `time` [s]; infinity if there is none.
   [[nodiscard]] double nextAfter(double time) const noexcept {
     double next = std::numeric_limits<double>::infinity();
     for (const Snapshot& s : ring_)
@@ -71,12 +71,12 @@ class Snapshots {
     return nullptr;
   }
 
-  /// A moment that was kept; no states: there is none.
+  /// A kept moment; `states` is null if there is none.
   struct Moment {
     double time = 0.0;
     const std::vector<RigidState>* states = nullptr;
   };
-  /// The latest moment kept that is not later than `time`, and the earliest that is.
+  /// The latest kept moment up to `time`, and the earliest one after it.
   [[nodiscard]] Moment latestUntil(double time) noexcept {
     return pick([&](double t) { return t <= time; }, [](double t, double u) { return t > u; });
   }

@@ -5,19 +5,19 @@
 
 #include "tandem/bullet_bridge/shapes.h"
 
-// The host's thread: what is near, and who comes and goes. neighbours_coming.cpp has what whoever
-// ticks does with it.
+// Runs in the host's thread: searches for what is near and promotes neighbours.
+// neighbours_coming.cpp applies the results where the ticks run.
 
 namespace tandem {
 namespace {
 
-/// The host may be this many of its periods late.
+/// Greatest lateness of the host, in periods of its own.
 constexpr double kLatePeriods = 2.5;
-/// Margin of the search for standing objects besides what speed needs [m].
+/// Margin of the search for obstacles, in addition to the motion of bodies [m].
 constexpr double kStandingMargin = 0.04;
 constexpr double kSafety = 1.5;
 
-/// Around bodies that sleep with nothing awake near them one look in so many is enough.
+/// Parked bodies with nothing awake near them are searched around once in this many looks.
 constexpr int kLooksToFull = 8;
 
 NeighbourSeed makeSphereSeed(const RigidState& state, double radius) {
@@ -70,7 +70,7 @@ void Surroundings::findMissing() {
   for (Neighbour& neighbour : neighbours_) {
     if (!neighbour.rigid || neighbour.body.is_leaving) continue;
     if (neighbour.isInWorld() && !neighbour.hasChanged()) continue;
-    // Nothing more is heard of it.
+    // Nothing is taken back from it after this step.
     neighbour.body.step.hit = {};
     neighbour.body.step.was_parked = true;
     leave(neighbour);
@@ -82,7 +82,7 @@ void Surroundings::look(double dt, double step_end, double age, bool everywhere)
   if (!everywhere) everywhere = isTurnOfFullLook();
   horizon_ = computeHorizon(dt) + age;
   lookForNeighbours(horizon_, step_end, everywhere);
-  // Springs that were stretched at the last look may shoot a body farther than its speed tells.
+  // Springs stretched at the last look may move a body farther than its speed does.
   const double way = kSafety * spring_speed_ * horizon_;
   way_by_springs_ = way > kStandingMargin ? way : 0.0;
   searchObstacles(everywhere);
@@ -136,11 +136,11 @@ void Surroundings::collectSeeds(bool everywhere) {
 }
 
 void Surroundings::lookForNeighbours(double horizon, double step_end, bool everywhere) {
-  // A hand alone feels what stands, and takes nothing of the host's.
+  // A hand alone touches obstacles and holds no neighbours.
   if (neighbours_.empty() || (bodies_.objects.empty() && peers_.isEmpty())) return;
   collectSeeds(everywhere);
   const std::vector<btRigidBody*>& near = search_.find(seeds_, horizon);
-  // A body that is not found by a search around some of ours may be near the others.
+  // A partial search may miss a body that is near other bodies of ours.
   const bool is_whole = seeds_.size() == countHapticBodies();
   for (Neighbour& neighbour : neighbours_) {
     if (!is_whole || !neighbour.rigid || neighbour.body.is_leaving) continue;
@@ -156,7 +156,7 @@ void Surroundings::lookForNeighbours(double horizon, double step_end, bool every
   }
 }
 
-/// Not the island's before takeNewcomers().
+/// Fills a slot; the island gets the body in takeNewcomers().
 void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step_end) {
   ++log_.counters.promoted;
   const BodyIndex index = neighbour.body.index;
@@ -194,7 +194,7 @@ void Surroundings::hold(btRigidBody& rigid, Neighbour& neighbour) {
   neighbour.body.step.f_gravity_W = bullet.gravityForce();
 }
 
-/// Native contact is the host's again.
+/// Marks a neighbour as leaving and gives its contact with proxies back to Bullet.
 void Surroundings::leave(Neighbour& neighbour) {
   neighbour.body.is_leaving = true;
   leaving_.push_back(&neighbour);

@@ -11,19 +11,20 @@
 
 namespace tandem {
 
-/// What is around the island's bodies in the host's world, looked at once per host step.
+// clang-format off
+/// Objects of the host's world around the island's bodies, searched once per host step.
 ///
-///   standing objects   searched for contact at each inner step (Obstacles)
-///   moving bodies      the island holds them while they may take part in contact (Neighbour)
+///   standing objects  the island searches them for contact at each inner step (Obstacles)
+///   moving bodies     the island holds them while they may take part in contact (Neighbour)
 ///
-/// A neighbour comes with the state that the host has it in, at the host's time. Where the island
-/// is ahead of that, all that come together are moved on together. When one goes back, it is paid
-/// the momentum that its state in the host's world does not have yet.
+/// A neighbour enters with its state at the host's time. If the island is ahead, all newcomers are
+/// moved on together. A neighbour that leaves receives the momentum that its host body still lacks.
 ///
-/// The host's thread looks; what it finds acts when whoever ticks takes it:
+/// The host's thread searches; the thread that ticks applies the results:
 ///
-///     host's thread    findMissing               giveBack  ...  look           giveBack
-///     who ticks                     takeLeaving                        take
+///     host's thread      findMissing               giveBack  ...  look           giveBack
+///     thread that ticks               takeLeaving                       take
+// clang-format on
 class Surroundings {
  public:
   Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& settings, Island& island,
@@ -33,11 +34,11 @@ class Surroundings {
   /// @name Set-up.
   /// @{
   [[nodiscard]] ContactFinder& contactFinder() noexcept { return obstacles_; }
-  /// Room for neighbours, in an island that holds them.
+  /// Adds slots for neighbours to the island.
   void addSlots(int count);
   void addSphere(BodyIndex index, double radius) { obstacles_.addSphere(index, radius); }
   void addBody(BodyIndex index, btRigidBody& rigid) { obstacles_.addBody(index, rigid); }
-  /// A body that is the island's anyway.
+  /// Excludes a body that the island always holds.
   void exclude(const btRigidBody& rigid) { search_.exclude(rigid); }
   /// Allocates.
   void makeRoom();
@@ -48,50 +49,50 @@ class Surroundings {
 
   /// @name For the thread that steps the host's world.
   /// @{
-  /// Marks neighbours that the host has taken out of its world or made another body.
+  /// Marks neighbours that the host removed from its world or changed into another body.
   void findMissing();
-  /// Looks for what is near, for a host's step of `dt` that ends at `step_end` [s]. What the mirror
-  /// says is up to `age` old [s]. `everywhere`: also around bodies that sleep with nothing awake
-  /// near them, where it is else enough to look now and then.
+  /// Searches around the bodies for a host step of `dt` that ends at `step_end` [s]. The mirror is
+  /// up to `age` old [s]. `everywhere`: also around parked bodies with nothing awake near them,
+  /// which are otherwise searched less often.
   void look(double dt, double step_end, double age, bool everywhere = false);
-  /// Until the host is heard again at the latest, after a step of `dt` [s].
+  /// Longest time until the host's next search, after a step of `dt` [s].
   [[nodiscard]] double computeHorizon(double dt) const noexcept;
-  /// True if springs may shoot a body farther than was looked.
+  /// True if springs may move a body beyond the searched range.
   [[nodiscard]] bool mustLookFarther() const noexcept;
   void lookFarther();
-  /// Bodies that were taken out of the island are the host's again.
+  /// Gives bodies that left the island back to the host.
   void giveBack();
   /// All neighbours leave.
   void leaveAll();
   void lookAtDamping() noexcept;
-  /// Where the host's step that ends at `step_end` has taken, or will take, kinematic bodies.
+  /// Reads the poses of kinematic bodies for the host's step that ends at `step_end` [s].
   void lookAtDriven(double step_end) noexcept;
   [[nodiscard]] bool isAnythingDriven() const { return search_.isAnythingDriven(); }
-  /// The host's world ends: nothing of it is near any more, after takeObstacles().
+  /// The host's world ends: takeObstacles() then removes all obstacles.
   void forgetWorld() { obstacles_.forgetWorld(); }
   /// @}
 
-  /// @name For whoever ticks, while the host's thread waits. Real-time safe.
+  /// @name For the thread that ticks, while the host's thread waits. Real-time safe.
   /// @{
-  /// The island as the host's thread will know it.
+  /// Copies the island's states for the host's thread.
   void mirror() noexcept;
-  /// Neighbours that leave are taken out, and what lookFarther() has found acts.
+  /// Removes leaving neighbours and applies the results of lookFarther().
   void takeLeaving() noexcept;
-  /// What look() has found acts from now on.
+  /// Applies the results of look().
   void take() noexcept;
-  /// What lookFarther() or forgetWorld() has found.
+  /// Applies the results of lookFarther() or forgetWorld().
   void takeObstacles() noexcept;
   void followDamping() noexcept;
-  /// Kinematic bodies go where the host's latest pose and velocity lead. `ticks_in_step`: the
-  /// ticks of the step in which they were seen are still to come.
+  /// Steers kinematic bodies along the host's latest pose and velocity. `ticks_in_step`: the ticks
+  /// of the step in which they were read have not run yet.
   void steerDriven(bool ticks_in_step) noexcept;
   /// @}
 
  private:
-  /// What a search needs to know of the island.
+  /// Copy of the island for searches.
   struct Mirror {
     std::vector<RigidState> states;  ///< by body
-    std::vector<char> moves;         ///< by body, awake then
+    std::vector<char> moves;         ///< by body: awake at the copy
     double island_time = 0.0;
 
     void set(BodyIndex body, const RigidState& state, bool is_awake) noexcept;
@@ -128,14 +129,14 @@ class Surroundings {
   std::vector<Neighbour> neighbours_;  ///< one per slot of the island
   Mirror mirror_;
   std::vector<NeighbourSeed> seeds_;
-  std::vector<Neighbour*> leaving_;  ///< gone, another body now, or not near any more
-  int looks_to_full_ = 0;            ///< that may leave out who sleeps
-  double horizon_ = 0.0;             ///< until the host is heard again at the latest [s]
-  double way_by_springs_ = 0.0;      ///< that bodies may go besides what their speed takes them [m]
-  double spring_speed_ = 0.0;        ///< that stretched springs may add to a body's [m/s]
-  bool has_changed_ = false;         ///< what stands near is not what it was, since take()
-  bool has_more_ = false;            ///< lookFarther() has found what does not act yet
-  std::vector<BodyIndex> newcomers_;  ///< slots filled since they were caught up last
+  std::vector<Neighbour*> leaving_;   ///< removed, changed, or no longer near
+  int looks_to_full_ = 0;             ///< looks until the next one around all bodies
+  double horizon_ = 0.0;              ///< longest time until the next search [s]
+  double way_by_springs_ = 0.0;       ///< extra motion of bodies by springs [m]
+  double spring_speed_ = 0.0;         ///< speed that stretched springs may add [m/s]
+  bool has_changed_ = false;          ///< obstacles changed since take()
+  bool has_more_ = false;             ///< results of lookFarther() do not act yet
+  std::vector<BodyIndex> newcomers_;  ///< slots filled since the last catch-up
   std::vector<RigidState> from_states_, to_states_;
   std::vector<Aside> asides_;
 };

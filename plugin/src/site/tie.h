@@ -8,15 +8,15 @@
 
 namespace tandem {
 
-/// What ties our copy of one shared object to one peer's: eqs (9), (10).
+/// Couples our copy of one shared object to one peer's copy: eqs (9), (10).
 struct Tie {
   CouplerIndex coupler = 0;
-  RigidState theirs;                      ///< the peer's copy as heard last
-  Detour detour;                          ///< on which the coupler's target is led there
-  std::optional<std::uint64_t> sequence;  ///< of the packet that brought it
-  double velocity_share = 1.0;            ///< by which silence has slowed the target down
+  RigidState theirs;                      ///< latest state of the peer's copy
+  Detour detour;                          ///< of the coupler's target, after a silence
+  std::optional<std::uint64_t> sequence;  ///< packet of that state
+  double velocity_share = 1.0;            ///< of the target's velocity; silence lowers it
 
-  /// The state that the coupler pulls to.
+  /// The coupler's target.
   [[nodiscard]] RigidState computeTarget() const noexcept {
     RigidState target = detour.apply(theirs);
     target.v_W *= velocity_share;

@@ -6,7 +6,8 @@
 namespace tandem {
 namespace {
 
-/// Cubic between two states, right to about w^4 h^4 / 384 of the motion; h apart [s].
+/// Cubic Hermite interpolation between two states h apart [s]. The relative error is about w^4 h^4
+/// / 384.
 RigidState interpolate(const RigidState& a, double a_time, const RigidState& b, double b_time,
                        double time) noexcept {
   const double h = b_time - a_time;

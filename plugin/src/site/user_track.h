@@ -6,18 +6,18 @@
 
 namespace tandem {
 
-/// Where a remote user counts as being: the state heard last. After a silence in which that stood,
-/// a body that *is* it would jump, and throw whom it touches; it goes to where the user is in as
-/// long as the silence was.
+/// Position that a remote user counts as having: the latest received state. During a silence this
+/// position stands still. Afterwards it moves smoothly to the user, in as much time as the silence
+/// took. A jump would throw the bodies that a prescribed proxy touches.
 class UserTrack {
  public:
-  /// From now on exactly there.
+  /// Takes this state over at once.
   void jump(const PointState& user) noexcept {
     latest_ = user;
     missed_for_ = 0.0;
   }
 
-  /// A state came in at `time` after a silence of so long [s]; 0: in time.
+  /// Takes a state received at `time` after a silence of this length [s]; 0 if it was in time.
   void hear(const PointState& user, double time, double silence) noexcept {
     if (silence > 0.0) {
       missed_W_ = at(time, 1.0).p_W - user.p_W;
@@ -31,7 +31,7 @@ class UserTrack {
     return time < missed_since_ + missed_for_;
   }
 
-  /// `velocity_share`: of the velocity heard last.
+  /// State at `time`, with this share of the last received velocity.
   [[nodiscard]] PointState at(double time, double velocity_share) const noexcept {
     PointState user{latest_.p_W, velocity_share * latest_.v_W};
     if (!isMakingUp(time)) return user;
