@@ -22,8 +22,8 @@ struct AccountScene {
 /// Energy by its form [J].
 struct EnergyStock {
   double motion = 0.0;    ///< kinetic, of all bodies that forces move
-  double couplers = 0.0;  ///< in springs to targets
-  double contacts = 0.0;  ///< in springs of overlapping pairs
+  double couplers = 0.0;  ///< energy of springs to targets
+  double contacts = 0.0;  ///< energy of springs of overlapping pairs
   double weight = 0.0;    ///< potential; may be negative
 
   [[nodiscard]] double sum() const { return motion + couplers + contacts + weight; }
@@ -46,7 +46,7 @@ struct AccountRow {
   double time = 0.0;  ///< [s]
   EnergyStock stock;
   EnergyFlows flows;
-  double lost = 0.0;  ///< so far [J]
+  double lost = 0.0;  ///< energy lost so far [J]
 };
 
 /// Follows the mechanical energy of an island from outside, using only the states of its bodies at
@@ -109,7 +109,8 @@ class EnergyAccount {
  private:
   /// State of a smooth contact.
   struct Pair {
-    BodyIndex sphere = 0, other = 0;     ///< for an obstacle the sphere again
+    BodyIndex sphere = 0,
+              other = 0;  ///< sphere and other body; an obstacle's pair has the sphere twice
     const Obstacle* obstacle = nullptr;  ///< null: the other is a body
     double overlap = 0.0, rate = 0.0;
     Vec3 n_W = Vec3::Zero();  ///< towards the sphere; zero while their bounding balls are apart

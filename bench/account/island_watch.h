@@ -38,7 +38,7 @@ class IslandWatch final : public Scheme {
  private:
   const Scheme& scheme_;
   mutable const Island* island_ = nullptr;
-  mutable std::vector<BodyIndex> bodies_;  ///< by remote; -1: none
+  mutable std::vector<BodyIndex> bodies_;  ///< body of each remote; -1: none
   mutable std::vector<double> times_;
   EnergyAccount* account_ = nullptr;
 };

@@ -35,7 +35,7 @@ struct AccuracyRun {
 struct SceneAccuracy {
   std::string scene;
   std::string title;
-  std::string reference;       ///< which solver, and its step
+  std::string reference;       ///< name of the solver, and its step
   RunErrors reference_errors;  ///< between the reference at its step and at half of it
   std::vector<AccuracyRun> runs;
 };

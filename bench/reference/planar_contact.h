@@ -15,7 +15,7 @@ struct PlanarPoint {
 
 /// Contact of two bodies: at most two points with one normal.
 struct PlanarManifold {
-  Vec2 normal = Vec2::UnitY();  ///< from the first body to the second
+  Vec2 normal = Vec2::UnitY();  ///< points from the first body to the second
   std::array<PlanarPoint, 2> points;
   int count = 0;
 };

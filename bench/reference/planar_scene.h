@@ -23,10 +23,10 @@ enum class PlanarShape { kBox, kCircle, kHalfPlane };
 struct PlanarBody {
   PlanarShape shape = PlanarShape::kBox;
   Vec2 half = Vec2::Constant(0.02);  ///< half edges of a box [m]
-  double radius = 0.02;              ///< of a circle [m]
+  double radius = 0.02;              ///< radius of a circle [m]
   Vec2 normal = Vec2::UnitY();       ///< outward normal of a half-plane
   double mass = 0.0;                 ///< [kg]; 0: static
-  double inertia = 0.0;              ///< about the centre [kg m^2]
+  double inertia = 0.0;              ///< moment about the centre [kg m^2]
   Vec2 p = Vec2::Zero();             ///< centre, or a point of the half-plane's edge [m]
   double angle = 0.0;                ///< [rad]
   Vec2 v = Vec2::Zero();             ///< [m/s]
@@ -52,7 +52,7 @@ struct PlanarTool {
 
 struct PlanarScene {
   Vec2 gravity = Vec2::Zero();                            ///< acts on bodies [m/s^2]
-  double friction = 0.0;                                  ///< of every pair of bodies
+  double friction = 0.0;                                  ///< coefficient of every pair of bodies
   double coupler_stiffness = 0.0, coupler_damping = 0.0;  ///< [N/m, N s/m]
   double contact_stiffness = 0.0, contact_damping = 0.0;  ///< between tool and body [N/m, N s/m]
   std::vector<PlanarBody> bodies;

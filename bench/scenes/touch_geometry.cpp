@@ -9,7 +9,7 @@ namespace {
 struct Nearest {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitX();
-  double distance = 0.0;  // of the centre from the surface, negative inside
+  double distance = 0.0;  // distance of the centre from the surface, negative inside
 };
 
 Nearest findOnBox(const Vec3& h, const Vec3& p) {

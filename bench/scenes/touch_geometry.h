@@ -7,8 +7,8 @@ namespace tandem::demos::bench {
 /// Contact of a sphere with a body.
 struct Touch {
   double overlap = 0.0;           ///< positive while they overlap [m]
-  Vec3 normal_W = Vec3::UnitX();  ///< from the body towards the sphere
-  Vec3 p_W = Vec3::Zero();        ///< on the body's surface, nearest to the sphere's centre
+  Vec3 normal_W = Vec3::UnitX();  ///< points from the body towards the sphere
+  Vec3 p_W = Vec3::Zero();        ///< point of the body's surface nearest to the sphere's centre
 };
 
 /// Nearest point of a body at `pose`: on a face, an edge or a corner of a box. For a centre inside

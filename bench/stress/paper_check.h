@@ -29,7 +29,7 @@ class PaperCheck {
   struct Row {
     double x1, x2;
   };
-  std::vector<Row> rows_;  ///< as long as they are compared
+  std::vector<Row> rows_;  ///< rows to be compared
   double largest_ = 0.0, worst_ = 0.0;
 };
 

@@ -13,9 +13,9 @@ enum class Stability { kStable, kGrows, kNotFinite, kNotApplicable };
 /// One method over a grid of stiffness and host step.
 struct StabilityMap {
   std::string method;
-  std::vector<double> stiffness;  ///< of contact and coupler [N/m]
+  std::vector<double> stiffness;  ///< stiffness of contact and coupler [N/m]
   std::vector<int> host_rates;    ///< [Hz]
-  std::vector<Stability> cells;   ///< by stiffness, then rate
+  std::vector<Stability> cells;   ///< ordered by stiffness, then rate
   [[nodiscard]] Stability at(std::size_t k, std::size_t r) const {
     return cells[k * host_rates.size() + r];
   }
@@ -25,7 +25,7 @@ struct StabilityMap {
 /// cube, and it is released from outside.
 struct MapScene {
   static constexpr double kMass = 0.1;           ///< [kg]
-  static constexpr double kDampingRatio = 0.05;  ///< of coupler and contact together
+  static constexpr double kDampingRatio = 0.05;  ///< ratio of coupler and contact together [1]
 };
 
 /// Longest step of force injection (semi-implicit Euler) with contact and coupler of this stiffness

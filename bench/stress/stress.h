@@ -29,7 +29,7 @@ struct StressOptions {
 /// Result of `tandem bench stress`.
 struct StressResult {
   StressOptions options;
-  std::vector<StressOutcome> outcomes;  ///< by index
+  std::vector<StressOutcome> outcomes;  ///< ordered by index
   std::vector<StabilityMap> maps;
   double seconds = 0.0;
 

@@ -28,7 +28,7 @@ inline constexpr int kStressKindCount = 6;
 /// A body of the host's world.
 struct StressBody {
   Shape shape;
-  double mass = 0.0;  ///< of this copy [kg]; 0: static
+  double mass = 0.0;  ///< mass of this copy [kg]; 0: static
   bool is_shared = false;
   RigidState start;
 };
@@ -46,7 +46,7 @@ struct StressPath {
 
 /// A user: the device at this site, or a script in place of a remote.
 struct StressUser {
-  StressPath path;  ///< of scripted users; others start at its start
+  StressPath path;  ///< path of scripted users; others start at its start
   bool is_scripted = true;
   double device_mass = 0.1, device_damping = 0.5;  ///< simulated device [kg, N s/m]
   double max_force = 0.0;                          ///< limit of the device [N]; 0: none

@@ -15,7 +15,7 @@ struct StressOutcome {
   std::uint64_t index = 0;
   std::int32_t kind = 0;
   bool finite = true;             ///< state, force and Bullet's bodies are finite
-  bool is_stable = false;         ///< by its own analysis (stress_stability.h)
+  bool is_stable = false;         ///< stable by its own analysis (stress_stability.h)
   bool was_cut = false;           ///< ended early, after kMostWork
   bool refused = false;           ///< the site refused the settings
   bool crashed = false;           ///< the process that ran it crashed
@@ -25,8 +25,8 @@ struct StressOutcome {
   double unaccounted_time = 0.0;  ///< [s]
   double jump = 0.0;              ///< way beyond the speed limit [m]
   double jump_time = 0.0;         ///< [s]
-  double growth = 0.0;            ///< of a closed loop: largest energy over energy input
-  double deviation = 0.0;     ///< of a case of the paper: from the reference, over the largest way
+  double growth = 0.0;            ///< closed loop: largest energy over energy input [1]
+  double deviation = 0.0;     ///< paper's case: distance to the reference over the largest way [1]
   double host_contact = 0.0;  ///< spring energy that appeared in a host step, as part of the peak
   double work_in = 0.0;       ///< work of hands and targets [J]
   double start_energy = 0.0, end_energy = 0.0;  ///< [J]

@@ -32,9 +32,9 @@ struct Stiffest {
 struct Row {
   std::string name, space;
   std::map<std::string, Accuracy> even;
-  Accuracy known, unknown;          // of the stroke, with uneven readings
-  double swing = 0.0;               // on a wall of 1000 N/m and 10 N s/m [m]
-  Stiffest usual, best, best_late;  // at 10 N s/m; at the best damping; a period late
+  Accuracy known, unknown;          // results for the stroke with uneven readings
+  double swing = 0.0;               // swing on a wall of 1000 N/m and 10 N s/m [m]
+  Stiffest usual, best, best_late;  // walls at 10 N s/m; at the best damping; a period late
   double nanoseconds = 0.0;         // per reading, including the pose [ns]
 };
 

@@ -23,7 +23,7 @@ struct Accuracy {
 
 struct Motion {
   std::string name;
-  double duration = 1.0;                   ///< from -duration / 2 [s]
+  double duration = 1.0;                   ///< begins at -duration / 2 [s]
   bool has_lag = false;                    ///< false: a constant velocity shows no lag
   double (*way)(double t) = nullptr;       ///< along a line [m]
   double (*velocity)(double t) = nullptr;  ///< [m/s]

@@ -18,7 +18,7 @@ using testing::makePacket;
 constexpr PeerId kHere{1}, kThere{2};
 constexpr double kTick = 1e-3;    // [s]
 constexpr double kAhead = 2e-3;   // [s]
-constexpr double kClock = 500.0;  ///< at site time 0 [s]
+constexpr double kClock = 500.0;  ///< the clock at site time 0 [s]
 
 /// A link to a peer, over a fake connection that uses the clock.
 struct Rig {

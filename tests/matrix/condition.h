@@ -12,7 +12,7 @@ namespace tandem::test {
 /// Task of the users: Experiments I and II of docs/paper.md, stroke by stroke. The first user's
 /// hand follows its own path, the second user's is pushed.
 enum class Task {
-  kCooperation,  ///< on both sides of a damped cube
+  kCooperation,  ///< the users hold a damped cube from both sides
   kFloating,     ///< the same with an undamped cube: cut off, its copies fly apart
   kMeeting,      ///< the users touch each other
 };

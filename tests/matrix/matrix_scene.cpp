@@ -10,14 +10,15 @@ namespace tandem::test {
 namespace {
 
 constexpr int kTicksPerHostStep = 4;
-constexpr double kHalf = 0.02, kRadius = 0.01;  // of the cube; of device and proxies [m]
-constexpr double kObjectDamping = 4.0;          // [N s/m]
-constexpr double kGap = 5e-3;     ///< distance from the hands to what they will touch [m]
-constexpr double kRest = 1.0;     ///< pause before the first stroke, idle at its end [s]
-constexpr double kStroke = 1.6;   ///< duration of a stroke, there and back [s]
-constexpr double kReach = 0.05;   ///< length of a stroke from the start [m]
-constexpr double kLedBack = 3.0;  ///< longest way back of objects after a loss [s]
-constexpr double kAfter = 2.0;    ///< time watched after full recovery [s]
+constexpr double kHalf = 0.02,
+                 kRadius = 0.01;        // half edge of the cube; radius of device and proxies [m]
+constexpr double kObjectDamping = 4.0;  // [N s/m]
+constexpr double kGap = 5e-3;           ///< distance from the hands to what they will touch [m]
+constexpr double kRest = 1.0;           ///< pause before the first stroke, idle at its end [s]
+constexpr double kStroke = 1.6;         ///< duration of a stroke, there and back [s]
+constexpr double kReach = 0.05;         ///< length of a stroke from the start [m]
+constexpr double kLedBack = 3.0;        ///< longest way back of objects after a loss [s]
+constexpr double kAfter = 2.0;          ///< time watched after full recovery [s]
 
 /// A hand whose time begins at a moment that is set later.
 class LaterHand final : public Hand {

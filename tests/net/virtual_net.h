@@ -121,7 +121,7 @@ class VirtualSites {
     std::unique_ptr<VirtualNet::Port> port;
     std::unique_ptr<net::Mesh> mesh;
     std::uint64_t sequence = 0;
-    std::vector<std::vector<Arrival>> given;  ///< by peer id
+    std::vector<std::vector<Arrival>> given;  ///< arrivals by peer id
   };
 
   explicit VirtualSites(int count, const NetConditions& conditions = {}, std::uint64_t seed = 1)

@@ -52,7 +52,7 @@ class PlainLink {
 
  private:
   std::vector<Fate> fates_;
-  std::vector<Copy> on_the_way_;  // in the order of sending
+  std::vector<Copy> on_the_way_;  // ordered as sent
 };
 
 // Up to three packets in a tick, some in its middle, over a way with all impairments at once.

@@ -16,12 +16,12 @@ constexpr double kPeriod = 1e-3;                                       // haptic
 constexpr double kRadius = 0.01, kEdge = 0.04;                         // [m]
 constexpr double kProxyMass = 0.1, kCubeMass = 0.25;                   // [kg]
 const CouplerGains kTie = {2000.0, 10.0};                              // coordination [N/m, N s/m]
-const Vec3 kDevice(-0.03, 0.006, 0.002), kProxy(0.03, -0.003, 0.003);  // in touch with the cube
+const Vec3 kDevice(-0.03, 0.006, 0.002), kProxy(0.03, -0.003, 0.003);  // just touching the cube
 
 struct ChainCase {
   const char* name;
   CouplerGains contact;
-  double gap;             // of each sphere to the cube at the start [m]
+  double gap;             // gap of each sphere to the cube at the start [m]
   double travel, speed;   // distance [m] and rate [1/s] of the device's way in
   double reference_step;  // [s]
   double tolerance;       // [m]

@@ -29,7 +29,7 @@ struct HostTiming {
   int rate = 60;              ///< 1 / T [Hz]
   double late = 0.0;          ///< lateness of each step [s]
   double jitter = 0.0;        ///< extra random lateness, up to this [s]
-  unsigned seed = 1;          ///< of the jitter
+  unsigned seed = 1;          ///< seed of the jitter
   double stall_at = 1e9;      ///< steps due in the stall come at its end [s]
   double stall = 0.0;         ///< length of the stall [s]
   double known_stall = -1.0;  ///< SiteSettings::host_stall; negative: stall and jitter together

@@ -23,7 +23,7 @@ using testing::FakeLink;
 using testing::makePacket;
 
 constexpr double kPeriod = 1e-3;  // haptic period [s]
-constexpr int kTicksPerStep = 4;  // of the host: 250 Hz
+constexpr int kTicksPerStep = 4;  // ticks of a host step: 250 Hz
 constexpr double kHostStep = kTicksPerStep * kPeriod;
 constexpr double kHalf = 0.02, kRadius = 0.01;  // cubes and device [m]
 constexpr double kMass = 0.1;                   // mass of this copy of a cube [kg]

@@ -17,7 +17,7 @@ struct NeighbourScene {
   static constexpr double kHalf = 0.02;     // [m]
   static constexpr double kCubeMass = 0.1;  // mass of the copy [kg]
   static constexpr double kBoxMass = 0.2;   // mass of each other box [kg]
-  static constexpr double kFriction = 0.3;  // of every pair
+  static constexpr double kFriction = 0.3;  // coefficient of every pair
 
   BulletRig rig;
   testing::FakeDevice device{Vec3(0.0, 0.0, 10.0)};

@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
 struct ContactCase {
   const char* stiffness;  // [N/m]
   const char* delay;      // [s]
-  double force_max;       // of remote_dynamic_proxy [N]
+  double force_max;       // force of remote_dynamic_proxy [N]
   double device_end;      // [m]
 };
 

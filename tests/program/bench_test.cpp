@@ -52,7 +52,7 @@ TEST(BenchAccuracy, NeedsToBeToldWhatToMeasure) {
 
 struct Limit {
   const char* scene;
-  double error;  // of any position, at any host rate [m]
+  double error;  // largest error of any position, at any host rate [m]
 };
 
 class BenchLimits : public ::testing::TestWithParam<Limit> {};

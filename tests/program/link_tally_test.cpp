@@ -68,8 +68,8 @@ TEST(LinkTally, AveragesWhatWasAskedWhileItChanged) {
   EXPECT_NEAR(tally.asked().duplicate, 0.5, 1e-12);
   const LinkFigures achieved = tally.achieved(counts);
   EXPECT_NEAR(achieved.loss, 0.1, 1e-12);
-  EXPECT_NEAR(achieved.duplicate, 0.1, 1e-12);        // of the 90 that were not lost
-  EXPECT_NEAR(achieved.corrupt, 33.0 / 99.0, 1e-12);  // of the copies
+  EXPECT_NEAR(achieved.duplicate, 0.1, 1e-12);        // 9 of the 90 that were not lost
+  EXPECT_NEAR(achieved.corrupt, 33.0 / 99.0, 1e-12);  // 33 of the 99 copies
 }
 
 TEST(LinkTally, TellsDelayJitterAndWhatTheLinkAddsOfItself) {

@@ -161,7 +161,7 @@ TEST_P(RunTables, GiveTheSummarysDeviceEnd) {
 TEST_P(RunTables, BodiesAreBulletsAndFollowTheIsland) {
   const bool is_float = run_.summary["scalar"] == "float";
   const double rate = run_.summary["scenario"]["rates"]["host"];
-  const double rounding = is_float ? 1e-7 : 1e-14;  // of positions below 1 m
+  const double rounding = is_float ? 1e-7 : 1e-14;  // rounding of positions below 1 m
   bool any_body = false;
   for (const Columns& site : run_.site) {
     for (const std::string name : {"object", "proxy"}) {

@@ -103,7 +103,7 @@ bool carryOut(const Order& by) {
   if (by.kind == Kind::kPose) pose(body, by);
   if (by.kind == Kind::kChange) change(body, by);
   if (by.kind == Kind::kShape) {
-    if (!body.is_multibody) return false;  // and keeps the cached shape
+    if (!body.is_multibody) return false;  // keeps the cached shape
     cached_shape = body.shape;
   }
   return true;

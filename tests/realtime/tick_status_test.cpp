@@ -23,7 +23,7 @@ using testing::makePacket;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPeriod = 1e-3;       // [s]
 constexpr double kStiffness = 4000.0;  // [N/m]
-constexpr double kRadius = 0.01;       // of device and proxy [m]
+constexpr double kRadius = 0.01;       // radius of device and proxy [m]
 constexpr double kHalf = 0.02;         // half an edge of the cube [m]
 constexpr double kTouch = kHalf + kRadius;
 constexpr PeerId kRemote{2};

@@ -15,7 +15,7 @@ Vec3 springDamperForce(const SpringDamper& gains, const Vec3& offset, const Vec3
 
 struct BoxLoad {
   Vec3 force = Vec3::Zero();
-  Vec3 torque = Vec3::Zero();  // about the centre, in W
+  Vec3 torque = Vec3::Zero();  // torque about the centre, in W
 };
 
 // Sums the forces on each body; keeps its storage between evaluations.

@@ -15,9 +15,9 @@ using Quat = Eigen::Quaterniond;
 
 /// Motion of a sphere.
 enum class Motion {
-  kDynamic,     ///< by all forces, including contacts
-  kDriven,      ///< by its own forces and coupling only: contacts push the others but not it
-  kPrescribed,  ///< by p + v tau from its start, without forces
+  kDynamic,     ///< moved by all forces, including contacts
+  kDriven,      ///< moved by its own forces and coupling only: contacts push the others but not it
+  kPrescribed,  ///< moved by p + v tau from its start, without forces
 };
 
 /// A sphere that does not rotate: a point mass with a radius. World frame W.
@@ -46,7 +46,7 @@ struct Box {
 
   Vec3 p = Vec3::Zero();       ///< centre [m]
   Quat q = Quat::Identity();   ///< turns box coordinates into world coordinates
-  Vec3 v = Vec3::Zero();       ///< of the centre [m/s]
+  Vec3 v = Vec3::Zero();       ///< velocity of the centre [m/s]
   Vec3 w = Vec3::Zero();       ///< angular velocity in W [rad/s]
   Vec3 force = Vec3::Zero();   ///< constant external force at the centre [N]
   Vec3 torque = Vec3::Zero();  ///< constant external torque in W [N m]
@@ -74,8 +74,8 @@ struct RigidScene {
 /// Contact of a sphere with another body.
 struct Contact {
   double overlap = 0.0;         ///< positive while they overlap [m]
-  Vec3 normal = Vec3::UnitX();  ///< from the other body towards the sphere
-  Vec3 point = Vec3::Zero();    ///< on the other body's surface, nearest to the sphere's centre
+  Vec3 normal = Vec3::UnitX();  ///< points from the other body towards the sphere
+  Vec3 point = Vec3::Zero();  ///< point of the other body's surface nearest to the sphere's centre
 };
 
 /// Nearest point of a box, on a face, an edge or a corner. For a centre inside the box it is the
@@ -96,7 +96,7 @@ struct Touch {
   bool other_is_box = false;  ///< the other body is a box, else a sphere
   std::size_t other = 0;      ///< index of the other body among its kind
   Contact contact{};
-  Vec3 force = Vec3::Zero();  ///< on the sphere [N]; its opposite acts at contact.point
+  Vec3 force = Vec3::Zero();  ///< force on the sphere [N]; its opposite acts at contact.point
 };
 
 /// Replaces `touches` by all pairs that overlap now, each pair once.

@@ -29,9 +29,9 @@ struct SpatialParameters {
 
   double object_size = 0.04;    ///< edge of the cube [m]
   double object_mass = 0.2;     ///< the whole cube: each copy carries half [kg]
-  double object_damping = 0.0;  ///< of a copy's translation [N s/m]
-  double proxy_radius = 0.01;   ///< of HIPs and proxies [m]
-  double proxy_mass = 0.1;      ///< of an RDP and of the device it stands for [kg]
+  double object_damping = 0.0;  ///< damping of a copy's translation [N s/m]
+  double proxy_radius = 0.01;   ///< radius of HIPs and proxies [m]
+  double proxy_mass = 0.1;      ///< mass of an RDP and of the device it stands for [kg]
   double proxy_damping = 0.0;   ///< [N s/m]
   double device_damping = 0.5;  ///< [N s/m]
   Sampling sampling{};          ///< rates, delay and duration
@@ -55,7 +55,7 @@ struct SpatialRow {
 
 struct SpatialResult {
   std::vector<SpatialRow> rows;  ///< tick k at k / haptic_rate before its period, k = 0 .. N-1
-  SpatialRow end;                ///< at t = duration, the force being that of the last period
+  SpatialRow end;                ///< state at t = duration, with the force of the last period
 };
 
 /// Start of user `user` (0 or 1): centre of the HIP [m].

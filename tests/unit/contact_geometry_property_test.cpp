@@ -62,7 +62,7 @@ struct Scene {
   Shape shape;
   Vec3 p_WB;
   Quat q_WB;
-  double radius;  // of the sphere [m]
+  double radius;  // radius of the sphere [m]
   Vec3 p_W;       // centre of the sphere [m]
 
   SphereContact find() const { return findAt(p_W); }

@@ -11,7 +11,7 @@
 namespace tandem {
 namespace {
 
-constexpr double kRadius = 0.01;  // of the sphere [m]
+constexpr double kRadius = 0.01;  // radius of the sphere [m]
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-14;
 
@@ -150,7 +150,8 @@ TEST(SphereOnPlane, GapIsHeightAboveIt) {
 // checkShape() accepts a normal that is unit only in single precision.
 TEST(SphereOnPlane, NormalIsUnitForOneThatNearlyIs) {
   const Vec3 n(0.0, 0.6, 0.8);
-  const Shape plane = Plane{(1.0 + 5e-7) * n, (1.0 + 5e-7) * 0.25};  // the same half-space
+  const Shape plane =
+      Plane{(1.0 + 5e-7) * n, (1.0 + 5e-7) * 0.25};  // describes the same half-space
   expectContact(findAtOrigin(0.75 * n, plane), 0.49, n, 0.25 * n);
 }
 

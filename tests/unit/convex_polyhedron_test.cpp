@@ -78,8 +78,8 @@ TEST(ConvexPolyhedron, HullHoldsAllPoints) {
     const int count = 4 + scene % 60;
     for (int i = 0; i < count; ++i) {
       Vec3 p(uniform(), uniform(), uniform());
-      if (scene % 3 == 1) p.normalize();                        // on a ball: all points are corners
-      if (scene % 3 == 2) p = (4.0 * p).array().round() / 4.0;  // on a lattice
+      if (scene % 3 == 1) p.normalize();  // puts all points on a ball: all are corners
+      if (scene % 3 == 2) p = (4.0 * p).array().round() / 4.0;  // puts all points on a lattice
       points.push_back(p);
     }
     try {

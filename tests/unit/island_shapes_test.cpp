@@ -18,7 +18,7 @@ namespace tandem {
 namespace {
 
 constexpr double kPeriod = 1e-3;           // [s]
-constexpr double kRadius = 0.01;           // of the ball [m]
+constexpr double kRadius = 0.01;           // radius of the ball [m]
 constexpr double kMass = 0.1;              // [kg]
 const CouplerGains kContact{1500.0, 3.0};  // [N/m, N s/m]
 

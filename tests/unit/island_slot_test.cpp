@@ -104,7 +104,7 @@ TEST(IslandSlot, KeepsMomentumAndSpinInAHit) {
   hit.advance(200);
   EXPECT_GT(std::abs(hit.island.state(hit.slot).w_W.z()), 0.5);
   EXPECT_LT((momentum() - p0).norm(), 1e-14);
-  EXPECT_LT((spin() - l0).norm(), 1e-9);  // to the order of the integration
+  EXPECT_LT((spin() - l0).norm(), 1e-9);  // accurate to the order of the integration
 }
 
 TEST(IslandSlot, FliesAParabolaExactly) {

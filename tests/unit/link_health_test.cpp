@@ -135,7 +135,7 @@ TEST(LinkHealth, RampsInOverHalfASecondAfterALoss) {
   EXPECT_FALSE(health.isProxyOut());
   EXPECT_EQ(health.proxyShare(), 0.0);
   keepAlive(health, 2.0, 2.25);
-  EXPECT_NEAR(health.proxyShare(), 0.5, 1.01 * kTick / 0.5);  // to the last tick
+  EXPECT_NEAR(health.proxyShare(), 0.5, 1.01 * kTick / 0.5);  // accurate to the last tick
   EXPECT_EQ(health.objectShare(), health.proxyShare());
   EXPECT_EQ(health.state(), LinkState::kRejoining);
   keepAlive(health, 2.25, 2.51);

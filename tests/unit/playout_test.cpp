@@ -15,7 +15,7 @@
 namespace tandem {
 namespace {
 
-constexpr double kPeriod = 1.0 / 128.0;  // of packets [s]
+constexpr double kPeriod = 1.0 / 128.0;  // period of packets [s]
 constexpr double kTick = 1e-3;
 constexpr double kDelay = 0.05;
 constexpr double kSkew = 1234.5;  // sender's clock minus own [s]

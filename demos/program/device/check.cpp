@@ -14,7 +14,7 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kForce = 1.0;           // of a push [N]
+constexpr double kForce = 1.0;           // force of a push [N]
 constexpr double kShown = 0.06;          // longest way that position bars show [m]
 constexpr double kShownPush = 0.01;      // longest way that push bars show [m]
 constexpr double kLook = 10.0;           // time in which the user moves [s]

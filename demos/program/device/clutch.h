@@ -11,8 +11,8 @@ namespace tandem::demos {
 
 /// A switch that disconnects the hand from the workspace while pressed.
 struct ClutchSpec {
-  std::uint8_t button = 0;  ///< of FalconButton, on the device itself; 0: a pedal
-  std::string path;         ///< of the pedal's hidraw node
+  std::uint8_t button = 0;  ///< a FalconButton on the device itself; 0: a pedal
+  std::string path;         ///< path of the pedal's hidraw node
   HidSwitchMap map;
 };
 

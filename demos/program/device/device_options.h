@@ -18,7 +18,7 @@ struct DeviceOptions {
   double motors_per_torque = kUsualMotorsPerTorque;  ///< [1/(N m)]
   double max_force = 8.0;                            ///< [N]
   double scale = 1.0;                                ///< way in the world over way of the hand [1]
-  std::vector<double> offset;  ///< of the workspace in the world [m]; empty or three
+  std::vector<double> offset;  ///< place of the workspace in the world [m]; empty or three
 };
 
 /// Declares --device, --firmware, --motors-per-torque, --max-force, --scale, --offset, --clutch.

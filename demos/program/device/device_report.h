@@ -18,7 +18,7 @@ struct DeviceReport {
   bool is_hopeless = false;             ///< the user must do what `trouble` says
   bool is_starting = false;             ///< being opened, booted or loaded; the user need not act
   std::optional<std::uint8_t> homed;    ///< bit i: leg i + 1; empty: needs no homing
-  std::uint32_t loaded = 0, image = 0;  ///< of the firmware, while loading [bytes]
+  std::uint32_t loaded = 0, image = 0;  ///< bytes of the firmware, while loading
   std::uint8_t buttons = 0;             ///< one bit for each
   std::uint64_t readings = 0;           ///< number of readings so far
   std::vector<std::pair<std::string, std::uint64_t>> counters;

@@ -9,11 +9,12 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kDamping = 12.0;            // damping of the hand [N s/m]
-constexpr double kHomingPeriod = 1.6;        // one motion out and in [s]
-constexpr double kOut = 0.045, kIn = -0.02;  // from the middle, towards the user [m]
-constexpr double kReturn = 0.8;              // way back to the middle [s]
-constexpr double kFirstDip = 1.5;            // after homing [s]
+constexpr double kDamping = 12.0;      // damping of the hand [N s/m]
+constexpr double kHomingPeriod = 1.6;  // one motion out and in [s]
+constexpr double kOut = 0.045,
+                 kIn = -0.02;      // ends of the motion from the middle, towards the user [m]
+constexpr double kReturn = 0.8;    // way back to the middle [s]
+constexpr double kFirstDip = 1.5;  // after homing [s]
 
 /// A smooth wave: 0 at the beginning of a period, 1 in its middle.
 double wave(double t, double period) {

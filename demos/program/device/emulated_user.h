@@ -39,7 +39,7 @@ class EmulatedUser {
  private:
   class Helper;
 
-  std::atomic<double> homed_at_{-1.0};  ///< by the emulator's clock [s]
+  std::atomic<double> homed_at_{-1.0};  ///< time by the emulator's clock [s]
   std::unique_ptr<EmulatedFalconPort> port_;
 };
 

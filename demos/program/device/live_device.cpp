@@ -58,7 +58,7 @@ DeviceSample LiveDevice::read(double) noexcept {
 }
 
 void LiveDevice::write(const Vec3& f_W) noexcept {
-  is_held_ = false;  // from the next read on
+  is_held_ = false;  // takes effect at the next read
   mapped_->write(f_W);
 }
 

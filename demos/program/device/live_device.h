@@ -61,7 +61,7 @@ class LiveDevice final : public HapticDevice {
   GuardedDevice* guarded_ = nullptr;
   std::unique_ptr<MappedDevice> mapped_;
   Placement placement_;
-  bool is_held_ = false;  ///< until it is ticked
+  bool is_held_ = false;  ///< true until a site ticks it
   Vec3 p_W_ = Vec3::Zero();
 };
 

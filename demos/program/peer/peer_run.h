@@ -19,7 +19,7 @@ struct PeerReport {
   bool has_start = false;
   PeerStatus peer;
   LinkState link = LinkState::kLive;  ///< decides the share of the gains
-  double force = 0.0;                 ///< on the device, norm [N]
+  double force = 0.0;                 ///< norm of the force on the device [N]
   double coherency = 0.0;             ///< own object copy against the other's as received [m]
 };
 

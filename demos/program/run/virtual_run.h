@@ -15,7 +15,7 @@ namespace tandem::demos {
 /// Poses of all bodies of both sites at one moment, in the scene's frame, for pictures.
 struct SceneFrameRecord {
   double time = 0.0;
-  std::vector<RigidState> poses;  ///< in the order of VirtualRun::sceneBodies()
+  std::vector<RigidState> poses;  ///< ordered as in VirtualRun::sceneBodies()
 };
 
 /// A body of a picture, and its site (1 or 2).

@@ -16,13 +16,13 @@ namespace tandem::demos {
 
 /// Action of a simulated user's hand; vectors in the scene's own frame.
 struct HandScenario {
-  std::string kind = "constant";                 ///< constant, sine, minimum_jerk, csv
-  Vec3 force = Vec3::Zero();                     ///< constant force, or amplitude of the sine [N]
-  double frequency = 1.0;                        ///< of the sine [Hz]
-  double stiffness = 300.0;                      ///< of the hand that follows waypoints [N/m]
-  double damping = 5.0;                          ///< [N s/m]
+  std::string kind = "constant";  ///< constant, sine, minimum_jerk, csv
+  Vec3 force = Vec3::Zero();      ///< constant force, or amplitude of the sine [N]
+  double frequency = 1.0;         ///< frequency of the sine [Hz]
+  double stiffness = 300.0;       ///< stiffness of a hand that follows waypoints [N/m]
+  double damping = 5.0;           ///< [N s/m]
   std::vector<std::array<double, 4>> waypoints;  ///< t, and displacement from the start [s, m]
-  std::string file;                              ///< of the csv hand, relative to the scenario
+  std::string file;                              ///< file of the csv hand, relative to the scenario
   Vec3 start_offset =
       Vec3::Zero();  ///< start of the device, relative to "just in contact on the axis" [m]
 };

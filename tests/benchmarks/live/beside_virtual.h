@@ -6,7 +6,7 @@ namespace tandem::bench {
 
 /// Results of a run that was recorded at both sites.
 struct RunFigures {
-  double force_mean = 0.0, force_max = 0.0;          ///< at site 1 [N]
+  double force_mean = 0.0, force_max = 0.0;          ///< force at site 1 [N]
   double coherency_mean = 0.0, coherency_max = 0.0;  ///< |object at 1 - object at 2| [m]
 };
 
