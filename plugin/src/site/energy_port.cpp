@@ -36,7 +36,6 @@ void EnergyPort::countNeighbour(const IslandBody& body, const RigidState& state,
 }
 
 Vec3 EnergyPort::limit(const Vec3& wanted_W, const Vec3& v_W, double duration) noexcept {
-  if (!is_kept_ || wanted_W == Vec3::Zero()) return wanted_W;
   const double share = observer_.computeShare(duration * wanted_W.dot(v_W));
   if (share == 1.0) return wanted_W;
   ++limited_;

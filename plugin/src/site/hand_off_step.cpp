@@ -30,7 +30,7 @@ void HandOffStep::finishSetUp() {
 /// without a rendered force. The HIP moves steadily to the hand's present position.
 void HandOffStep::makeUp(double now, double most) noexcept {
   Timeline& timeline = site_.timeline;
-  if (now - timeline.time() <= kSameTime || site_.log.hasStopped()) return;
+  if (site_.log.hasStopped()) return;
   if (now - timeline.time() > most + kSameTime) loseTime(now - most);
   if (now - timeline.time() > kSameTime) site_.hand.lead(now - timeline.time());
   while (now - timeline.time() > kSameTime) {

@@ -39,7 +39,7 @@ class HostStep {
   /// @name In the tick; real-time safe.
   /// @{
   /// Contact force on the hand, in W [N].
-  [[nodiscard]] virtual Vec3 computeContactForce() noexcept = 0;
+  [[nodiscard]] virtual const Vec3& computeContactForce() noexcept = 0;
   /// Moves over ticks left out before `now`, for at most `most` [s].
   virtual void makeUp(double now, double most) noexcept = 0;
   /// Advances the period from `now` to `end`: motion, packets and events.

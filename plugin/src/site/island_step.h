@@ -15,7 +15,7 @@ class IslandStep : public HostStep {
   void addProxy(Peer& peer, const Vec3& start_W) override;
   [[nodiscard]] bool areBodiesPresent() noexcept override { return site_.areBodiesPresent(); }
   void addCoupler(SharedObject&, CouplerIndex, const CouplerSettings&) override {}
-  [[nodiscard]] Vec3 computeContactForce() noexcept override {
+  [[nodiscard]] const Vec3& computeContactForce() noexcept override {
     return site_.hand.computeContactForce();
   }
   [[nodiscard]] bool isPlaceFree(const Peer& peer, double unknown) const noexcept override;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "site/peers.h"
+
 namespace tandem {
 
 LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island& island,
@@ -56,10 +58,11 @@ const Vec3& LocalHand::computeContactForce() noexcept {
   return contact_W_;
 }
 
-void LocalHand::render(const Vec3& contact_W, bool shares_energy, bool fault) noexcept {
+void LocalHand::render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept {
   contact_W_ = contact_W;
   Vec3 allowed_W = guard_.clamp(contact_W_);
-  if (shares_energy) allowed_W = energy_.limit(allowed_W, island_.state(hip_).v_W, period_);
+  if (energy_.isKept() && allowed_W != Vec3::Zero() && peers.keepAccounts())
+    allowed_W = energy_.limit(allowed_W, island_.state(hip_).v_W, period_);
   force_W_ = guard_.follow(allowed_W, fault || fades_);
 }
 

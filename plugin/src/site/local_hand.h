@@ -11,6 +11,8 @@
 
 namespace tandem {
 
+class Peers;
+
 // clang-format off
 /// The local user's hand: its device, its haptic interface point (HIP) in the island, its energy
 /// account and the rendered force.
@@ -26,9 +28,12 @@ class LocalHand {
   [[nodiscard]] BodyIndex hip() const noexcept { return hip_; }
   [[nodiscard]] const DeviceSample& sample() const noexcept { return sample_; }
   /// True if the latest sample has a usable position.
-  [[nodiscard]] bool isThere() const noexcept { return sample_.valid && isFinite(sample_.hip); }
+  [[nodiscard]] bool isThere() const noexcept { return is_there_; }
 
-  void read(double now) noexcept { sample_ = device_.read(now); }
+  void read(double now) noexcept {
+    sample_ = device_.read(now);
+    is_there_ = sample_.valid && isFinite(sample_.hip);
+  }
   /// Moves the HIP to the hand. Without a usable sample the HIP stays and its velocity is zero.
   void place() noexcept;
   /// Gives the HIP a steady velocity to the hand's position, reached after `duration` [s]. For
@@ -39,9 +44,9 @@ class LocalHand {
 
   /// Contact force on the HIP in the island [N], cached while the island sleeps.
   [[nodiscard]] const Vec3& computeContactForce() noexcept;
-  /// Computes the force of this tick. `shares_energy`: all peers keep accounts. With a `fault` the
-  /// force fades.
-  void render(const Vec3& contact_W, bool shares_energy, bool fault) noexcept;
+  /// Computes the force of this tick, within the energy that is left where all `peers` keep
+  /// accounts. With a `fault` the force fades.
+  void render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept;
   void write() noexcept { device_.write(force_W_); }
   /// Writes zero force at once, without a slew.
   void letGo() noexcept { device_.write(Vec3::Zero()); }
@@ -69,6 +74,7 @@ class LocalHand {
   ForceGuard guard_;
   EnergyPort energy_;
   DeviceSample sample_;
+  bool is_there_ = false;
   std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
   Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
   RestMark contact_rest_;  ///< when the contact force was computed

@@ -34,8 +34,9 @@ void NativeStep::addCoupler(SharedObject& object, CouplerIndex index,
   model_->addCoupler(*object.rigid, index, coupler);
 }
 
-Vec3 NativeStep::computeContactForce() noexcept {
-  return model_ ? model_->handForce() : Vec3(Vec3::Zero());
+const Vec3& NativeStep::computeContactForce() noexcept {
+  static const Vec3 kNone = Vec3::Zero();
+  return model_ ? model_->handForce() : kNone;
 }
 
 void NativeStep::advance(double now, double end) noexcept {

@@ -28,7 +28,7 @@ class NativeStep final : public HostStep {
                   const CouplerSettings& coupler) override;
   void finishSetUp() override {}
   [[nodiscard]] bool areBodiesPresent() noexcept override;
-  [[nodiscard]] Vec3 computeContactForce() noexcept override;
+  [[nodiscard]] const Vec3& computeContactForce() noexcept override;
   void makeUp(double, double) noexcept override {}
   void advance(double now, double end) noexcept override;
   [[nodiscard]] bool isPlaceFree(const Peer& peer, double unknown) const noexcept override;

@@ -19,7 +19,10 @@ void Site::record(Recording* recording) noexcept { impl_->log.recording = record
 
 std::uint32_t Site::status() const noexcept { return impl_->log.status(); }
 bool Site::isWorldGone() const noexcept { return impl_->log.isWorldGone(); }
-const SiteCounters& Site::counters() const noexcept { return impl_->log.counters; }
+const SiteCounters& Site::counters() const noexcept {
+  impl_->log.countForces(impl_->hand);
+  return impl_->log.counters;
+}
 const IslandCounters& Site::islandCounters() const noexcept { return impl_->island.counters(); }
 std::uint64_t Site::tickCount() const noexcept { return impl_->timeline.ticks(); }
 std::uint64_t Site::stateHash() const noexcept { return impl_->log.hash(); }

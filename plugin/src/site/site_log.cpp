@@ -33,7 +33,6 @@ void SiteLog::countForces(const LocalHand& hand) noexcept {
 
 void SiteLog::recordTick(double now, const LocalHand& hand, const Bodies& bodies,
                          const Peers& peers, const Island& island, bool reads_bullet) noexcept {
-  if (!recording) return;
   const auto fill = [&](const SiteBody& body, BodyRecord& record) {
     record.island = island.state(body.index);
     record.bullet = reads_bullet && body.bullet ? body.bullet->state() : body.seen;

@@ -50,7 +50,7 @@ class SiteLog {
   void recordArrival(int peer, const Arrival& arrival) noexcept {
     if (recording) recording->addArrival({peer, arrival});
   }
-  /// `reads_bullet`: Bullet may be read, as no other thread steps the world now.
+  /// With a recording. `reads_bullet`: Bullet may be read, as no other thread steps the world now.
   void recordTick(double now, const LocalHand& hand, const Bodies& bodies, const Peers& peers,
                   const Island& island, bool reads_bullet) noexcept;
 

@@ -9,7 +9,7 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
   // Device sample.
   hand.read(now);
   if (!hand.isThere()) log.raise(kDeviceInvalid);
-  host_step->makeUp(now, most_made_up);
+  if (now - timeline.time() > kSameTime) host_step->makeUp(now, most_made_up);
   timeline.startTick(now);
   hand.place();
   hand.countWork();
@@ -19,9 +19,8 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
   peers.followLinks(now, timeline.period(), *host_step);
 
   // The force of a tick is computed from its start.
-  hand.render(host_step->computeContactForce(), peers.keepAccounts(), log.hasFault());
-  log.countForces(hand);
-  log.recordTick(now, hand, bodies, peers, island, !desk.isOpen());
+  hand.render(host_step->computeContactForce(), peers, log.hasFault());
+  if (log.recording) log.recordTick(now, hand, bodies, peers, island, !desk.isOpen());
   log.addToHash(now, hand.force(), island);
   if (!island.isAsleep() && !areAwakeFinite(island)) log.raise(kStateNotFinite);
   hand.write();
