@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "island/island_model.h"
 #include "geometry/plain_vec.h"
+#include "island/island_model.h"
 
 namespace tandem {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "island/island_model.h"
 #include "geometry/plain_vec.h"
+#include "island/island_model.h"
 #include "island/touch.h"
 
 namespace tandem {

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "simulated/damped_mass.h"
 #include "guard/force_limit.h"
 #include "guard/settings_check.h"
+#include "simulated/damped_mass.h"
 
 // A read interval is cut into sub-steps of length h; the rendered force stays constant:
 //
