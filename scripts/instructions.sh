@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 update=false
 if [[ "${1:-}" == --update ]]; then update=true; shift; fi
 program="${1:-build/release}/tests/tandem_tick_instructions"
-baseline=tests/benchmarks/tick_instructions.json
+baseline=tests/bench/tick_instructions.json
 ticks=2000
 
 fail() { echo "instructions.sh: $*" >&2; exit 2; }

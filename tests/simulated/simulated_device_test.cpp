@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random.h"
-#include "unit/simulated_device_rig.h"
+#include "simulated/simulated_device_rig.h"
 
 namespace tandem {
 namespace {

@@ -7,7 +7,7 @@
 #include "tandem/falcon/simulated_device.h"
 
 #include "support/random.h"
-#include "unit/simulated_device_rig.h"
+#include "simulated/simulated_device_rig.h"
 
 namespace tandem {
 namespace {

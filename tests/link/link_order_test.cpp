@@ -9,7 +9,7 @@
 
 #include "tandem/coordination/simulated_link.h"
 
-#include "network/packet_fates.h"
+#include "link/packet_fates.h"
 
 namespace tandem {
 namespace {

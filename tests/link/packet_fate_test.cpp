@@ -11,7 +11,7 @@
 #include "tandem/coordination/impairments.h"
 #include "tandem/coordination/simulated_link.h"
 
-#include "network/packet_fates.h"
+#include "link/packet_fates.h"
 
 namespace tandem {
 namespace {

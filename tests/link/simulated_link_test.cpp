@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "network/packet_fates.h"
+#include "link/packet_fates.h"
 
 namespace tandem {
 namespace {
