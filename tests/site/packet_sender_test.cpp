@@ -156,7 +156,7 @@ void checkTurns(int moving, int most_moving, int most) {
 TEST(PacketSender, CarriesAtMostEightObjectsAndForgetsNone) {
   // All 3 that move go into each packet; 5 places are left for 17 others.
   checkTurns(3, 0, 5);
-  // Of 12 that move 7 go into a packet, and one place goes round all 20.
+  // With 12 that move, 7 go into each packet, and one place goes round all 20.
   checkTurns(12, 1, 20);
 }
 
