@@ -13,7 +13,7 @@
 
 #include "tandem/plugin/udp_socket.h"
 
-#include "net/mesh.h"
+#include "net/peer_group.h"
 
 namespace tandem {
 namespace {
@@ -70,12 +70,12 @@ SecretKey makeKey() {
 struct SealedPair {
   SealedPair() {
     common.playout.is_on = false;
-    std::vector<net::Mesh::Peer> peers;
+    std::vector<net::PeerGroup::Peer> peers;
     peers.push_back({PeerId{2}, sockets.second.bound(), makeKey()});
-    first = std::make_unique<net::Mesh>(PeerId{1}, std::move(peers), common, sockets.first);
+    first = std::make_unique<net::PeerGroup>(PeerId{1}, std::move(peers), common, sockets.first);
     peers.clear();
     peers.push_back({PeerId{1}, std::nullopt, makeKey()});
-    second = std::make_unique<net::Mesh>(PeerId{2}, std::move(peers), common, sockets.second);
+    second = std::make_unique<net::PeerGroup>(PeerId{2}, std::move(peers), common, sockets.second);
     packet.object_count = 1;
     while (second->status(PeerId{1}, now).phase != PeerPhase::kLive ||
            first->status(PeerId{2}, now).phase != PeerPhase::kLive) {
@@ -86,7 +86,7 @@ struct SealedPair {
       take(sockets.second, *second);
     }
   }
-  void take(net::UdpSocket& socket, net::Mesh& mesh) {
+  void take(net::UdpSocket& socket, net::PeerGroup& mesh) {
     while (const auto got = socket.receive({room.data(), room.size()}))
       mesh.receive({room.data(), got->size}, got->from, now);
   }
@@ -101,7 +101,7 @@ struct SealedPair {
 
   Sockets sockets;
   net::PeerSession::Common common;
-  std::unique_ptr<net::Mesh> first, second;
+  std::unique_ptr<net::PeerGroup> first, second;
   StatePacket packet;
   double now = 1.0;
   std::array<std::uint8_t, kMaxDatagramSize> room{};

@@ -14,9 +14,9 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::FakeDevice;
+using test::FakeLink;
 using test::WorldKind;
-using testing::FakeDevice;
-using testing::FakeLink;
 
 void hostPreTick(btDynamicsWorld*, btScalar) {}
 void hostPostTick(btDynamicsWorld*, btScalar) {}

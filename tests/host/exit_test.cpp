@@ -21,8 +21,8 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::FakeDevice;
 using test::WorldKind;
-using testing::FakeDevice;
 
 constexpr PeerId kRemote{2};
 

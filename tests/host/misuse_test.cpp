@@ -15,9 +15,9 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::FakeDevice;
+using test::FakeLink;
 using test::WorldKind;
-using testing::FakeDevice;
-using testing::FakeLink;
 
 constexpr double kStep = 1.0 / 60.0;
 constexpr PeerId kRemote{2};

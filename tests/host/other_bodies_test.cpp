@@ -15,9 +15,9 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::FakeDevice;
+using test::FakeLink;
 using test::WorldKind;
-using testing::FakeDevice;
-using testing::FakeLink;
 
 /// The hand pushes a shared cube along x into any body there.
 struct Push {

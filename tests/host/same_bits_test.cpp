@@ -13,10 +13,10 @@
 namespace tandem {
 namespace {
 
+using test::FakeDevice;
+using test::FakeLink;
 using test::Pile;
 using test::WorldKind;
-using testing::FakeDevice;
-using testing::FakeLink;
 
 constexpr int kSteps = 300;
 constexpr int kMiddle = 150;

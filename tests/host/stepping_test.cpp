@@ -15,9 +15,9 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::FakeDevice;
+using test::FakeLink;
 using test::WorldKind;
-using testing::FakeDevice;
-using testing::FakeLink;
 
 constexpr PeerId kRemote{2};
 constexpr double kStart = 0.01;      // [m] from the coupler's rest
@@ -98,7 +98,7 @@ TEST_P(HostStepping, FreeCouplersFollowTheClosedForm) {
   site.share(cube);
   const Vec3 user_W(0.0, 1.0, 0.0);
   site.connect(kRemote, link, user_W + Vec3(kStart, 0.0, 0.0));
-  StatePacket packet = testing::makePacket(kRemote, 0, user_W);
+  StatePacket packet = test::makePacket(kRemote, 0, user_W);
   packet.objects[packet.object_count++] = {0, RigidState{}};
   link.arrivals.push_back({packet, 0.0});
 

@@ -19,10 +19,10 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::FakeDevice;
+using test::FakeLink;
+using test::makePacket;
 using test::WorldKind;
-using testing::FakeDevice;
-using testing::FakeLink;
-using testing::makePacket;
 
 constexpr PeerId kRemote{2};
 constexpr double kPeriod = 1e-3;      // period of a tick [s]

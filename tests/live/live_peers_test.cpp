@@ -17,7 +17,7 @@
 namespace tandem {
 namespace {
 
-using testing::makePacket;
+using test::makePacket;
 
 constexpr double kPatience = 30.0;  // [s]
 constexpr double kTick = 1e-3;      // [s]

@@ -11,9 +11,9 @@
 namespace tandem {
 namespace {
 
+using test::FakeLink;
+using test::makePacket;
 using test::ShiftedLink;
-using testing::FakeLink;
-using testing::makePacket;
 
 constexpr PeerId kHere{1}, kThere{2};
 constexpr double kTick = 1e-3;    // [s]

@@ -85,9 +85,9 @@ void MatrixScene::makeUser(std::size_t i) {
   net::PeerSession::Common common;
   common.configuration = makeConfiguration({{"scheme", c_.scheme}, {"object.mass", "0.2"}});
   common.playout.is_on = c_.has_playout;
-  std::vector<net::Mesh::Peer> peers;
+  std::vector<net::PeerGroup::Peer> peers;
   peers.push_back({other, VirtualNet::addressOf(static_cast<int>(2 - i)), makeKey(0x42)});
-  user.mesh = std::make_unique<net::Mesh>(self, std::move(peers), common, network_.port(i));
+  user.mesh = std::make_unique<net::PeerGroup>(self, std::move(peers), common, network_.port(i));
   user.link = std::make_unique<LinkWatch>(
       user.mesh->link(other), users_[1 - i].clock_offset - user.clock_offset,
       [this, i](double sent, double came) {

@@ -12,7 +12,7 @@
 #include "matrix/condition.h"
 #include "matrix/link_watch.h"
 #include "matrix/matrix_network.h"
-#include "net/mesh.h"
+#include "net/peer_group.h"
 
 /// \file
 /// One cell of the condition matrix: two sites with real meshes on a bad network, in virtual time.
@@ -62,7 +62,7 @@ class MatrixScene {
     double clock_offset = 0.0;  ///< own clock minus scene time [s]
     BulletRig rig;
     std::unique_ptr<SimulatedDevice> device;
-    std::unique_ptr<net::Mesh> mesh;
+    std::unique_ptr<net::PeerGroup> mesh;
     std::unique_ptr<LinkWatch> link;
     std::unique_ptr<Site> site;
     Vec3 force_W = Vec3::Zero(), p_W = Vec3::Zero();  ///< force of the last tick; position then

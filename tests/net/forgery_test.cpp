@@ -116,7 +116,7 @@ TEST(Mesh, ForgedAndReplayedDatagramsChangeNothing) {
     sites.net.tap = nullptr;
     sites.run(0.1);
     Forger forger(std::move(heard), kSeed);
-    net::Mesh& mesh = *sites.at(victim).mesh;
+    net::PeerGroup& mesh = *sites.at(victim).mesh;
     const std::size_t given = sites.at(victim).given[static_cast<std::size_t>(3 - victim)].size();
     const net::DatagramCounts before = mesh.counts();
     const PeerStatus status = sites.status(victim, 3 - victim);

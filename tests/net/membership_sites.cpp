@@ -63,13 +63,13 @@ StatePacket MembershipSites::makeState(std::size_t site, const Start& how, std::
 
 void MembershipSites::start(std::size_t site, const Start& how) {
   Site& self = sites_[site];
-  std::vector<net::Mesh::Peer> peers;
+  std::vector<net::PeerGroup::Peer> peers;
   for (std::size_t i = 0; i < sites_.size(); ++i)
     if (i != site)
       peers.push_back({idOf(i), addressOf(i), makeKey(static_cast<std::uint8_t>(how.key + 1))});
   net::PeerSession::Common common;
   common.configuration = makeConfiguration({{"object.mass", std::to_string(how.configuration)}});
-  self.mesh = std::make_unique<net::Mesh>(idOf(site), std::move(peers), common, *self.port);
+  self.mesh = std::make_unique<net::PeerGroup>(idOf(site), std::move(peers), common, *self.port);
   self.how = how;
   self.ahead = how.clock - now_;
   self.has_left = false;

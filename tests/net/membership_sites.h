@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "net/mesh.h"
+#include "net/peer_group.h"
 
 namespace tandem::test {
 
@@ -87,7 +87,7 @@ class MembershipSites {
     Site(Site&&) noexcept;
     ~Site();
     std::unique_ptr<Port> port;
-    std::unique_ptr<net::Mesh> mesh;
+    std::unique_ptr<net::PeerGroup> mesh;
     Start how;
     double ahead = 0.0;  ///< its clock minus now [s]
     bool has_left = false;

@@ -350,10 +350,10 @@ TEST(Mesh, RefusesIdsThatCannotBe) {
   VirtualNet net;
   VirtualNet::Port port(net, VirtualNet::addressOf(1));
   const auto make = [&](std::uint32_t self, std::vector<std::uint32_t> ids) {
-    std::vector<net::Mesh::Peer> peers;
+    std::vector<net::PeerGroup::Peer> peers;
     for (const std::uint32_t id : ids)
       peers.push_back({PeerId{id}, std::nullopt, test::makeKey(1)});
-    const net::Mesh mesh(PeerId{self}, std::move(peers), {}, port);
+    const net::PeerGroup mesh(PeerId{self}, std::move(peers), {}, port);
   };
   EXPECT_THROW(make(0, {2}), std::invalid_argument);
   EXPECT_THROW(make(1, {9}), std::invalid_argument);

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "net/mesh.h"
+#include "net/peer_group.h"
 #include "support/random.h"
 
 namespace tandem::test {
@@ -119,7 +119,7 @@ class VirtualSites {
   struct Site {
     int id = 1;
     std::unique_ptr<VirtualNet::Port> port;
-    std::unique_ptr<net::Mesh> mesh;
+    std::unique_ptr<net::PeerGroup> mesh;
     std::uint64_t sequence = 0;
     std::vector<std::vector<Arrival>> given;  ///< arrivals by peer id
   };
@@ -137,15 +137,15 @@ class VirtualSites {
   /// (Re)starts a site's program without any memory of earlier runs.
   void start(int id, std::uint8_t key = 0x42, const Configuration& configuration = usual()) {
     Site& site = at(id);
-    std::vector<net::Mesh::Peer> peers;
+    std::vector<net::PeerGroup::Peer> peers;
     for (const Site& other : sites_)
       if (other.id != id)
         peers.push_back({PeerId{static_cast<std::uint32_t>(other.id)},
                          VirtualNet::addressOf(other.id), makeKey(key)});
     net::PeerSession::Common common;
     common.configuration = configuration;
-    site.mesh = std::make_unique<net::Mesh>(PeerId{static_cast<std::uint32_t>(id)},
-                                            std::move(peers), common, *site.port);
+    site.mesh = std::make_unique<net::PeerGroup>(PeerId{static_cast<std::uint32_t>(id)},
+                                                 std::move(peers), common, *site.port);
     site.sequence = 0;
     site.given.assign(sites_.size() + 1, {});
   }

@@ -150,8 +150,8 @@ class LateHost {
   std::mt19937_64 random_;
   BulletScene bullet_;
   LateToolScheme scheme_;
-  testing::FakeDevice device_{Vec3(0.0, 10.0, 10.0)};
-  std::vector<testing::FakeLink> links_;
+  test::FakeDevice device_{Vec3(0.0, 10.0, 10.0)};
+  std::vector<test::FakeLink> links_;
   std::unique_ptr<Site> site_;
   std::uint64_t steps_ = 0;
   double next_call_ = 0.0;

@@ -238,7 +238,7 @@ TEST(LateHost, StepsThatNobodyAnnouncedAreMetAllTheSame) {
   for (const bool is_uneven : {false, true}) {
     SCOPED_TRACE(is_uneven ? "uneven" : "rounded");
     test::BulletRig host(Vec3::Zero());
-    testing::FakeDevice device{Vec3(0.0, 0.0, 1.0)};
+    test::FakeDevice device{Vec3(0.0, 0.0, 1.0)};
     btRigidBody& cube = host.addCube(0.2, 0.02, Vec3::Zero());
     SiteSettings settings;
     settings.tick_source = TickSource::kCaller;

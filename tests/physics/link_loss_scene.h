@@ -68,7 +68,7 @@ struct OutageRun {
   explicit OutageRun(const OutageCase& wanted) : c(wanted) {
     for (std::size_t i = 0; i < 2; ++i) {
       links[i] = std::make_unique<CutLink>(kDelay, kCutFrom, kCutFrom + c.outage);
-      devices[i] = testing::FakeDevice(hand(i, 0.0).p_W);
+      devices[i] = test::FakeDevice(hand(i, 0.0).p_W);
     }
     links[0]->connect(*links[1]);
     links[1]->connect(*links[0]);
@@ -147,7 +147,7 @@ struct OutageRun {
 
   OutageCase c;
   std::array<BulletRig, 2> rigs;
-  std::array<testing::FakeDevice, 2> devices;
+  std::array<test::FakeDevice, 2> devices;
   std::array<std::unique_ptr<CutLink>, 2> links;
   std::array<std::unique_ptr<Site>, 2> sites;
   std::array<std::vector<double>, 2> forces;

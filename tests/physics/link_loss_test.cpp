@@ -18,9 +18,9 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
-using testing::FakeDevice;
-using testing::FakeLink;
-using testing::makePacket;
+using test::FakeDevice;
+using test::FakeLink;
+using test::makePacket;
 
 constexpr double kPeriod = 1e-3, kHostStep = 4e-3;
 constexpr int kTicksPerStep = 4;

@@ -16,7 +16,7 @@ namespace tandem {
 namespace {
 
 using test::BulletRig;
-using testing::FakeDevice;
+using test::FakeDevice;
 
 constexpr double kMass = 0.8, kHalf = 0.02;  // mass [kg] and half edge [m] of the whole cube
 constexpr double kPeriod = 1e-3, kHostStep = 4e-3, kPacketRate = 500.0;

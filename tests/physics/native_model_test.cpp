@@ -14,8 +14,8 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
-using testing::FakeDevice;
-using testing::FakeLink;
+using test::FakeDevice;
+using test::FakeLink;
 
 constexpr ContactModel kSoftModels[] = {ContactModel::kNativeSoft, ContactModel::kSpring6Dof};
 

@@ -20,7 +20,7 @@ struct NeighbourScene {
   static constexpr double kFriction = 0.3;  // coefficient of every pair
 
   BulletRig rig;
-  testing::FakeDevice device{Vec3(0.0, 0.0, 10.0)};
+  test::FakeDevice device{Vec3(0.0, 0.0, 10.0)};
   SiteSettings settings;
   btRigidBody* cube = nullptr;
   std::vector<btRigidBody*> boxes;

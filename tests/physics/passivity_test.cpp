@@ -17,9 +17,9 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
-using testing::FakeDevice;
-using testing::FakeLink;
-using testing::makePacket;
+using test::FakeDevice;
+using test::FakeLink;
+using test::makePacket;
 
 constexpr PeerId kRemote{2};
 constexpr double kPeriod = 1e-3;

@@ -15,9 +15,9 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
-using testing::FakeDevice;
-using testing::FakeLink;
-using testing::makePacket;
+using test::FakeDevice;
+using test::FakeLink;
+using test::makePacket;
 
 constexpr PeerId kRemote{2};
 const Vec3 kFarAway(10.0, 0.0, 0.0);

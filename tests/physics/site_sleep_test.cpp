@@ -15,9 +15,9 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
-using testing::FakeDevice;
-using testing::FakeLink;
-using testing::makePacket;
+using test::FakeDevice;
+using test::FakeLink;
+using test::makePacket;
 
 constexpr double kPeriod = 1e-3;  // haptic period [s]
 constexpr int kTicksPerStep = 4;  // ticks of a host step: 250 Hz

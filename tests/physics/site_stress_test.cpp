@@ -13,8 +13,8 @@ namespace tandem {
 namespace {
 
 using test::BulletRig;
-using testing::FakeDevice;
-using testing::FakeLink;
+using test::FakeDevice;
+using test::FakeLink;
 
 // A proxy of 12 g deep in a fixed ball is shot out at 9 m/s. It is at rest when the host searches
 // its surroundings. The floor is 70 mm away; a body at rest is searched to 40 mm. The next search

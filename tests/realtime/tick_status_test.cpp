@@ -16,9 +16,9 @@ namespace tandem {
 namespace {
 
 using test::BulletRig;
-using testing::FakeDevice;
-using testing::FakeLink;
-using testing::makePacket;
+using test::FakeDevice;
+using test::FakeLink;
+using test::makePacket;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPeriod = 1e-3;       // [s]

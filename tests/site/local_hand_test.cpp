@@ -54,7 +54,7 @@ TEST(LocalHand, KeepsTheHipAndStopsItWithoutASample) {
 }
 
 TEST(LocalHand, RefusesADeviceWithoutAPosition) {
-  testing::FakeDevice device;
+  test::FakeDevice device;
   device.sample.valid = false;
   Island island{IslandSettings{}};
   EXPECT_THROW(LocalHand(device, SiteSettings{}, island, true), Error);
@@ -94,7 +94,7 @@ TEST(LocalHand, CountsTheWorkOfTheForceAsItWasHeld) {
 TEST(LocalHand, GetsLessForceAsItsEnergyRunsOut) {
   for (const bool shares_energy : {true, false}) {
     PartsRig rig;
-    testing::FakeLink link;
+    test::FakeLink link;
     if (shares_energy) rig.connect(link);
     readAt(rig, Vec3::Zero());
     rig.hand.countWork();
@@ -125,7 +125,7 @@ TEST(LocalHand, FadesWhenToldToAndOnAFault) {
 }
 
 TEST(LocalHand, KeepsToTheSlowerSlewAndTheDevicesForce) {
-  testing::FakeDevice device;
+  test::FakeDevice device;
   device.limits.max_force = 3.0;   // [N]
   device.limits.max_slew = 500.0;  // [N/s]: 0.5 N per tick
   SiteSettings settings;

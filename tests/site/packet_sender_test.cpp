@@ -42,7 +42,7 @@ struct SendingSite {
   }
 
   test::PartsRig rig;
-  testing::FakeLink link;
+  test::FakeLink link;
   int tick = 0;
 };
 

@@ -69,7 +69,7 @@ struct PartsRig {
   static constexpr double kInertia = 2e-4;  // about every axis [kg m^2]
 
   SiteSettings settings;
-  testing::FakeDevice device;
+  test::FakeDevice device;
   SiteLog log;
   Island island{IslandSettings{}};
   Timeline timeline{island, kPeriod, 0.0};

@@ -18,7 +18,7 @@ struct Conversation {
   Conversation() : rig(2), peer(rig.connect(link)) {}
 
   StatePacket makePacket(std::uint64_t sequence) const {
-    return testing::makePacket(PeerId{2}, sequence, Vec3(0, 1, 0));
+    return test::makePacket(PeerId{2}, sequence, Vec3(0, 1, 0));
   }
   static void addObject(StatePacket& packet, ObjectId id, const Vec3& p_W,
                         const Vec3& v_W = Vec3::Zero()) {
@@ -39,7 +39,7 @@ struct Conversation {
     return rig.island.couplerShare(peer.ties[static_cast<std::size_t>(object)].coupler);
   }
 
-  testing::FakeLink link;
+  test::FakeLink link;
   test::NoHostStep host_step;
   test::PartsRig rig;
   Peer& peer;

@@ -6,7 +6,7 @@
 #include "tandem/coordination/link.h"
 #include "tandem/falcon/haptic_device.h"
 
-namespace tandem::testing {
+namespace tandem::test {
 
 /// A device at a place that the test sets; it records the forces written to it.
 class FakeDevice final : public HapticDevice {
@@ -49,4 +49,4 @@ inline StatePacket makePacket(PeerId sender, std::uint64_t sequence, const Vec3&
   return packet;
 }
 
-}  // namespace tandem::testing
+}  // namespace tandem::test

@@ -9,8 +9,8 @@
 namespace tandem {
 namespace {
 
-using testing::FakeLink;
-using testing::makePacket;
+using test::FakeLink;
+using test::makePacket;
 
 TEST(LinkQueue, SendsInOrderWithTheirTimes) {
   LinkQueue queue;

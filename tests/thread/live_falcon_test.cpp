@@ -132,7 +132,7 @@ class LiveFalcon : public ::testing::Test {
                         {.max_force = 8.0, .max_slew = 2000.0, .ramp = kRamp}};
   HangingDevice device{guarded};
   test::BulletRig rig;
-  testing::FakeLink nobody;
+  test::FakeLink nobody;
   std::unique_ptr<Site> site;
   std::unique_ptr<HapticLoop> loop;
   std::atomic<bool> stops{false}, host_rests{false};

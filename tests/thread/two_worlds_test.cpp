@@ -27,15 +27,15 @@ std::uint64_t simulate(double speed, int rounds) {
     host.addBody(host.makeBox(Vec3(1.0, 1.0, 0.1)), 0.0, Vec3(0.0, 0.0, -0.12));
     btRigidBody& cube = host.addCube(0.2);
     for (int i = 1; i < 4; ++i) host.addCube(0.1, Vec3(0.045 * i, 0.0, 0.0));
-    testing::FakeDevice device(Vec3(-0.031, 0.0, 0.0));
-    testing::FakeLink link;
+    test::FakeDevice device(Vec3(-0.031, 0.0, 0.0));
+    test::FakeLink link;
     Site site({}, *host.world, device);
     site.share(cube);
     site.connect(PeerId{2}, link, Vec3(0.0, 0.04, 0.0));
     for (int i = 0; i < 60; ++i) {
       device.sample.hip.p_W.x() += speed / 120.0;
       link.arrivals.push_back(
-          {testing::makePacket(PeerId{2}, static_cast<std::uint64_t>(i), Vec3(0.0, 0.04, 0.0)),
+          {test::makePacket(PeerId{2}, static_cast<std::uint64_t>(i), Vec3(0.0, 0.04, 0.0)),
            i / 120.0});
       host.world->stepSimulation(btScalar(1) / 120, 4, btScalar(1) / 480);
       for (const auto& body : host.bodies) hash.add(*body);

@@ -20,7 +20,7 @@ TEST(WorldEndsUnderALoop, LetsTheHandGoWhileTheThreadTicksOn) {
   host.addBody(host.makeBox(Vec3(1.0, 1.0, 0.1)), 0.0, Vec3(0.0, 0.0, -0.12));
   btRigidBody& cube = host.addCube(0.2);
   btRigidBody& box = host.addCube(0.1, Vec3(0.041, 0.0, 0.0));
-  testing::FakeDevice device(Vec3(-0.0295, 0.0, 0.0));
+  test::FakeDevice device(Vec3(-0.0295, 0.0, 0.0));
   LinkQueue link;
   SiteSettings settings;
   settings.tick_source = TickSource::kCaller;

@@ -76,12 +76,12 @@ void ContactSearch::sortLinks() {
   const auto rank = [](const PrivateCopy& copy) {
     return copy.index == kStanding ? std::numeric_limits<BodyIndex>::max() : copy.index;
   };
-  std::stable_sort(links_.begin(), links_.end(), [&](const Link& x, const Link& y) {
+  std::stable_sort(links_.begin(), links_.end(), [&](const Neighbours& x, const Neighbours& y) {
     return std::pair(rank(*x.a), rank(*x.b)) < std::pair(rank(*y.a), rank(*y.b));
   });
 }
 
-void ContactSearch::draw() {
+void ContactSearch::prepare() {
   if (!is_drawn_) going_.clear();
   if (!is_changed_) return;
   is_changed_ = false;
@@ -120,7 +120,7 @@ void ContactSearch::fillDraft() {
 
 void ContactSearch::erase(const btCollisionObject* original) {
   const auto is_it = [&](const auto& copy) { return copy->original == original; };
-  std::erase_if(links_, [&](const Link& link) { return is_it(link.a) || is_it(link.b); });
+  std::erase_if(links_, [&](const Neighbours& link) { return is_it(link.a) || is_it(link.b); });
   std::erase_if(placings_, [&](const Placing& placing) { return is_it(placing.copy); });
   std::erase_if(surfacings_, [&](const Surfacing& one) { return is_it(one.copy); });
   for (auto* copies : {&bodies_, &standing_}) {

@@ -16,8 +16,8 @@ namespace tandem {
 /// objects near them.
 ///
 /// Two sides use it, possibly in two threads. The host's side changes the set of objects with
-/// addBody ... showSurfaces, then calls draw(). Changes take effect in commit(), on the tick's
-/// side. commit() neither allocates nor reads the host's world. The next draw() frees replaced
+/// addBody ... showSurfaces, then calls prepare(). Changes take effect in commit(), on the tick's
+/// side. commit() neither allocates nor reads the host's world. The next prepare() frees replaced
 /// data.
 class ContactSearch {
  public:
@@ -63,7 +63,7 @@ class ContactSearch {
   /// Removes a copy. Calls `visit` with it and each partner of its pairs.
   template <typename Visit>
   void remove(const btCollisionObject* original, Visit visit) {
-    for (const Link& link : links_) {
+    for (const Neighbours& link : links_) {
       if (link.a->original == original) visit(*link.a, *link.b);
       if (link.b->original == original) visit(*link.b, *link.a);
     }
@@ -72,12 +72,12 @@ class ContactSearch {
   /// Copies friction and restitution from the originals, which must all be in the world.
   void showSurfaces();
   /// Completes a change for the next commit().
-  void draw();
+  void prepare();
   /// @}
 
   /// @name The tick's side; real-time safe.
   /// @{
-  /// Applies the last draw().
+  /// Applies the last prepare().
   void commit() noexcept;
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
                   std::vector<char>& awake, std::vector<char>& near) noexcept;
@@ -88,7 +88,7 @@ class ContactSearch {
 
  private:
   /// Two copies that may touch, on the host's side.
-  struct Link {
+  struct Neighbours {
     PrivateCopy* a;     ///< a body
     PrivateCopy* b;     ///< a body or standing
     std::size_t place;  ///< index of its pair in the present book; kNowhere: none
@@ -144,13 +144,13 @@ class ContactSearch {
 
   // The host's side.
   std::vector<std::unique_ptr<PrivateCopy>> bodies_, standing_;
-  std::vector<std::unique_ptr<PrivateCopy>> removed_;  ///< since the last draw()
+  std::vector<std::unique_ptr<PrivateCopy>> removed_;  ///< since the last prepare()
   std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< in the present book, not in the next
-  std::vector<Link> links_;
+  std::vector<Neighbours> links_;
   Vec3 wanted_origin_W_ = Vec3::Zero();
-  bool is_changed_ = false;  ///< since the last draw()
+  bool is_changed_ = false;  ///< since the last prepare()
 
-  // Result of draw() for commit().
+  // Result of prepare() for commit().
   Book draft_;
   bool is_drawn_ = false;
   std::vector<Placing> placings_;

@@ -112,19 +112,19 @@ void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
                 "; use a convex shape or a compound of them");
   impl_->search.addBody(index, body, impl_->takeOver());
-  impl_->search.draw();
+  impl_->search.prepare();
 }
 
 void Obstacles::removeBody(BodyIndex index) {
   if (btCollisionObject* body = impl_->findBody(index)) impl_->remove(body);
-  impl_->search.draw();
+  impl_->search.prepare();
 }
 
 void Obstacles::forgetWorld() {
   while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
   while (!impl_->search.standing().empty())
     impl_->remove(impl_->search.standing().back()->original);
-  impl_->search.draw();
+  impl_->search.prepare();
   impl_->next_near_spheres.clear();
   impl_->has_next = true;
 }
@@ -144,7 +144,7 @@ bool Obstacles::search(const std::vector<RigidState>& states, double margin,
   impl_->dropLost();
   impl_->takeFound();
   impl_->search.showSurfaces();
-  impl_->search.draw();
+  impl_->search.prepare();
   impl_->findForSpheres(states, reach);
   return impl_->changed;
 }

@@ -39,19 +39,19 @@ struct TickSlots : btDynamicsWorld {
 };
 
 /// One place of our tick function in a slot's chain.
-struct Link {
+struct ChainEntry {
   btInternalTickCallback below = nullptr;  // callback in the slot before us
   HostStepListener* listener = nullptr;    // null: detached, only calls through
 };
 
 /// Our links in one slot of one world, oldest first, and the number of calls now active.
 struct Slot {
-  std::vector<Link> links;
+  std::vector<ChainEntry> links;
   std::size_t depth = 0;
   std::size_t called = 0;  // number of links when the outermost call began
 
   [[nodiscard]] bool hasListener() const {
-    for (const Link& link : links) {
+    for (const ChainEntry& link : links) {
       if (link.listener != nullptr) return true;
     }
     return false;
@@ -125,8 +125,8 @@ class Call {
   Call& operator=(const Call&) = delete;
 
   /// Read anew: a callback in between may detach us.
-  [[nodiscard]] Link link() const {
-    return place_ < slot_.links.size() ? slot_.links[place_] : Link{};
+  [[nodiscard]] ChainEntry link() const {
+    return place_ < slot_.links.size() ? slot_.links[place_] : ChainEntry{};
   }
 
  private:
@@ -161,7 +161,7 @@ void preTick(btDynamicsWorld* world, btScalar dt) {
   if (slots == nullptr) return;
   {
     const Call call(slots->pre);
-    Link link = call.link();
+    ChainEntry link = call.link();
     if (link.below != nullptr) {
       link.below(world, dt);
       link = call.link();
@@ -179,7 +179,7 @@ void postTick(btDynamicsWorld* world, btScalar dt) {
   if (slots == nullptr) return;
   {
     const Call call(slots->post);
-    const Link link = call.link();
+    const ChainEntry link = call.link();
     if (link.listener != nullptr && link.listener == slots->begun) {
       slots->begun = nullptr;
       link.listener->afterHostStep(dt);
@@ -238,7 +238,7 @@ HostWorld::~HostWorld() {
   WorldSlots* slots = attachedWorlds().find(&world_);
   if (slots == nullptr) return;
   for (Slot* slot : {&slots->pre, &slots->post})
-    for (Link& link : slot->links) link.listener = nullptr;
+    for (ChainEntry& link : slot->links) link.listener = nullptr;
   slots->begun = nullptr;
   slots->is_left = true;
   tidyUp(world_, *slots);

@@ -121,7 +121,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
     advanceTogether(model, dt, counters);
   }
   advanceAlone(model, dt);
-  if (!wasAlone(model, dt)) {
+  if (mustRepeat(model, dt)) {
     ++counters.repeated;
     double way = 0.0;
     for (const BodyIndex b : model.present)
@@ -265,7 +265,7 @@ void SpatialMotion::turnAlone(const ModelBody& body, double dt, RigidState& stat
   state.w_W = map.velocity_to_velocity * w_W;
 }
 
-bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
+bool SpatialMotion::mustRepeat(IslandModel& model, double dt) noexcept {
   // If no body moved farther than its allowance, none met another.
   bool far = false;
   for (const BodyIndex b : model.present) {
@@ -275,8 +275,8 @@ bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
       way += dt * std::max(from.w_W.norm(), to.w_W.norm()) * model.bodies[b].bounding_radius;
     far |= !(way <= allowance_[b]);
   }
-  if (!far) return true;
-  if (sleepers_.wakeNear(model, states_, allowance_)) return false;
+  if (!far) return false;
+  if (sleepers_.wakeNear(model, states_, allowance_)) return true;
 
   // Includes pairs in which each body already touched something else.
   bool met = false;
@@ -298,7 +298,7 @@ bool SpatialMotion::wasAlone(IslandModel& model, double dt) noexcept {
       met |= computeTouchState(model, touch, states_).geometry.gap <= 0.0;
     }
   });
-  return !met;
+  return met;
 }
 
 void SpatialMotion::advanceTogether(const IslandModel& model, double dt,

@@ -67,7 +67,8 @@ class SpatialMotion {
   [[nodiscard]] bool needsTurning(const IslandModel& model, BodyIndex b) const noexcept;
   void advanceAlone(const IslandModel& model, double dt) noexcept;
   void turnAlone(const ModelBody& body, double dt, RigidState& state) const noexcept;
-  [[nodiscard]] bool wasAlone(IslandModel& model, double dt) noexcept;
+  /// True if bodies that advanced alone have met, or a sleeper near them was woken.
+  [[nodiscard]] bool mustRepeat(IslandModel& model, double dt) noexcept;
   void advanceTogether(const IslandModel& model, double dt, IslandCounters& counters) noexcept;
   void lookAround(IslandModel& model) noexcept;
   void advanceWithRigid(const IslandModel& model, double h, IslandCounters& counters) noexcept;

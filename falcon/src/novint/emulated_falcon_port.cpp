@@ -25,9 +25,9 @@ constexpr double kNap = 0.002;      // pause while the port is unplugged [s]
 
 /// A symbolic link in a private folder, so that no other program can replace it. The destructor
 /// removes both.
-class Link {
+class PrivateSymlink {
  public:
-  Link() {
+  PrivateSymlink() {
     std::error_code error;
     const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
     std::string folder = (parent / "tandem-falcon-XXXXXX").string();
@@ -38,12 +38,12 @@ class Link {
     folder_ = folder;
     path_ = folder + "/tty";
   }
-  ~Link() {
+  ~PrivateSymlink() {
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
   }
-  Link(const Link&) = delete;
-  Link& operator=(const Link&) = delete;
+  PrivateSymlink(const PrivateSymlink&) = delete;
+  PrivateSymlink& operator=(const PrivateSymlink&) = delete;
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   void leadTo(const std::string& target) {
@@ -144,7 +144,7 @@ class EmulatedFalconPort::Server {
 
   std::mutex mutex_;
   FalconEmulator emulator_;
-  Link link_;
+  PrivateSymlink link_;
   std::optional<falcon_detail::PseudoTerminal> terminal_;
   SerialLine line_;
   std::atomic<bool> stops_{false};

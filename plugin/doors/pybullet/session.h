@@ -101,7 +101,7 @@ class Session {
     std::vector<TandemBody> ids;
     TandemState pose;
   };
-  struct Link {
+  struct OpenLink {
     LinkHandle manual;
     std::unique_ptr<SimulatedEnd> simulated;
     TandemLink* handle = nullptr;
@@ -115,7 +115,7 @@ class Session {
   std::vector<Piece> findPieces(const BorrowedBody& body, const Piece* shape) const;
   TandemBody addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state);
   void addMoving(BorrowedBody body, TandemBody id, const TandemState& state);
-  int keepLink(Link link);
+  int keepLink(OpenLink link);
   EngineParameters askParameters() const;
   void begin();
   void finish();
@@ -146,7 +146,7 @@ class Session {
 
   // Order of destruction: the last member goes first.
   MeshHandle mesh_;
-  std::vector<Link> links_;
+  std::vector<OpenLink> links_;
   DeviceHandle device_;
   WorldHandle world_;
   SiteHandle site_;

@@ -27,13 +27,13 @@ std::string Session::explainPeer(std::uint32_t peer) const {
   return text;
 }
 
-int Session::keepLink(Link link) {
+int Session::keepLink(OpenLink link) {
   links_.push_back(std::move(link));
   return static_cast<int>(links_.size()) - 1;
 }
 
 int Session::addManualLink() {
-  Link link;
+  OpenLink link;
   check(tandem_link_create_manual(&link.handle));
   link.manual.reset(link.handle);
   return keepLink(std::move(link));
@@ -41,13 +41,13 @@ int Session::addManualLink() {
 
 int Session::addMeshLink(std::uint32_t peer) {
   if (!mesh_) throw Refusal(kWrongOrder, "a link of kind mesh needs a mesh: `mesh` first");
-  Link link;
+  OpenLink link;
   check(tandem_mesh_link(mesh_.get(), peer, &link.handle));
   return keepLink(std::move(link));
 }
 
 int Session::addSimulatedLink(const std::string& name, const TandemNetwork& network) {
-  Link link;
+  OpenLink link;
   link.simulated = std::make_unique<SimulatedEnd>(name, network);
   link.handle = link.simulated->link();
   return keepLink(std::move(link));

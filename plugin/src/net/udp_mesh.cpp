@@ -4,7 +4,7 @@
 
 #include "tandem/plugin/udp_socket.h"
 
-#include "net/mesh.h"
+#include "net/peer_group.h"
 
 namespace tandem {
 namespace {
@@ -45,8 +45,8 @@ const char* name(net::Refusal refusal) noexcept {
   return "";
 }
 
-std::vector<net::Mesh::Peer> toMeshPeers(std::vector<UdpPeer> peers) {
-  std::vector<net::Mesh::Peer> all;
+std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers) {
+  std::vector<net::PeerGroup::Peer> all;
   for (UdpPeer& peer : peers) all.push_back({peer.id, peer.address, std::move(peer.key)});
   return all;
 }
@@ -60,7 +60,7 @@ struct UdpMesh::Impl {
              {settings.configuration, settings.playout, settings.profile}, socket) {}
 
   net::UdpSocket socket;
-  net::Mesh mesh;
+  net::PeerGroup mesh;
 };
 
 UdpMesh::UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers)

@@ -12,7 +12,7 @@ namespace tandem::net {
 
 /// All pairs of one site over one socket. Finds the pair of a datagram, and answers strangers
 /// without keeping state. The caller passes time and bytes. One thread.
-class Mesh {
+class PeerGroup {
  public:
   struct Peer {
     PeerId id{};
@@ -22,10 +22,11 @@ class Mesh {
 
   /// Throws std::invalid_argument for an id outside 1 to 8, a repeated id or our own. Throws it
   /// also for a configuration that is too long to send. `outlet` must outlive the mesh.
-  Mesh(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common, Outlet& outlet);
-  ~Mesh();
-  Mesh(const Mesh&) = delete;
-  Mesh& operator=(const Mesh&) = delete;
+  PeerGroup(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common,
+            Outlet& outlet);
+  ~PeerGroup();
+  PeerGroup(const PeerGroup&) = delete;
+  PeerGroup& operator=(const PeerGroup&) = delete;
 
   /// Processes a received datagram; may change its bytes. Checks everything and never throws.
   void receive(ByteSpan datagram, const Address& from, double now) noexcept;

@@ -1,4 +1,4 @@
-#include "net/mesh.h"
+#include "net/peer_group.h"
 
 #include <array>
 #include <stdexcept>
@@ -19,7 +19,7 @@ secure::CookieSubject makeSubject(const HandshakeRoute& route, const Address& fr
           static_cast<std::uint16_t>(route.receiver), route.nonce};
 }
 
-void checkIds(PeerId self, const std::vector<Mesh::Peer>& peers) {
+void checkIds(PeerId self, const std::vector<PeerGroup::Peer>& peers) {
   const auto check = [](PeerId id) {
     const auto number = static_cast<std::uint32_t>(id);
     if (number < 1 || number > 8)
@@ -44,7 +44,7 @@ void checkIds(PeerId self, const std::vector<Mesh::Peer>& peers) {
 }  // namespace
 
 /// The link of one pair, for a Site.
-class Mesh::PeerLink final : public Link {
+class PeerGroup::PeerLink final : public Link {
  public:
   PeerLink(PeerSession& session, Outlet& outlet) noexcept : session_(session), outlet_(outlet) {}
   void send(const StatePacket& packet, double now) noexcept override {
@@ -59,7 +59,8 @@ class Mesh::PeerLink final : public Link {
   Outlet& outlet_;
 };
 
-Mesh::Mesh(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common, Outlet& outlet)
+PeerGroup::PeerGroup(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common,
+                     Outlet& outlet)
     : self_(self),
       outlet_(outlet),
       known_{{kHellosPerSecond, kAtOnce}, {kOpensPerSecond, kOpensAtOnce}},
@@ -73,46 +74,46 @@ Mesh::Mesh(PeerId self, std::vector<Peer> peers, const PeerSession::Common& comm
   }
 }
 
-Mesh::~Mesh() = default;
+PeerGroup::~PeerGroup() = default;
 
-void Mesh::receive(ByteSpan datagram, const Address& from, double now) noexcept {
+void PeerGroup::receive(ByteSpan datagram, const Address& from, double now) noexcept {
   const Outcome outcome = handle(datagram, from, now);
   counts_.add(outcome.refusal);
   if (outcome.refusal == Refusal::kForm) ++counts_.form[static_cast<std::size_t>(outcome.form)];
 }
 
-void Mesh::advance(double now) noexcept {
+void PeerGroup::advance(double now) noexcept {
   for (auto& session : sessions_) session->advance(now, outlet_);
 }
 
-void Mesh::leave(ByeReason reason, double now) noexcept {
+void PeerGroup::leave(ByeReason reason, double now) noexcept {
   for (auto& session : sessions_) session->leave(reason, now);
 }
 
-Link& Mesh::link(PeerId peer) {
+Link& PeerGroup::link(PeerId peer) {
   for (std::size_t i = 0; i < sessions_.size(); ++i)
     if (sessions_[i]->pair().peer == peer) return *links_[i];
   throw std::invalid_argument("site " + std::to_string(static_cast<std::uint32_t>(peer)) +
                               " is no peer of this mesh");
 }
 
-PeerStatus Mesh::status(PeerId peer, double now) const {
+PeerStatus PeerGroup::status(PeerId peer, double now) const {
   for (const auto& session : sessions_)
     if (session->pair().peer == peer) return session->status(now);
   return {};
 }
 
-Mesh::Limits& Mesh::limitsOf(const PeerSession& session, const Address& from) noexcept {
+PeerGroup::Limits& PeerGroup::limitsOf(const PeerSession& session, const Address& from) noexcept {
   return session.knows(from) ? known_ : strange_;
 }
 
-PeerSession* Mesh::find(PeerId peer) noexcept {
+PeerSession* PeerGroup::find(PeerId peer) noexcept {
   for (auto& session : sessions_)
     if (session->pair().peer == peer) return session.get();
   return nullptr;
 }
 
-Outcome Mesh::handle(ByteSpan datagram, const Address& from, double now) noexcept {
+Outcome PeerGroup::handle(ByteSpan datagram, const Address& from, double now) noexcept {
   const ByteView bytes{datagram.data, datagram.size};
   const auto header = decodeHeader(bytes);
   if (!header) {
@@ -138,7 +139,7 @@ Outcome Mesh::handle(ByteSpan datagram, const Address& from, double now) noexcep
   }
 }
 
-Outcome Mesh::handleHello(ByteView datagram, const Address& from, double now) noexcept {
+Outcome PeerGroup::handleHello(ByteView datagram, const Address& from, double now) noexcept {
   const auto hello = decodeHello(datagram);
   if (!hello) return hello.refusal();
   if (hello->route.receiver != self_ || !find(hello->route.sender)) {
@@ -154,7 +155,7 @@ Outcome Mesh::handleHello(ByteView datagram, const Address& from, double now) no
   return {};
 }
 
-Outcome Mesh::handleOpen(ByteView datagram, const Address& from, double now) noexcept {
+Outcome PeerGroup::handleOpen(ByteView datagram, const Address& from, double now) noexcept {
   const auto open = decodeOpen(datagram);
   if (!open) return open.refusal();
   PeerSession* session = open->route.receiver == self_ ? find(open->route.sender) : nullptr;
@@ -172,16 +173,16 @@ Outcome Mesh::handleOpen(ByteView datagram, const Address& from, double now) noe
   return outcome;
 }
 
-Outcome Mesh::handleSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
-                           double now) noexcept {
+Outcome PeerGroup::handleSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
+                                double now) noexcept {
   // Pairs choose session numbers independently, so two may be equal: the sender decides.
   PeerSession* session = find(header.sender);
   if (!session) return Refusal::kUnknownSession;
   return session->onSealed(header, datagram, from, now, outlet_);
 }
 
-void Mesh::refuse(const HandshakeRoute& asked, RefuseCode code, const Address& to,
-                  double now) noexcept {
+void PeerGroup::refuse(const HandshakeRoute& asked, RefuseCode code, const Address& to,
+                       double now) noexcept {
   if (!refusals_.take(now)) return;
   RefuseMessage message;
   message.route = {asked.receiver, asked.sender, asked.nonce};
