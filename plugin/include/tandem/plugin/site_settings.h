@@ -1,6 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "tandem/coordination/coupling_settings.h"
 #include "tandem/coordination/types.h"
@@ -70,6 +73,35 @@ struct SiteSettings {
 
 /// Throws std::invalid_argument with the value's name and the allowed range.
 void checkSiteSettings(const SiteSettings& settings);
+
+/// The values that a number may have.
+struct FieldRange {
+  double least = 0.0;
+  double most = std::numeric_limits<double>::max();
+  bool excludes_least = false;
+  const char* allowed = "a finite number, 0 or more";  ///< in refusals: "must be ..."
+
+  [[nodiscard]] bool contains(double value) const noexcept;
+};
+
+/// One number or flag of SiteSettings. Doors use it to set the number by name: files, other
+/// languages and the peers' agreement take names, units and ranges from here.
+struct SiteField {
+  const char* name;     ///< as in refusals: "contact.stiffness"
+  const char* unit;     ///< "N/m"; empty: none
+  const char* meaning;  ///< in a few words of Markdown
+  FieldRange range;
+  bool is_shared;  ///< all sites of a cooperation must have the same value
+  bool is_flag;    ///< 0 or 1
+  double (*get)(const SiteSettings& settings);
+  void (*set)(SiteSettings& settings, double value);
+};
+
+/// Every number and flag that a door may set.
+[[nodiscard]] const std::vector<SiteField>& siteFields();
+
+/// Throws std::out_of_range if there is no such field.
+[[nodiscard]] const SiteField& findSiteField(std::string_view name);
 
 }  // namespace tandem
 #pragma GCC visibility pop

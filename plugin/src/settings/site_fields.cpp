@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "tandem/plugin/site_settings.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr FieldRange kNotNegative{};
+constexpr FieldRange kPositive{0.0, kLargest, true, "a finite number above 0"};
+constexpr FieldRange kPositiveOrInfinite{0.0, kInfinity, true, "above 0; inf: no limit"};
+constexpr FieldRange kPeers{1.0, 64.0, false, "1 to 64"};
+constexpr FieldRange kNeighbours{0.0, 256.0, false, "0 to 256"};
+constexpr FieldRange kFlag{0.0, 1.0, false, "0 or 1"};
+
+/// Whether the sites of a cooperation must agree on a field.
+enum Whose { kShared, kOwn };
+
+/// The member that the members of `Path` lead to, one within the other.
+template <auto... Path, typename Settings>
+constexpr auto& find(Settings& settings) {
+  return (settings.*....*Path);
+}
+
+template <auto... Path>
+SiteField field(const char* name, const char* unit, const char* meaning, const FieldRange& range,
+                Whose whose) {
+  using Value = std::decay_t<decltype(find<Path...>(std::declval<SiteSettings&>()))>;
+  return {name,
+          unit,
+          meaning,
+          range,
+          whose == kShared,
+          std::is_same_v<Value, bool>,
+          [](const SiteSettings& s) { return static_cast<double>(find<Path...>(s)); },
+          [](SiteSettings& s, double value) { find<Path...>(s) = static_cast<Value>(value); }};
+}
+
+std::vector<SiteField> makeFields() {
+  using S = SiteSettings;
+  using Gains = CouplerGains;
+  return {
+      field<&S::peers>("peers", "", "N: each of N copies of a shared object carries m/N", kPeers,
+                       kShared),
+      field<&S::haptic_rate>("haptic_rate", "Hz", "device loop", kPositive, kShared),
+      field<&S::packet_rate>("packet_rate", "Hz", "packets per second", kPositive, kShared),
+      field<&S::thins_when_idle>("thins_when_idle", "", "fewer packets while nothing moves", kFlag,
+                                 kOwn),
+      field<&S::host_step>("host_step", "s", "expected first step of the host; 0: learnt from it",
+                           kNotNegative, kOwn),
+      field<&S::contact, &Gains::stiffness>("contact.stiffness", "N/m",
+                                            "K_vc, of every contact of a device or proxy",
+                                            kNotNegative, kShared),
+      field<&S::contact, &Gains::damping>("contact.damping", "N s/m", "B_vc", kNotNegative,
+                                          kShared),
+      field<&S::coordination, &Gains::stiffness>(
+          "coordination.stiffness", "N/m", "K_t, proxies to users and object copies to each other",
+          kNotNegative, kShared),
+      field<&S::coordination, &Gains::damping>("coordination.damping", "N s/m", "B_t", kNotNegative,
+                                               kShared),
+      field<&S::proxy, &ProxySettings::mass>("proxy.mass", "kg", "m_h of a proxy", kPositive,
+                                             kShared),
+      field<&S::proxy, &ProxySettings::damping>("proxy.damping", "N s/m", "b_h", kNotNegative,
+                                                kShared),
+      field<&S::proxy, &ProxySettings::radius>("proxy.radius", "m", "of proxies", kPositive,
+                                               kShared),
+      field<&S::hip_radius>("hip_radius", "m", "of the local haptic interface point", kPositive,
+                            kOwn),
+      field<&S::inner_step>("inner_step", "s", "step of the island where motion is not linear",
+                            kPositive, kOwn),
+      field<&S::max_neighbours>("max_neighbours", "",
+                                "bodies of the host that the island may hold at a time",
+                                kNeighbours, kOwn),
+      field<&S::host_stall>("host_stall", "s", "time for which the host may be silent",
+                            kNotNegative, kOwn),
+      field<&S::link_loss, &LinkLossSettings::enabled>(
+          "link_loss.enabled", "",
+          "a silent peer's gains fade; false: its last state pulls for ever", kFlag, kShared),
+      field<&S::passivity, &PassivitySettings::enabled>(
+          "passivity.enabled", "",
+          "the hand gets no more energy than others and itself put in, and the tank", kFlag, kOwn),
+      field<&S::passivity, &PassivitySettings::tank>(
+          "passivity.tank", "J", "energy that the hand may get before anybody puts in any",
+          kPositive, kOwn),
+      field<&S::max_slew>("max_slew", "N/s", "change of the force at the device",
+                          kPositiveOrInfinite, kOwn),
+      field<&S::fault_slew>("fault_slew", "N/s", "after a fault the force fades by this", kPositive,
+                            kOwn),
+  };
+}
+
+}  // namespace
+
+bool FieldRange::contains(double value) const noexcept {
+  return (excludes_least ? value > least : value >= least) && value <= most;
+}
+
+const std::vector<SiteField>& siteFields() {
+  static const std::vector<SiteField> fields = makeFields();
+  return fields;
+}
+
+const SiteField& findSiteField(std::string_view name) {
+  const auto& all = siteFields();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const SiteField& f) { return f.name == name; });
+  if (found == all.end()) throw std::out_of_range("no field of a site: " + std::string(name));
+  return *found;
+}
+
+}  // namespace tandem
