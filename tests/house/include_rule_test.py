@@ -157,6 +157,12 @@ class IncludeRuleTest(unittest.TestCase):
         found = breaks_of({"plugin/doors/preload/a.cpp": '#include "plugin/src/c.h"\n', **inner})
         self.assertIn("plugin's private header", found[0].rule)
 
+    def test_doors_share_the_c_doors_words(self):
+        for header, allowed in (("site_words.h", True), ("values.h", False)):
+            found = breaks_of({"plugin/doors/pybullet/a.cpp": f'#include "c/{header}"\n',
+                               f"plugin/doors/c/{header}": ""})
+            self.assertEqual(not found, allowed, header)
+
     def test_headers_that_are_not_there(self):
         self.assert_broken("plugin/src/a.cpp", '"nowhere.h"', "no such header")
         self.assert_broken("plugin/src/a.cpp", '"tandem/falcon/nowhere.h"', "falcon/include has no such header")

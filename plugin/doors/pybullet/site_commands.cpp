@@ -1,5 +1,7 @@
 #include <cmath>
+#include <cstring>
 
+#include "c/site_words.h"
 #include "commands.h"
 #include "refusal.h"
 
@@ -9,6 +11,19 @@ namespace {
 void readGains(Words& words, const char* key, TandemGains& gains) {
   double values[2]{};
   if (words.numbersIfThere(key, values, 2)) gains = {values[0], values[1]};
+}
+
+/// Sets a number if its word is there.
+void readNumber(Words& words, const c_door::SiteWord& number, TandemSiteSettings& settings) {
+  const bool is_gain = std::strchr(number.word, '.') != nullptr;  // two of them are one word
+  if (is_gain || !words.has(number.word)) return;
+  double value = 0.0;
+  if (number.is_flag) {
+    value = words.flag(number.word, false) ? 1.0 : 0.0;
+  } else {
+    value = number.is_integer ? words.integer(number.word) : words.number(number.word);
+  }
+  number.set(settings, value);
 }
 
 }  // namespace
@@ -43,25 +58,12 @@ void Commands::site(Words& words, Reply&) {
   const int self = words.integer("self", 1);
   if (self < 1) throw Refusal(kBadCommand, "self: 1 or more");
   settings.self = static_cast<std::uint32_t>(self);
-  settings.peers = words.integer("peers", settings.peers);
-  settings.haptic_rate = words.number("haptic_rate", settings.haptic_rate);
-  settings.packet_rate = words.number("packet_rate", settings.packet_rate);
-  settings.thins_when_idle = words.flag("thins_when_idle", settings.thins_when_idle != 0);
+  for (const c_door::SiteWord& word : c_door::kSiteWords) readNumber(words, word, settings);
   readGains(words, "contact", settings.contact);
   readGains(words, "coordination", settings.coordination);
-  settings.proxy_mass = words.number("proxy_mass", settings.proxy_mass);
-  settings.proxy_damping = words.number("proxy_damping", settings.proxy_damping);
-  settings.proxy_radius = words.number("proxy_radius", settings.proxy_radius);
-  settings.hip_radius = words.number("hip_radius", settings.hip_radius);
   const std::string scheme = words.text("scheme", settings.scheme);
   settings.scheme = scheme.c_str();
   settings.has_guide = words.numbersIfThere("guide", settings.guide, 3) ? 1 : 0;
-  settings.inner_step = words.number("inner_step", settings.inner_step);
-  settings.max_neighbours = words.integer("max_neighbours", settings.max_neighbours);
-  settings.link_loss = words.flag("link_loss", settings.link_loss != 0);
-  settings.passivity = words.flag("passivity", settings.passivity != 0);
-  settings.max_slew = words.number("max_slew", settings.max_slew);
-  settings.fault_slew = words.number("fault_slew", settings.fault_slew);
   words.finish();
   session_.openSite(settings);
 }

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include "tandem/tandem.h"
+
+namespace tandem::c_door {
+
+/// A number of TandemSiteSettings that other languages set by name.
+struct SiteWord {
+  const char* word;   ///< the member's name
+  const char* field;  ///< its name in siteFields()
+  bool is_integer;
+  bool is_flag;  ///< an integer that is 0 or 1
+  double (*get)(const TandemSiteSettings& settings);
+  void (*set)(TandemSiteSettings& settings, double value);
+};
+
+/// The number that the members of `Path` lead to, one within the other.
+template <auto... Path, typename Settings>
+constexpr auto& find(Settings& settings) {
+  return (settings.*....*Path);
+}
+
+template <auto... Path>
+constexpr SiteWord word(const char* word, const char* field, bool is_flag = false) {
+  using Value = std::decay_t<decltype(find<Path...>(std::declval<TandemSiteSettings&>()))>;
+  return {
+      word,
+      field,
+      std::is_same_v<Value, int>,
+      is_flag,
+      [](const TandemSiteSettings& s) { return static_cast<double>(find<Path...>(s)); },
+      [](TandemSiteSettings& s, double value) { find<Path...>(s) = static_cast<Value>(value); }};
+}
+
+template <auto... Path>
+constexpr SiteWord word(const char* both) {
+  return word<Path...>(both, both);
+}
+
+/// All but `self`, `scheme`, `tick_source` and `guide`, which are no plain numbers.
+inline constexpr SiteWord kSiteWords[] = {
+    word<&TandemSiteSettings::peers>("peers"),
+    word<&TandemSiteSettings::haptic_rate>("haptic_rate"),
+    word<&TandemSiteSettings::packet_rate>("packet_rate"),
+    word<&TandemSiteSettings::thins_when_idle>("thins_when_idle", "thins_when_idle", true),
+    word<&TandemSiteSettings::host_step>("host_step"),
+    word<&TandemSiteSettings::contact, &TandemGains::stiffness>("contact.stiffness"),
+    word<&TandemSiteSettings::contact, &TandemGains::damping>("contact.damping"),
+    word<&TandemSiteSettings::coordination, &TandemGains::stiffness>("coordination.stiffness"),
+    word<&TandemSiteSettings::coordination, &TandemGains::damping>("coordination.damping"),
+    word<&TandemSiteSettings::proxy_mass>("proxy_mass", "proxy.mass"),
+    word<&TandemSiteSettings::proxy_damping>("proxy_damping", "proxy.damping"),
+    word<&TandemSiteSettings::proxy_radius>("proxy_radius", "proxy.radius"),
+    word<&TandemSiteSettings::hip_radius>("hip_radius"),
+    word<&TandemSiteSettings::inner_step>("inner_step"),
+    word<&TandemSiteSettings::max_neighbours>("max_neighbours"),
+    word<&TandemSiteSettings::link_loss>("link_loss", "link_loss.enabled", true),
+    word<&TandemSiteSettings::passivity>("passivity", "passivity.enabled", true),
+    word<&TandemSiteSettings::max_slew>("max_slew"),
+    word<&TandemSiteSettings::fault_slew>("fault_slew"),
+};
+
+}  // namespace tandem::c_door
