@@ -127,10 +127,26 @@ struct LinkWords {
 
 constexpr double kMost = 1e9;
 
+std::string describeRange(const SiteKey& key, const SiteField& field) {
+  const std::string unit = std::string(" [") + field.unit + "]";
+  if (key.allowed) return key.allowed + unit;
+  return (field.range.excludes_least ? "above 0" : "0 or more") + unit;
+}
+
+Key toField(const SiteKey& key, SiteSettings& site) {
+  const SiteField& field = findSiteField(key.field);
+  return {key.name, describeRange(key, field), [&](const toml::node& node) {
+            const auto value = readNumber(node, key.least, key.most);
+            if (!value || !field.range.contains(*value)) return false;
+            field.set(site, *value);
+            return true;
+          }};
+}
+
 std::vector<Key> makeKeys(PreloadConfig& config, double& mass, LinkWords& words) {
   SiteSettings& site = config.site;
   const double tiny = std::numeric_limits<double>::min();
-  return {
+  std::vector<Key> keys = {
       {"process", "the name of a process, on a line of its own before the first table",
        toText(config.process)},
       {"bullet", "\"float\" or \"float64\"", toWidth(config.scalar_bytes)},
@@ -144,17 +160,9 @@ std::vector<Key> makeKeys(PreloadConfig& config, double& mass, LinkWords& words)
       {"log", "the name of a file", toText(config.log)},
       {"guide", "three numbers of norm 1", toGuide(config)},
       {"site.self", "a whole number from 1 to 8", toPeer(site.self)},
-      {"site.haptic_rate", "10 to 100000 [Hz]", toNumber(site.haptic_rate, 10.0, 1e5)},
-      {"site.packet_rate", "1 to 100000 [Hz]", toNumber(site.packet_rate, 1.0, 1e5)},
-      {"contact.stiffness", "0 or more [N/m]", toNumber(site.contact.stiffness, 0.0, kMost)},
-      {"contact.damping", "0 or more [N s/m]", toNumber(site.contact.damping, 0.0, kMost)},
-      {"coordination.stiffness", "0 or more [N/m]",
-       toNumber(site.coordination.stiffness, 0.0, kMost)},
-      {"coordination.damping", "0 or more [N s/m]",
-       toNumber(site.coordination.damping, 0.0, kMost)},
-      {"proxy.mass", "above 0 [kg]", toNumber(site.proxy.mass, tiny, kMost)},
-      {"proxy.damping", "0 or more [N s/m]", toNumber(site.proxy.damping, 0.0, kMost)},
-      {"proxy.radius", "above 0 [m]", toNumber(site.proxy.radius, tiny, kMost)},
+  };
+  for (const SiteKey& key : kSiteKeys) keys.push_back(toField(key, site));
+  const std::vector<Key> others = {
       {"device.mass", "above 0 [kg]", toNumber(config.device.mass, tiny, kMost)},
       {"device.damping", "0 or more [N s/m]", toNumber(config.device.damping, 0.0, kMost)},
       {"device.max_force", "above 0 [N]", toNumber(config.device.max_force, tiny, kMost)},
@@ -171,6 +179,8 @@ std::vector<Key> makeKeys(PreloadConfig& config, double& mass, LinkWords& words)
          return node.is_boolean();
        }},
   };
+  keys.insert(keys.end(), others.begin(), others.end());
+  return keys;
 }
 
 class Reader {

@@ -38,6 +38,27 @@ struct PreloadConfig {
   std::optional<PreloadLink> link;
 };
 
+/// A key that sets a field of the site.
+struct SiteKey {
+  const char* name;
+  const char* field;              ///< its name in siteFields()
+  const char* allowed = nullptr;  ///< null: as the field's range says
+  double least = 0.0;
+  double most = 1e9;
+};
+
+inline constexpr SiteKey kSiteKeys[] = {
+    {"site.haptic_rate", "haptic_rate", "10 to 100000", 10.0, 1e5},
+    {"site.packet_rate", "packet_rate", "1 to 100000", 1.0, 1e5},
+    {"contact.stiffness", "contact.stiffness"},
+    {"contact.damping", "contact.damping"},
+    {"coordination.stiffness", "coordination.stiffness"},
+    {"coordination.damping", "coordination.damping"},
+    {"proxy.mass", "proxy.mass"},
+    {"proxy.damping", "proxy.damping"},
+    {"proxy.radius", "proxy.radius"},
+};
+
 /// Reads a TOML file. File names in it are relative to its folder. Throws tandem::Error in one line
 /// with file, key, value and what is allowed.
 [[nodiscard]] PreloadConfig readPreloadConfig(const std::string& file);

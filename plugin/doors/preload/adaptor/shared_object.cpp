@@ -24,20 +24,16 @@ Configuration makeAgreement(const PreloadConfig& config, const ObjectChoice& obj
   std::string guide = "none";
   if (site.guide)
     guide = number(site.guide->x()) + ' ' + number(site.guide->y()) + ' ' + number(site.guide->z());
-  return makeConfiguration({{"units", "SI"},
-                            {"adaptor", "preload"},
-                            {"object", object.name},
-                            {"damping", number(config.damping)},
-                            {"guide", guide},
-                            {"contact.stiffness", number(site.contact.stiffness)},
-                            {"contact.damping", number(site.contact.damping)},
-                            {"coordination.stiffness", number(site.coordination.stiffness)},
-                            {"coordination.damping", number(site.coordination.damping)},
-                            {"proxy.mass", number(site.proxy.mass)},
-                            {"proxy.damping", number(site.proxy.damping)},
-                            {"proxy.radius", number(site.proxy.radius)},
-                            {"site.haptic_rate", number(site.haptic_rate)},
-                            {"site.packet_rate", number(site.packet_rate)}});
+  std::vector<ConfigurationItem> items = {{"units", "SI"},
+                                          {"adaptor", "preload"},
+                                          {"object", object.name},
+                                          {"damping", number(config.damping)},
+                                          {"guide", guide}};
+  for (const SiteKey& key : kSiteKeys) {
+    const SiteField& field = findSiteField(key.field);
+    if (field.is_shared) items.push_back({key.name, number(field.get(site))});
+  }
+  return makeConfiguration(std::move(items));
 }
 
 /// Text for the user about new status bits; null if there is nothing to do.
