@@ -16,26 +16,27 @@ namespace {
 /// A way to run the scenario, as a change of it.
 struct Way {
   std::string method;
-  std::string injection;
+  Injection injection;
   bool needs_haptic_rate;  ///< the host must step at the haptic rate
 };
 
-const Way kWays[] = {{"plugin handoff", "handoff", false}, {"plugin impulse", "impulse", true}};
+const Way kWays[] = {{"plugin handoff", Injection::kHandoff, false},
+                     {"plugin impulse", Injection::kImpulse, true}};
 
 Scenario makeScenario(const reference::PaperParameters& p, const Way& way, int host_rate) {
   Scenario s;
   s.kind = "user_contact";
   s.duration = p.sampling.duration;
-  s.contact = {p.contact.stiffness, p.contact.damping};
-  s.coordination = {p.coordination.stiffness, p.coordination.damping};
-  s.proxy_mass = s.device_mass = p.proxy_mass;
+  s.site.contact = {p.contact.stiffness, p.contact.damping};
+  s.site.coordination = {p.coordination.stiffness, p.coordination.damping};
+  s.site.proxy.mass = s.device_mass = p.proxy_mass;
   s.device_damping = p.device_damping;
   s.hands[0].force = Vec3(p.hand_force_1, 0, 0);
   s.hands[1].force = Vec3(p.hand_force_2, 0, 0);
   s.network.delay = p.sampling.delay;
-  s.packet_rate = p.sampling.packet_rate;
-  s.haptic_rate = p.sampling.haptic_rate;
-  s.injection = way.injection;
+  s.site.packet_rate = p.sampling.packet_rate;
+  s.site.haptic_rate = p.sampling.haptic_rate;
+  s.site.injection = way.injection;
   s.host_rate = host_rate;
   return s;
 }

@@ -50,7 +50,7 @@ void runExperiment2(int ticks) {
   auto [end1, end2] = tandem::makeSimulatedLinks(scenario.network);
   SiteWorld world1(scenario, 0, *end1), world2(scenario, 1, *end2);
   for (int i = 0; i < kWarmUp + ticks; ++i) {
-    const double now = i / scenario.haptic_rate;
+    const double now = i / scenario.site.haptic_rate;
     const auto tick = [&] { world1.site().tick(now); };
     if (i < kWarmUp)
       tick();
@@ -58,7 +58,7 @@ void runExperiment2(int ticks) {
       measureTick(tick);
     world2.site().tick(now);
     for (SiteWorld* world : {&world1, &world2})
-      world->stepHostUntil((i + 1) / scenario.haptic_rate);
+      world->stepHostUntil((i + 1) / scenario.site.haptic_rate);
   }
 }
 

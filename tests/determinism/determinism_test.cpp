@@ -84,8 +84,8 @@ std::uint64_t replay(const Scenario& scenario, VirtualRun& run, int site) {
   ReplayLink link(recording, 0);
   SiteWorld world(scenario, site, link, device);
   for (std::size_t tick = 0; tick < recording.ticks().size(); ++tick) {
-    world.site().tick(static_cast<double>(tick) / scenario.haptic_rate);
-    world.stepHostUntil(static_cast<double>(tick + 1) / scenario.haptic_rate);
+    world.site().tick(static_cast<double>(tick) / scenario.site.haptic_rate);
+    world.stepHostUntil(static_cast<double>(tick + 1) / scenario.site.haptic_rate);
   }
   return world.site().stateHash();
 }

@@ -31,8 +31,8 @@ bool isOneLine(const std::string& text) {
 /// Requires the properties that the rest of the program assumes.
 void requireChecked(const Scenario& s) {
   for (const double value :
-       {s.duration, s.object_mass, s.object_size, s.proxy_mass, s.proxy_radius, s.device_mass,
-        s.packet_rate, s.haptic_rate, s.host_rate, s.inner_rate})
+       {s.duration, s.object_mass, s.object_size, s.site.proxy.mass, s.site.proxy.radius,
+        s.device_mass, s.site.packet_rate, s.site.haptic_rate, s.host_rate, s.inner_rate})
     require(isPositive(value));
   require(std::abs(s.axis.norm() - 1.0) < 1e-12);
   require(s.network.delay >= 0.0 && s.network.delay <= s.duration);

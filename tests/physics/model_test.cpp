@@ -23,20 +23,20 @@ Scenario makeScenario(const reference::PaperParameters& p, const Vec3& axis) {
   s.scheme = names[static_cast<int>(p.scheme)];
   s.duration = p.sampling.duration;
   s.axis = axis;
-  s.contact = {p.contact.stiffness, p.contact.damping};
-  s.coordination = {p.coordination.stiffness, p.coordination.damping};
+  s.site.contact = {p.contact.stiffness, p.contact.damping};
+  s.site.coordination = {p.coordination.stiffness, p.coordination.damping};
   s.object_mass = p.object_mass;
   s.object_damping = p.object_damping;
-  s.proxy_mass = s.device_mass = p.proxy_mass;
-  s.proxy_damping = p.proxy_damping;
+  s.site.proxy.mass = s.device_mass = p.proxy_mass;
+  s.site.proxy.damping = p.proxy_damping;
   s.device_damping = p.device_damping;
   s.hands[0].force = Vec3(p.hand_force_1, 0, 0);
   s.hands[1].force = Vec3(p.hand_force_2, 0, 0);
   s.network.delay = p.sampling.delay;
-  s.packet_rate = p.sampling.packet_rate;
+  s.site.packet_rate = p.sampling.packet_rate;
   // The equations contain no guards, and random intermittent contact can be wild.
-  s.passivity = false;
-  s.max_slew = 1e9;
+  s.site.passivity.enabled = false;
+  s.site.max_slew = 1e9;
   return s;
 }
 

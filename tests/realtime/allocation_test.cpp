@@ -90,7 +90,7 @@ TEST_P(Tick, DoesNotAllocateAfterWarmUp) {
   std::size_t in_ticks = 0, in_host_steps = 0;
   std::uint32_t status = kTickOk;
   for (std::uint64_t tick = 0; tick < kWarmUp + kTicks; ++tick) {
-    const double now = static_cast<double>(tick) / scenario.haptic_rate;
+    const double now = static_cast<double>(tick) / scenario.site.haptic_rate;
     for (SiteWorld* world : worlds) {
       const AllocationCount count(tick >= kWarmUp);
       status |= world->site().tick(now);
@@ -98,7 +98,7 @@ TEST_P(Tick, DoesNotAllocateAfterWarmUp) {
     }
     for (SiteWorld* world : worlds) {
       const AllocationCount count(false);
-      world->stepHostUntil(static_cast<double>(tick + 1) / scenario.haptic_rate);
+      world->stepHostUntil(static_cast<double>(tick + 1) / scenario.site.haptic_rate);
       if (tick >= kWarmUp) in_host_steps += count.count();
     }
     ASSERT_EQ(status, kTickOk) << "tick " << tick;

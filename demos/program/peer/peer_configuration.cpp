@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "scenario/own_keys.h"
-
 namespace tandem::demos {
 namespace {
 

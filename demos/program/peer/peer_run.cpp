@@ -29,7 +29,8 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
         peers.push_back(std::move(peer));
         return peers;
       }()) {
-  if (scenario.contact_model != "island" || scenario.injection != "handoff")
+  if (scenario.site.contact_model != ContactModel::kIsland ||
+      scenario.site.injection != Injection::kHandoff)
     throw UsageError(
         "tandem peer needs contact.model = island and bridge.injection = handoff; the others have "
         "no haptic rate of their own");
@@ -42,8 +43,10 @@ void PeerRun::makeWorld() {
   world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, link, *device_)
                    : std::make_unique<SiteWorld>(scenario_, index_, link);
   Site& own = world_->site();
-  const auto ticks = static_cast<std::size_t>(std::llround(duration() * scenario_.haptic_rate));
-  const auto arrivals = static_cast<std::size_t>(2.0 * duration() * scenario_.packet_rate) + 64;
+  const auto ticks =
+      static_cast<std::size_t>(std::llround(duration() * scenario_.site.haptic_rate));
+  const auto arrivals =
+      static_cast<std::size_t>(2.0 * duration() * scenario_.site.packet_rate) + 64;
   recording_ =
       std::make_unique<Recording>(ticks, arrivals, own.objectCount(), own.proxyBody(0) ? 1 : 0);
   own.record(recording_.get());
@@ -76,7 +79,7 @@ PeerStatus PeerRun::peerStatus() const { return peers_.status(other_, readMonoto
 bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
                           const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
-  peers_.agreeOnStart(held, scenario_.packet_rate);
+  peers_.agreeOnStart(held, scenario_.site.packet_rate);
   const double began = readMonotonicClock();
   double next_report = began;
   for (;;) {
@@ -113,7 +116,7 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
 /// The other site has been running for a while: it and its copies fade in.
 void PeerRun::joinLate(double now) {
   peers_.setStart(now + kMostBehind);
-  scenario_.starts_live = false;
+  scenario_.site.link_loss.start_live = false;
   makeWorld();
 }
 

@@ -14,7 +14,7 @@ NAN = math.nan
 COOPERATION, CONTACT, PLAYGROUND = "cooperation", "user-to-user contact", "playground"
 _KINDS = {"cooperative_manipulation": COOPERATION, "user_contact": CONTACT}
 
-# Keys in which two sites of one live run may differ; demos/program/scenario/own_keys.h has them, too.
+# Keys in which two sites of one live run may differ; demos/program/scenario/keys.cpp marks them, too.
 _OWN_KEYS = ("title", "site1.", "site2.", "device.", "guard.", "network.delay", "network.jitter",
              "network.loss", "network.duplicate", "network.reorder", "network.seed", "rates.host",
              "rates.inner", "experiment.duration", "bridge.")

@@ -12,7 +12,7 @@ constexpr double kFrameRate = 30.0;
 
 /// Largest number of packets that one site can receive in a run, with all duplicates and some room.
 std::size_t countArrivals(const Scenario& scenario) {
-  return static_cast<std::size_t>(2.0 * scenario.duration * scenario.packet_rate) + 16;
+  return static_cast<std::size_t>(2.0 * scenario.duration * scenario.site.packet_rate) + 16;
 }
 
 }  // namespace
@@ -21,9 +21,9 @@ VirtualRun::VirtualRun(const Scenario& scenario)
     : scenario_(scenario),
       frame_(makeSceneFrame(scenario)),
       tick_count_(
-          static_cast<std::uint64_t>(std::llround(scenario.duration * scenario.haptic_rate))) {
+          static_cast<std::uint64_t>(std::llround(scenario.duration * scenario.site.haptic_rate))) {
   const double in_flight =
-      (scenario.network.delay + scenario.network.jitter) * scenario.packet_rate * 2.0;
+      (scenario.network.delay + scenario.network.jitter) * scenario.site.packet_rate * 2.0;
   std::tie(ends_[0], ends_[1]) =
       makeSimulatedLinks(scenario.network, static_cast<std::size_t>(in_flight) + 64);
   for (int s = 0; s < 2; ++s) {
@@ -42,7 +42,7 @@ void VirtualRun::run(const std::function<void(double)>& progress) {
   keepFrame(0.0);
   for (std::uint64_t tick = 0; tick < tick_count_; ++tick) {
     tickAll(tick);
-    const double time = static_cast<double>(tick + 1) / scenario_.haptic_rate;
+    const double time = static_cast<double>(tick + 1) / scenario_.site.haptic_rate;
     for (auto& world : worlds_) world->stepHostUntil(time);
     if (time * kFrameRate >= static_cast<double>(frames_.size())) {
       keepFrame(time);
@@ -58,7 +58,7 @@ void VirtualRun::run(const std::function<void(double)>& progress) {
 
 void VirtualRun::tickAll(std::uint64_t tick) {
   addCoherency();
-  const double now = static_cast<double>(tick) / scenario_.haptic_rate;
+  const double now = static_cast<double>(tick) / scenario_.site.haptic_rate;
   for (auto& world : worlds_) world->site().tick(now);
 }
 

@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "tandem/coordination/coupling_settings.h"
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/coordination/types.h"
+#include "tandem/plugin/site_settings.h"
 
 namespace tandem::demos {
 
@@ -45,18 +46,14 @@ struct Scenario {
   Vec3 axis = Vec3::UnitX();
   bool guide = true;
 
-  std::string contact_model = "island";
-  CouplerGains contact{4000.0, 1.0};
-  CouplerGains coordination{200.0, 30.0};
+  /// Numbers of both sites. The members beside it set the rest, such as scheme and guide.
+  SiteSettings site;
   double angular_stiffness = -1.0;  ///< below 0: derived from the linear gains, see SiteSettings
   double angular_damping = -1.0;
 
   double object_mass = 0.2;
   double object_damping = 0.0;
   double object_size = 0.04;
-  double proxy_mass = 0.1;
-  double proxy_damping = 0.0;
-  double proxy_radius = 0.01;
   double device_mass = 0.1;
   double device_damping = 0.5;
   double encoder_resolution = 0.0;
@@ -64,23 +61,13 @@ struct Scenario {
 
   std::array<HandScenario, 2> hands;
   Impairments network{0.05};
-  bool link_loss = true;
-  bool passivity = true;
-  double tank = 0.02;     ///< [J]
-  double max_slew = 1e4;  ///< [N/s]
-  double packet_rate = 128.0;
-  double haptic_rate = 1000.0;
   double host_rate = 240.0;
-  std::string injection = "handoff";
   double inner_rate = 4000.0;
 
   double gravity = 0.0;   ///< along -z of the scene [m/s^2]
   bool floor = false;     ///< under the object
   double friction = 0.5;  ///< friction of all bodies of the world
   std::vector<NeighbourBox> boxes;
-
-  /// Not a key of the file. False for a site that starts late, so that the other fades in.
-  bool starts_live = true;
 
   [[nodiscard]] bool hasObject() const { return kind != "user_contact"; }
 };
@@ -96,5 +83,11 @@ struct Scenario {
 
 /// All keys with their values, nested as in the file.
 [[nodiscard]] nlohmann::json describeScenario(const Scenario& scenario);
+
+/// True for a key that is a site's own business: two sites of one cooperation may differ in it.
+[[nodiscard]] bool isOwnKey(std::string_view name);
+
+/// The two tables of docs/scenarios.md in Markdown: all keys, and those of each user's hand.
+[[nodiscard]] std::array<std::string, 2> describeKeys();
 
 }  // namespace tandem::demos

@@ -62,39 +62,19 @@ std::unique_ptr<SimulatedDevice> makeDevice(const Scenario& scenario, const Scen
   return std::make_unique<SimulatedDevice>(settings, makeHand(scenario, frame, site));
 }
 
-ContactModel findContactModel(const std::string& name) {
-  if (name == "native_rigid") return ContactModel::kNativeRigid;
-  if (name == "native_soft") return ContactModel::kNativeSoft;
-  if (name == "spring_6dof") return ContactModel::kSpring6Dof;
-  if (name == "point_to_point") return ContactModel::kPointToPoint;
-  return ContactModel::kIsland;
-}
-
 SiteSettings makeSettings(const Scenario& scenario, int index) {
-  SiteSettings settings;
+  SiteSettings settings = scenario.site;
   settings.self = PeerId{static_cast<std::uint32_t>(index) + 1};
-  settings.haptic_rate = scenario.haptic_rate;
-  settings.packet_rate = scenario.packet_rate;
   settings.host_step = 1.0 / scenario.host_rate;
-  settings.contact = scenario.contact;
-  settings.coordination = scenario.coordination;
   if (scenario.angular_stiffness >= 0.0)
     settings.angular_coordination =
         CouplerGains{scenario.angular_stiffness, scenario.angular_damping};
-  settings.proxy = {scenario.proxy_mass, scenario.proxy_damping, scenario.proxy_radius};
-  settings.hip_radius = scenario.proxy_radius;
+  settings.hip_radius = settings.proxy.radius;
   settings.scheme = &findScheme(scenario.scheme);
-  settings.contact_model = findContactModel(scenario.contact_model);
-  settings.injection = scenario.injection == "impulse" ? Injection::kImpulse : Injection::kHandoff;
   settings.tick_source = TickSource::kCaller;
   if (scenario.guide) settings.guide = scenario.axis;
   settings.inner_step = 1.0 / scenario.inner_rate;
-  settings.link_loss.enabled = scenario.link_loss;
-  settings.link_loss.start_live = scenario.starts_live;
-  settings.passivity.enabled = scenario.passivity;
-  settings.passivity.tank = scenario.tank;
-  settings.passivity.band = 0.5 * scenario.tank;
-  settings.max_slew = scenario.max_slew;
+  settings.passivity.band = 0.5 * settings.passivity.tank;
   return settings;
 }
 
@@ -111,7 +91,7 @@ SceneFrame makeSceneFrame(const Scenario& scenario) {
 Vec3 computeStart(const Scenario& scenario, const SceneFrame& frame, int site) {
   const double side = site == 0 ? -1.0 : 1.0;
   const double distance =
-      scenario.proxy_radius + (scenario.hasObject() ? 0.5 * scenario.object_size : 0.0);
+      scenario.site.proxy.radius + (scenario.hasObject() ? 0.5 * scenario.object_size : 0.0);
   return frame.toWorld(side * distance * Vec3::UnitX() +
                        scenario.hands[static_cast<std::size_t>(site)].start_offset);
 }
@@ -136,7 +116,7 @@ void SiteWorld::build(const Scenario& scenario, int index, Link& link, HapticDev
   SceneBody handle;
   handle.name = "device";
   handle.role = "device";
-  handle.radius = scenario.proxy_radius;
+  handle.radius = scenario.site.proxy.radius;
   scene_bodies_.push_back(handle);
 
   addObstacles(scenario);
@@ -154,7 +134,7 @@ void SiteWorld::build(const Scenario& scenario, int index, Link& link, HapticDev
     body.name = "proxy";
     body.role = "proxy";
     body.body = proxy;
-    body.radius = scenario.proxy_radius;
+    body.radius = scenario.site.proxy.radius;
     scene_bodies_.push_back(body);
   }
 }

@@ -37,7 +37,7 @@ RunFigures describe(const Recording& one, const Recording& two, double duration,
 BesideVirtual runBesideVirtual(const demos::Scenario& scenario, LivePairSettings settings) {
   BesideVirtual both;
   const auto tell = [&](const Recording& one, const Recording& two) {
-    return describe(one, two, scenario.duration, scenario.haptic_rate);
+    return describe(one, two, scenario.duration, scenario.site.haptic_rate);
   };
   demos::VirtualRun virtual_run(scenario);
   virtual_run.run();

@@ -94,8 +94,8 @@ std::unique_ptr<Recording> makeRecording(const demos::Scenario& scenario, const 
   // Room for the ticks in which the force fades.
   const double seconds = scenario.duration + 1.0;
   return std::make_unique<Recording>(
-      static_cast<std::size_t>(std::llround(seconds * scenario.haptic_rate)),
-      static_cast<std::size_t>(std::llround(2.0 * seconds * scenario.packet_rate)),
+      static_cast<std::size_t>(std::llround(seconds * scenario.site.haptic_rate)),
+      static_cast<std::size_t>(std::llround(2.0 * seconds * scenario.site.packet_rate)),
       site.objectCount(), site.proxyBody(0) ? 1 : 0);
 }
 
@@ -116,7 +116,7 @@ LivePairReport runLivePair(const demos::Scenario& scenario, const LivePairSettin
   // Two sites on two machines do not tick at the same moments. Half a period apart, neither waits
   // for the other here. By their own clocks both begin at 0.
   const double begin = readMonotonicClock() + kCountdown;
-  const double begins[2] = {begin, begin + 0.5 / scenario.haptic_rate};
+  const double begins[2] = {begin, begin + 0.5 / scenario.site.haptic_rate};
   {
     const Wire wire(scenario.network, queues[0], queues[1], begins, settings.priority);
     HapticLoop loop1(world1.site(), {settings.priority, true, begins[0]});

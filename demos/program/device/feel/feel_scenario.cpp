@@ -33,12 +33,13 @@ friction = 0.6
 Scenario makeFeelScenario(const DeviceTask& task) {
   Scenario scenario = task.scenario ? loadScenario(*task.scenario, {})
                                     : parseScenario(kCubeOnFloor, "the built-in scene", {});
-  if (scenario.contact_model != "island" || scenario.injection != "handoff")
+  if (scenario.site.contact_model != ContactModel::kIsland ||
+      scenario.site.injection != Injection::kHandoff)
     throw UsageError(
         "--scenario: tandem device needs contact.model = island and bridge.injection = handoff; "
         "the "
         "others have no haptic rate of their own");
-  scenario.starts_live = false;
+  scenario.site.link_loss.start_live = false;
   return scenario;
 }
 

@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "scenario/keys.h"
+
+namespace tandem::demos {
+namespace {
+
+constexpr const char* kHead =
+    "| key | meaning | unit | default | allowed |\n|---|---|---|---|---|\n";
+
+std::string show(const nlohmann::json& value) {
+  if (value.is_string()) return '`' + value.get<std::string>() + '`';
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  if (!value.is_array()) return value.dump();
+  std::string all;
+  for (const nlohmann::json& one : value) all += (all.empty() ? "" : ", ") + show(one);
+  return "`[" + all + "]`";
+}
+
+std::string makeRow(const ScenarioKey& key, const std::string& name) {
+  const std::string value = key.otherwise.empty() ? show(key.show(Scenario{})) : key.otherwise;
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  return fmt::format("| `{}` | {} |{} | {} | {} |\n", name, key.meaning, unit, value, key.allowed);
+}
+
+}  // namespace
+
+std::array<std::string, 2> describeKeys() {
+  const std::string first_site = "site1.";
+  std::array<std::string, 2> tables = {kHead, kHead};
+  for (const ScenarioKey& key : scenarioKeys()) {
+    if (key.name.starts_with(first_site)) {
+      tables[1] += makeRow(key, key.name.substr(first_site.size()));
+    } else if (!key.name.starts_with("site")) {
+      tables[0] += makeRow(key, key.name);
+    }
+  }
+  return tables;
+}
+
+}  // namespace tandem::demos

@@ -1,0 +1,256 @@
+#include "scenario/keys.h"
+
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+
+#include "tandem/coordination/scheme.h"
+
+#include "scenario/key_kinds.h"
+
+namespace tandem::demos {
+namespace {
+
+using S = Scenario;
+using Keys = std::vector<ScenarioKey>;
+
+const std::vector<std::string> kContactModels = {"island", "native_rigid", "native_soft",
+                                                 "spring_6dof", "point_to_point"};
+
+ScenarioKey own(ScenarioKey key) {
+  key.is_own = true;
+  return key;
+}
+
+ScenarioKey axisKey() {
+  ScenarioKey key =
+      vectorKey({"experiment.axis", "direction of the scene's x in the world"}, &S::axis);
+  key.allowed = "norm 1 within 1e-3; is normalised";
+  key.read = [](S& s, const Place& place, const toml::node& node) {
+    const Vec3 axis = readVector(place, node);
+    if (!(std::abs(axis.norm() - 1.0) < 1e-3)) refuse(place, node, "a unit vector");
+    s.axis = axis.normalized();
+  };
+  return key;
+}
+
+std::uint64_t readSeed(const Place& place, const toml::node& node) {
+  const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
+  if (!value || *value < 0) refuse(place, node, "a whole number, 0 or more");
+  return static_cast<std::uint64_t>(*value);
+}
+
+void readWaypoints(HandScenario& hand, const Place& place, const toml::node& node) {
+  const FieldRange range{-1e6, 1e6, false, "a list of [t, x, y, z] with growing t"};
+  const toml::array* rows = node.as_array();
+  if (!rows || rows->empty()) refuse(place, node, range.allowed);
+  hand.waypoints.clear();
+  for (const toml::node& row : *rows) {
+    const toml::array* values = row.as_array();
+    if (!values || values->size() != 4) refuse(place, node, range.allowed);
+    std::array<double, 4> point{};
+    for (std::size_t i = 0; i < 4; ++i) point[i] = readNumber(place, (*values)[i], range);
+    if (!hand.waypoints.empty() && !(point[0] > hand.waypoints.back()[0]))
+      refuse(place, node, range.allowed);
+    hand.waypoints.push_back(point);
+  }
+}
+
+void readBoxes(std::vector<NeighbourBox>& boxes, const Place& place, const toml::node& node) {
+  const char* allowed =
+      "a list of at most 200 [x, y, z, size, mass], size above 0, mass 0 (static) or more";
+  const toml::array* rows = node.as_array();
+  if (!rows || rows->size() > 200) refuse(place, node, allowed);
+  boxes.clear();
+  for (const toml::node& row : *rows) {
+    const toml::array* v = row.as_array();
+    if (!v || v->size() != 5) refuse(place, node, allowed);
+    NeighbourBox box;
+    for (int i = 0; i < 3; ++i)
+      box.position[i] =
+          readNumber(place, (*v)[static_cast<std::size_t>(i)], {-1e3, 1e3, false, allowed});
+    box.size = readNumber(place, (*v)[3], {0.0, 1e3, true, allowed});
+    box.mass = readNumber(place, (*v)[4], {0.0, 1e6, false, allowed});
+    boxes.push_back(box);
+  }
+}
+
+ScenarioKey boxesKey() {
+  ScenarioKey key = makeKey(
+      {"world.boxes", "more cubes: list of `[x, y, z, size, mass]`; mass 0: static; no guide",
+       "m, kg", "", "none"},
+      "at most 200");
+  key.read = [](S& s, const Place& place, const toml::node& node) {
+    readBoxes(s.boxes, place, node);
+  };
+  key.show = [](const S& s) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (const NeighbourBox& b : s.boxes)
+      rows.push_back({b.position.x(), b.position.y(), b.position.z(), b.size, b.mass});
+    return rows;
+  };
+  return key;
+}
+
+std::vector<std::string> schemeNames() {
+  std::vector<std::string> names;
+  for (const Scheme* scheme : allSchemes()) names.emplace_back(scheme->name());
+  return names;
+}
+
+Keys makeExperimentKeys() {
+  return {
+      own(textKey({"title", "heading in the report", "", "", "empty"}, &S::title)),
+      choiceKey({"experiment.kind", "the scene; `user_contact` has no cube"},
+                {"cooperative_manipulation", "user_contact", "playground"}, &S::kind),
+      choiceKey({"experiment.scheme", "how a remote user is shown"}, schemeNames(), &S::scheme),
+      own(numberKey({"experiment.duration", "simulated time", "s", "at least one haptic period"},
+                    {0.0, 3600.0, true, "seconds above 0, at most 3600"}, &S::duration)),
+      axisKey(),
+      flagKey({"experiment.guide", "slot: devices, proxies and cube move along x and do not turn",
+               "", "`playground`: false"},
+              &S::guide),
+  };
+}
+
+Keys makeCouplingKeys() {
+  return {
+      enumKey(
+          {"contact.model",
+           "who carries contact and couplers: the island, or [Bullet itself](native.md)", "",
+           "native: no `impulse`, guide along x, y or z of the world"},
+          kContactModels, [](auto& s) -> auto& { return s.site.contact_model; }),
+      siteKey("contact.stiffness"),
+      siteKey("contact.damping"),
+      siteKey("coordination.stiffness"),
+      siteKey("coordination.damping"),
+      numberKey({"coordination.angular_stiffness", "turns cube copies towards each other",
+                 "N m/rad", "both or neither", "K_t J/m"},
+                kNotNegative, &S::angular_stiffness),
+      numberKey({"coordination.angular_damping", "calms that turn", "N m s/rad", "both or neither",
+                 "B_t J/m"},
+                kNotNegative, &S::angular_damping),
+  };
+}
+
+Keys makeBodyKeys() {
+  return {
+      numberKey({"object.mass", "m, of the whole cube; each copy carries m/2", "kg"}, kPositive,
+                &S::object_mass),
+      numberKey({"object.damping", "b, of each copy", "N s/m"}, kNotNegative, &S::object_damping),
+      numberKey({"object.size", "edge of the cube", "m"}, kPositive, &S::object_size),
+      siteKey("proxy.mass"),
+      siteKey("proxy.damping"),
+      siteKey("proxy.radius", ", and of the local haptic interface points"),
+      own(numberKey({"device.mass", "of the simulated device", "kg"}, kPositive, &S::device_mass)),
+      own(numberKey({"device.damping", "b_dev", "N s/m"}, kNotNegative, &S::device_damping)),
+      own(numberKey(
+          {"device.encoder_resolution", "step in which positions are read; 0: exact", "m"},
+          kNotNegative, &S::encoder_resolution)),
+      own(numberKey({"device.max_force", "motors saturate here; 0: no limit", "N"}, kNotNegative,
+                    &S::device_max_force)),
+  };
+}
+
+Keys makeNetworkKeys() {
+  return {
+      own(numberKey(
+          {"network.delay", "one way", "s", "at most `experiment.duration`"}, kNotNegative,
+          [](auto& s) -> auto& { return s.network.delay; })),
+      siteKey("network.rate", "packet_rate", kPositive, "at most `rates.haptic`"),
+      own(numberKey(
+          {"network.jitter", "delay is even in delay +- jitter; may reorder", "s"}, kNotNegative,
+          [](auto& s) -> auto& { return s.network.jitter; })),
+      own(numberKey(
+          {"network.loss", "probability that a packet never arrives"}, kProbability,
+          [](auto& s) -> auto& { return s.network.loss; })),
+      own(numberKey(
+          {"network.duplicate", "probability that it arrives twice"}, kProbability,
+          [](auto& s) -> auto& { return s.network.duplicate; })),
+      own(numberKey(
+          {"network.reorder", "probability that it jumps the queue, without delay"}, kProbability,
+          [](auto& s) -> auto& { return s.network.reorder; })),
+      own(valueKey(
+          {"network.seed", "equal seeds, equal fates"}, "whole number >= 0", &readSeed,
+          [](auto& s) -> auto& { return s.network.seed; })),
+      siteFlagKey("network.link_loss", "link_loss.enabled"),
+      siteFlagKey("guard.passivity", "passivity.enabled",
+                  " ([architecture](architecture.md), section 9)"),
+      siteKey("guard.tank", "passivity.tank", kPositive),
+      siteKey("guard.max_slew", "max_slew", kPositive),
+      siteKey("rates.haptic", "haptic_rate", {10.0, 1e5, false, "10 to 100000 Hz"}),
+      own(numberKey({"rates.host", "Bullet worlds; need not divide the haptic rate", "Hz"},
+                    {1.0, 1e5, false, "1 to 100000 Hz"}, &S::host_rate)),
+      own(numberKey({"rates.inner", "steps of the island where motion is not linear", "Hz"},
+                    {10.0, 1e6, false, "10 to 1000000 Hz"}, &S::inner_rate)),
+      own(enumKey(
+          {"bridge.injection", "how forces reach Bullet's bodies", "",
+           "`impulse` needs `rates.host` = `rates.haptic`"},
+          {"handoff", "impulse"}, [](auto& s) -> auto& { return s.site.injection; })),
+  };
+}
+
+Keys makeWorldKeys() {
+  return {
+      numberKey({"world.gravity", "along -z", "m/s^2"}, kNotNegative, &S::gravity),
+      flagKey({"world.floor", "a floor under the cube (2 m x 2 m); no guide"}, &S::floor),
+      numberKey({"world.friction", "of all bodies"}, kNotNegative, &S::friction),
+      boxesKey(),
+  };
+}
+
+Keys makeHandKeys(std::size_t i) {
+  const std::string site = i == 0 ? "site1." : "site2.";
+  const auto hand = [i](auto member) {
+    return [ i, member ](auto& s) -> auto& { return s.hands[i].*member; };
+  };
+  using Hand = HandScenario;
+  ScenarioKey waypoints =
+      makeKey({site + "hand_waypoints",
+               "of `minimum_jerk`: list of `[t, x, y, z]`, displacements from the start", "s, m",
+               "", "none"},
+              "growing t");
+  waypoints.read = [i](S& s, const Place& place, const toml::node& node) {
+    readWaypoints(s.hands[i], place, node);
+  };
+  waypoints.show = [i](const S& s) -> nlohmann::json { return s.hands[i].waypoints; };
+  Keys keys = {
+      choiceKey({site + "hand", "the kind of hand"}, {"constant", "sine", "minimum_jerk", "csv"},
+                hand(&Hand::kind)),
+      vectorKey({site + "hand_force", "the constant force, or the amplitude of the sine", "N"},
+                hand(&Hand::force)),
+      numberKey({site + "hand_frequency", "of the sine", "Hz"}, kPositive, hand(&Hand::frequency)),
+      waypoints,
+      numberKey({site + "hand_stiffness", "with which that hand holds the device", "N/m"},
+                kNotNegative, hand(&Hand::stiffness)),
+      numberKey({site + "hand_damping", "of that hold", "N s/m"}, kNotNegative,
+                hand(&Hand::damping)),
+      textKey({site + "hand_file", "of `csv`: `t,force_x,force_y,force_z`; path from the scenario",
+               "s, N", "", "none"},
+              hand(&Hand::file)),
+      vectorKey({site + "start_offset", "of the device, from \"just in contact on the axis\"", "m",
+                 "off the axis: no guide"},
+                hand(&Hand::start_offset)),
+  };
+  for (ScenarioKey& key : keys) key.is_own = true;
+  return keys;
+}
+
+Keys makeKeys() {
+  Keys all;
+  for (const Keys& part : {makeExperimentKeys(), makeCouplingKeys(), makeBodyKeys(),
+                           makeNetworkKeys(), makeWorldKeys(), makeHandKeys(0), makeHandKeys(1)})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
+
+const std::vector<ScenarioKey>& scenarioKeys() {
+  static const std::vector<ScenarioKey> keys = makeKeys();
+  return keys;
+}
+
+std::string nameOf(ContactModel model) { return kContactModels[static_cast<std::size_t>(model)]; }
+
+}  // namespace tandem::demos

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "scenario/scenario.h"
+#include "scenario/toml_input.h"
+
+namespace tandem::demos {
+
+/// A key of a scenario file, and its row in docs/scenarios.md.
+struct ScenarioKey {
+  std::string name;
+  std::string meaning;    ///< Markdown, as the other texts
+  std::string unit;       ///< empty: none
+  std::string allowed;    ///< values, and what else limits them
+  std::string otherwise;  ///< the default in words; empty: as a new Scenario shows it
+  bool is_own = false;    ///< two sites of one cooperation may differ in it
+  /// Throws UsageError if the node is none of the allowed values.
+  std::function<void(Scenario&, const Place&, const toml::node&)> read;
+  std::function<nlohmann::json(const Scenario&)> show;
+};
+
+/// All keys in the order of the document.
+[[nodiscard]] const std::vector<ScenarioKey>& scenarioKeys();
+
+/// As in a file: "native_soft".
+[[nodiscard]] std::string nameOf(ContactModel model);
+
+}  // namespace tandem::demos
