@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include <btBulletDynamicsCommon.h>
+
+#include "coordination/src/fnv.h"
 
 namespace tandem::test {
 
@@ -41,9 +42,7 @@ class BitHash {
  public:
   template <typename Value>
   void add(const Value& value) {
-    unsigned char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211u;
+    fnv_.addBytes(&value, sizeof value);
   }
   void add(const btVector3& v) {
     for (int axis = 0; axis < 3; ++axis) add(v[axis]);
@@ -64,10 +63,10 @@ class BitHash {
     add(body.getActivationState());
     add(body.getIslandTag());
   }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
+  [[nodiscard]] std::uint64_t value() const { return fnv_.value(); }
 
  private:
-  std::uint64_t hash_ = 14695981039346656037u;
+  Fnv fnv_;
 };
 
 }  // namespace tandem::test

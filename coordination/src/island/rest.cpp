@@ -1,7 +1,8 @@
 #include "island/rest.h"
 
 #include <cmath>
-#include <cstring>
+
+#include "fnv.h"
 
 namespace tandem {
 namespace {
@@ -30,18 +31,14 @@ double computeWayLeft(const Freedom& m) noexcept {
   return stands ? 0.0 : HUGE_VAL;
 }
 
-/// FNV-1a over 64-bit words.
+/// A hash of shapes and places.
 class Hash {
  public:
-  void add(double value) noexcept {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    value_ = (value_ ^ bits) * 0x100000001b3u;
-  }
+  void add(double value) noexcept { fnv_.addWord(value); }
   void add(Axis axis) noexcept { add(static_cast<double>(axis)); }
   /// The address identifies shared data, which never changes.
   void add(const void* address) noexcept {
-    value_ = (value_ ^ reinterpret_cast<std::uintptr_t>(address)) * 0x100000001b3u;
+    fnv_.addWord(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)});
   }
   void add(const Vec3& v) noexcept { add(v.x()), add(v.y()), add(v.z()); }
   void add(const Sphere& s) noexcept { add(s.radius); }
@@ -51,10 +48,10 @@ class Hash {
   void add(const ConvexHull& h) noexcept { add(h.solid.get()), add(h.rounding); }
   void add(const Mesh& m) noexcept { add(m.surface.get()), add(m.skin); }
   void add(const Plane& p) noexcept { add(p.normal_B), add(p.offset); }
-  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+  [[nodiscard]] std::uint64_t value() const noexcept { return fnv_.value(); }
 
  private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
+  Fnv fnv_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fnv.h"
 #include "wire/utf8.h"
 
 namespace tandem {
@@ -27,22 +28,6 @@ void requireItem(const ConfigurationItem& item) {
                                 "': must be 1 to 255 bytes of UTF-8 without control characters");
   }
 }
-
-/// FNV-1a hash, 64 bits.
-class Fnv {
- public:
-  void add(std::string_view text) noexcept {
-    for (const char c : text)
-      hash_ = (hash_ ^ static_cast<unsigned char>(c)) * std::uint64_t{0x100000001b3};
-  }
-
-  [[nodiscard]] std::uint32_t folded() const noexcept {
-    return static_cast<std::uint32_t>(hash_ >> 32 ^ (hash_ & 0xffffffffU));
-  }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
-};
 
 }  // namespace
 
@@ -69,13 +54,14 @@ Configuration makeConfiguration(std::vector<ConfigurationItem> items) {
 
 std::uint32_t hashConfiguration(const Configuration& configuration) noexcept {
   Fnv hash;
+  const auto add = [&](std::string_view text) { hash.addBytes(text.data(), text.size()); };
   for (const ConfigurationItem& item : configuration) {
-    hash.add(item.key);
-    hash.add("=");
-    hash.add(item.value);
-    hash.add("\n");
+    add(item.key);
+    add("=");
+    add(item.value);
+    add("\n");
   }
-  return hash.folded();
+  return static_cast<std::uint32_t>(hash.value() >> 32 ^ (hash.value() & 0xffffffffU));
 }
 
 std::optional<ConfigurationDifference> findFirstDifference(const Configuration& here,
