@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <stdexcept>
 #include <vector>
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -13,6 +13,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "coordination/src/bad_value.h"
 #include "shapes/bullet_shape.h"
 
 namespace tandem {
@@ -22,10 +23,7 @@ constexpr double kUnit = 1e-6;  ///< tolerance of a quaternion's length
 
 template <typename Value>
 void require(bool good, const char* name, const Value& value, const char* allowed) {
-  if (good) return;
-  std::ostringstream message;
-  message << name << " = " << value << ": must be " << allowed;
-  throw std::invalid_argument(message.str());
+  if (!good) throwBadValue(name, value, allowed);
 }
 
 struct Body {

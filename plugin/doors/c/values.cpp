@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "coordination/src/bad_value.h"
+
 namespace tandem::c_door {
 namespace {
 
@@ -35,9 +37,7 @@ void refuseNull(const char* name) {
 }
 
 void refuseValue(const char* name, double value, const char* allowed) {
-  std::ostringstream message;
-  message << name << " = " << value << ": must be " << allowed;
-  throw std::invalid_argument(message.str());
+  throwBadValue(name, value, allowed);
 }
 
 void requireFinite(const char* name, double value) {
