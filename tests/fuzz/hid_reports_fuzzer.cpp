@@ -81,7 +81,7 @@ void checkSwitch(const Report& input) {
   require(!is_pressed || report.size() > map.byte);
 }
 
-void check(std::uint8_t kind, const Report& input) {
+void checkInput(std::uint8_t kind, const Report& input) {
   switch (kind % 5) {
     case 0:
       return checkSpaceMouse(input);
@@ -100,6 +100,6 @@ void check(std::uint8_t kind, const Report& input) {
 }  // namespace tandem
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 0) tandem::check(data[0], {data + 1, data + size});
+  if (size > 0) tandem::checkInput(data[0], {data + 1, data + size});
   return 0;
 }
