@@ -6,8 +6,8 @@
 
 #include "tandem/falcon/simulated_device.h"
 
-#include "support/random.h"
 #include "simulated/simulated_device_rig.h"
+#include "support/random.h"
 
 namespace tandem {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
 #include "simulated/simulated_device_rig.h"
+#include "support/random.h"
 
 namespace tandem {
 namespace {
