@@ -9,7 +9,7 @@
 
 namespace tandem::demos {
 
-/// What the document says of a key.
+/// Text of the document on a key.
 struct KeyText {
   std::string name;
   std::string meaning;

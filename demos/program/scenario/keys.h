@@ -27,7 +27,7 @@ struct ScenarioKey {
 /// All keys in the order of the document.
 [[nodiscard]] const std::vector<ScenarioKey>& scenarioKeys();
 
-/// As in a file: "native_soft".
+/// The word in a file, such as "native_soft".
 [[nodiscard]] std::string nameOf(ContactModel model);
 
 }  // namespace tandem::demos

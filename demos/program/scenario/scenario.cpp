@@ -12,7 +12,7 @@
 namespace tandem::demos {
 namespace {
 
-/// By name, and so in alphabetical order.
+/// Ordered by name.
 const std::map<std::string, const ScenarioKey*>& allKeys() {
   static const auto keys = [] {
     std::map<std::string, const ScenarioKey*> by_name;

@@ -104,7 +104,7 @@ void HapticLoop::Impl::run() noexcept {
   while (due < last && site.hand.force() != Vec3::Zero()) due = tickAt(due);
   site.hand.letGo();
   site.hand.setFading(false);
-  // What is asked from here on is taken back by whoever asks.
+  // From here on those who ask take back their requests.
   site.desk.serve();
   site.desk.close();
   has_ended.store(true, std::memory_order_release);

@@ -69,7 +69,7 @@ class TimeBridge final : public Link {
   std::uint64_t sequence_ = 0;  ///< a site that begins anew goes on with it
 };
 
-/// What a site is connected to. Another thread than that which polls may tick the site.
+/// Link that a site is connected to. Another thread than that which polls may tick the site.
 class PeerLink final : public Link {
  public:
   explicit PeerLink(Link& way) noexcept : bridge_(way) {}
@@ -79,7 +79,7 @@ class PeerLink final : public Link {
   /// From here on another thread ticks the site, or none does any more.
   void setHapticThread(bool has_one) noexcept;
 
-  /// By the thread that polls, after the clock was set: lets states through to and from the haptic
+  /// For the thread that polls, after the clock was set: lets states through to and from the haptic
   /// thread, up to those that are due in `ahead` [s].
   void exchange(double ahead) noexcept;
 

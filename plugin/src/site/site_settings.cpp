@@ -13,7 +13,7 @@ void require(bool good, const char* name, double value, const char* allowed) {
   if (!good) throwBadValue(name, value, allowed);
 }
 
-/// What Bullet's own means cannot do.
+/// Bullet's own means cannot do these.
 void checkNative(const SiteSettings& s) {
   if (s.injection == Injection::kImpulse)
     throw std::invalid_argument(

@@ -36,7 +36,7 @@ class LivePeers {
 
   /// Throws as UdpMesh does.
   LivePeers(const UdpMeshSettings& settings, std::vector<UdpPeer> peers);
-  /// As stopThread(). Says no farewell.
+  /// Stops the thread as stopThread() does. Says no farewell.
   ~LivePeers();
   LivePeers(const LivePeers&) = delete;
   LivePeers& operator=(const LivePeers&) = delete;
@@ -98,7 +98,7 @@ class LivePeers {
   [[nodiscard]] std::uint64_t received() const noexcept;
   /// Reasons that occurred.
   [[nodiscard]] std::vector<RefusedDatagrams> refused() const;
-  /// Where the socket is bound.
+  /// Address to which the socket is bound.
   [[nodiscard]] Address bound() const noexcept;
 
  private:
