@@ -9,7 +9,6 @@
 
 #include "bodies/haptic_body.h"
 #include "bodies/own_body.h"
-#include "native/native_coupling.h"
 
 namespace tandem {
 namespace {
@@ -51,7 +50,6 @@ struct SphereBody::Impl {
   btSphereShape shape;
   OwnBody own;
   std::optional<HapticBody> haptic;
-  bool is_ghost = false;
 };
 
 SphereBody::SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
@@ -62,10 +60,5 @@ SphereBody::~SphereBody() = default;
 btRigidBody& SphereBody::rigid() const noexcept { return impl_->own.rigid(); }
 bool SphereBody::isAlive() const noexcept { return impl_->own.isAlive(); }
 HapticBody& SphereBody::haptic() const noexcept { return *impl_->haptic; }
-void SphereBody::setGhost(bool is_ghost) noexcept {
-  if (is_ghost == impl_->is_ghost) return;
-  impl_->is_ghost = is_ghost;
-  setNativeGhost(rigid(), is_ghost);
-}
 
 }  // namespace tandem

@@ -36,10 +36,6 @@ class SphereBody {
   [[nodiscard]] btRigidBody& rigid() const noexcept;
   [[nodiscard]] HapticBody& haptic() const noexcept;
 
-  /// A ghost passes all bodies: Bullet detects its contacts but does not resolve them. Real-time
-  /// safe.
-  void setGhost(bool is_ghost) noexcept;
-
  private:
   struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;

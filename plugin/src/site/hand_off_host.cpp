@@ -74,8 +74,8 @@ void HandOffStep::lookAtBodies(double dt) noexcept {
 /// Gives Bullet the states of its bodies at the end of the step.
 void HandOffStep::handOff(double dt) noexcept {
   for (Peer& peer : site_.peers)
-    if (peer.proxy.sphere && peer.proxy.sphere->isAlive())
-      peer.proxy.sphere->setGhost(peer.proxy.body.step.is_ghost);
+    if (btRigidBody* rigid = peer.proxy.findRigid())
+      setNativeGhost(*rigid, peer.proxy.body.step.is_ghost);
   site_.bodies.forEachPresent([&](SiteBody& body) {
     HapticBody& bullet = *body.bullet;
     body.step.stands = bullet.standsAt(body.step.end);

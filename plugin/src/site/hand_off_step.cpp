@@ -8,7 +8,6 @@
 namespace tandem {
 
 HandOffStep::HandOffStep(SiteParts& parts) : IslandStep(parts) {
-  site_.surroundings.addSphere(site_.hand.hip(), site_.settings.hip_radius);
   site_.island.setContactFinder(&site_.surroundings.contactFinder());
   if (!site_.settings.guide) site_.surroundings.addSlots(site_.settings.max_neighbours);
 }
@@ -21,9 +20,7 @@ void HandOffStep::addObject(SharedObject& object) {
 void HandOffStep::finishSetUp() {
   site_.bodies.forEach(
       [&](SiteBody& body) { site_.forces.setWeight(body, body.bullet->gravityForce()); });
-  const double step = site_.clock.expectedStep();
-  makeRoomFor(step);
-  lookAround(step);
+  IslandStep::finishSetUp();
 }
 
 /// Moves the island over ticks that the caller left out, with their packets and host steps but

@@ -6,10 +6,6 @@
 
 namespace tandem {
 
-ImpulseStep::ImpulseStep(SiteParts& parts) : IslandStep(parts) {
-  site_.surroundings.addSphere(site_.hand.hip(), site_.settings.hip_radius);
-}
-
 void ImpulseStep::addProxy(Peer& peer, const Vec3& start_W) {
   checkStable("proxy", site_.settings.proxy.mass);
   IslandStep::addProxy(peer, start_W);
@@ -34,9 +30,7 @@ void ImpulseStep::checkStable(const char* what, double mass) const {
 
 void ImpulseStep::finishSetUp() {
   wrenches_.resize(static_cast<std::size_t>(site_.island.bodyCount()));
-  const double step = site_.clock.expectedStep();
-  makeRoomFor(step);
-  lookAround(step);
+  IslandStep::finishSetUp();
 }
 
 void ImpulseStep::advance(double now, double end) noexcept {
@@ -49,11 +43,8 @@ void ImpulseStep::advance(double now, double end) noexcept {
 }
 
 void ImpulseStep::showProxy(Peer& peer) noexcept {
-  if (!peer.proxy.sphere || !peer.proxy.sphere->isAlive()) return;
-  const bool is_ghost = site_.island.isGhost(*peer.user.body);
-  peer.proxy.sphere->setGhost(is_ghost);
-  // Bullet moves the proxy on from here.
-  if (!is_ghost) peer.proxy.body.bullet->setState(site_.island.state(*peer.user.body));
+  const BodyIndex index = *peer.user.body;
+  peer.proxy.show(site_.island.state(index), site_.island.isGhost(index));
 }
 
 void ImpulseStep::before(double dt) noexcept {

@@ -10,7 +10,7 @@ namespace tandem {
 /// haptic rate. For comparison, and for worlds where everything runs at 1 kHz.
 class ImpulseStep final : public IslandStep {
  public:
-  explicit ImpulseStep(SiteParts& parts);
+  using IslandStep::IslandStep;
 
   void checkObject(double mass) const override;
   void addProxy(Peer& peer, const Vec3& start_W) override;

@@ -14,6 +14,10 @@ constexpr int kStepsBetweenLooks = 64;
 
 }  // namespace
 
+IslandStep::IslandStep(SiteParts& parts) : site_(parts) {
+  site_.surroundings.addSphere(site_.hand.hip(), site_.settings.hip_radius);
+}
+
 void IslandStep::addObject(SharedObject& object) {
   const CouplerGains& contact = site_.settings.contact;
   site_.surroundings.exclude(*object.rigid);
@@ -40,6 +44,12 @@ void IslandStep::addProxy(Peer& peer, const Vec3& start_W) {
     site_.island.addContact(index, object.body.index, contact);
     filterNativeContact(site_.host_world.world(), peer.proxy.sphere->rigid(), *object.rigid, true);
   }
+}
+
+void IslandStep::finishSetUp() {
+  const double step = site_.clock.expectedStep();
+  makeRoomFor(step);
+  lookAround(step);
 }
 
 bool IslandStep::isPlaceFree(const Peer& peer, double unknown) const noexcept {

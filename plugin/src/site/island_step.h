@@ -9,10 +9,11 @@ namespace tandem {
 /// spheres in the host's world.
 class IslandStep : public HostStep {
  public:
-  explicit IslandStep(SiteParts& parts) : site_(parts) {}
+  explicit IslandStep(SiteParts& parts);
 
   void addObject(SharedObject& object) override;
   void addProxy(Peer& peer, const Vec3& start_W) override;
+  void finishSetUp() override;
   [[nodiscard]] bool areBodiesPresent() noexcept override { return site_.areBodiesPresent(); }
   void addCoupler(SharedObject&, CouplerIndex, const CouplerSettings&) override {}
   [[nodiscard]] const Vec3& computeContactForce() noexcept override {

@@ -51,13 +51,8 @@ bool NativeStep::isPlaceFree(const Peer& peer, double unknown) const noexcept {
 }
 
 void NativeStep::showProxy(Peer& peer) noexcept {
-  btRigidBody* rigid = peer.proxy.findRigid();
-  if (!rigid) return;
   const BodyIndex index = *peer.user.body;
-  const bool is_ghost = site_.island.isGhost(index);
-  setNativeGhost(*rigid, is_ghost);
-  // Bullet moves the proxy on from here.
-  if (!is_ghost && peer.proxy.sphere) peer.proxy.body.bullet->setState(site_.island.state(index));
+  peer.proxy.show(site_.island.state(index), site_.island.isGhost(index));
 }
 
 void NativeStep::before(double dt) noexcept {

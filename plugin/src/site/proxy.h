@@ -19,6 +19,14 @@ struct Proxy {
     if (held) return held->isInWorld() ? &held->rigid() : nullptr;
     return sphere && sphere->isAlive() ? &sphere->rigid() : nullptr;
   }
+
+  /// Shows it in Bullet. Bullet moves a sphere on from `state`, unless it is a ghost.
+  void show(const RigidState& state, bool is_ghost) noexcept {
+    btRigidBody* rigid = findRigid();
+    if (!rigid) return;
+    setNativeGhost(*rigid, is_ghost);
+    if (!is_ghost && sphere) body.bullet->setState(state);
+  }
 };
 
 }  // namespace tandem
