@@ -1,6 +1,6 @@
 # Compiles several sources as one. Sources are short and their includes long: most of a full build's time goes into
 # headers. The preset clang compiles each source alone, which proves its own includes.
-option(TANDEM_UNITY "Compile several sources at once: less than half the time of a full build" ON)
+option(TANDEM_UNITY "Compile several sources at once, for faster full builds" ON)
 
 # tandem_unity(TARGET [ALONE sources...]): call it once the target has all its sources. Sources after ALONE are compiled
 # alone. Sources compiled as one share their anonymous namespaces. So a source joins a batch only if it uses no word
