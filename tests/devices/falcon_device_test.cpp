@@ -3,13 +3,8 @@
 
 #include "tandem/falcon/falcon_device.h"
 
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -18,34 +13,13 @@
 #include "tandem/falcon/emulated_falcon_port.h"
 #include "tandem/falcon/monotonic_clock.h"
 
+#include "devices/patient_falcon.h"
 #include "falcon/src/novint/falcon_emulator.h"
 
 namespace tandem {
 namespace {
 
-constexpr double kLongest = 20.0;  // longest wait for any outcome [s]
-
-FalconEmulatorSettings readyDevice() {
-  FalconEmulatorSettings settings;
-  settings.runs = settings.is_homed = true;
-  return settings;
-}
-
-/// A busy machine may delay a thread for long; these tests do not measure time.
-FalconSettings patientSettings() {
-  FalconSettings settings;
-  settings.reply_time = 0.3;
-  settings.quiet_time = 0.3;
-  settings.firmware_time = 1.5;
-  settings.boot.probe_time = 0.5;
-  settings.boot.echo_time = 1.0;
-  settings.boot.tries = 4;
-  return settings;
-}
-
-std::unique_ptr<Hand> makeHoldingHand() {
-  return makeMinimumJerkHand({{0.0, Vec3::Zero()}}, 1000.0, 10.0);
-}
+using namespace test;
 
 /// Ticks a device as a site does, a thousand times a second.
 class FalconOverTty : public ::testing::Test {
@@ -266,52 +240,6 @@ TEST_F(FalconOverTty, ClosingTakesTheForceAwayAndPutsTheLightsOut) {
   expectWork();
 }
 
-/// Changes the folder of temporary files while it lives.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& path) {
-    if (const char* before = std::getenv("TMPDIR")) before_ = before;
-    ::setenv("TMPDIR", path.c_str(), 1);
-  }
-  ~TemporaryFolder() {
-    if (before_.empty())
-      ::unsetenv("TMPDIR");
-    else
-      ::setenv("TMPDIR", before_.c_str(), 1);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
- private:
-  std::string before_;
-};
-
-TEST(EmulatedFalconPort, WithoutAFolderForItsLinkItSaysSo) {
-  const TemporaryFolder none("/no-such-folder");
-  EXPECT_THROW((void)EmulatedFalconPort(), Error);
-}
-
-TEST(EmulatedFalconPort, LeavesNothingBehind) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::path(::testing::TempDir()) / "tandem_falcon_port_test";
-  fs::remove_all(folder);
-  fs::create_directory(folder);
-  {
-    const TemporaryFolder temporary(folder.string());
-    EmulatedFalconPort one, other;
-    EXPECT_NE(one.path(), other.path());
-    EXPECT_TRUE(fs::is_symlink(one.path()));
-    // Only the owner may put a link in its place.
-    EXPECT_EQ(fs::status(fs::path(one.path()).parent_path()).permissions(), fs::perms::owner_all);
-    one.unplug();
-    EXPECT_FALSE(fs::is_symlink(one.path()));
-    one.plugIn();
-    EXPECT_TRUE(fs::is_symlink(one.path()));
-  }
-  EXPECT_TRUE(fs::is_empty(folder));
-  fs::remove_all(folder);
-}
-
 TEST(FalconDevice, OneThatCannotBeOpenedSaysWhy) {
   FalconDevice device({}, {}, [] { return openTty("/dev/no-such-falcon"); });
   for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
@@ -335,138 +263,6 @@ TEST_F(FalconOverTty, TellsItsButtonsToAnyThread) {
   // A silent device reports no pressed button, so that a clutch cannot stay out for ever.
   visit([](FalconEmulator& emulator) { emulator.mishaps.silent_replies = FalconMishaps::kAlways; });
   EXPECT_TRUE(tickUntil([this](const FalconStatus&) { return device_->buttons() == 0; }));
-}
-
-/// A line that breaks: a number of reads or writes report that the device is gone.
-struct Breaks {
-  std::atomic<int> reads{0}, writes{0};
-  std::atomic<bool> may_open{true};
-};
-
-class BreakingLine final : public ByteTransport {
- public:
-  BreakingLine(FalconEmulator& emulator, Breaks& breaks)
-      : line_(openEmulator(emulator)), breaks_(breaks) {}
-
-  [[nodiscard]] const std::string& name() const noexcept override { return line_->name(); }
-  [[nodiscard]] bool write(const std::uint8_t* bytes, std::size_t count) noexcept override {
-    return !use(breaks_.writes) && line_->write(bytes, count);
-  }
-  [[nodiscard]] std::ptrdiff_t read(std::uint8_t* bytes, std::size_t room,
-                                    double wait) noexcept override {
-    return use(breaks_.reads) ? -1 : line_->read(bytes, room, wait);
-  }
-  [[nodiscard]] bool setLine(const SerialLine& line) noexcept override {
-    return line_->setLine(line);
-  }
-  void purge() noexcept override { line_->purge(); }
-
- private:
-  static bool use(std::atomic<int>& count) noexcept { return count > 0 && count-- > 0; }
-
-  std::unique_ptr<ByteTransport> line_;
-  Breaks& breaks_;
-};
-
-/// A device at an emulator in its own thread. The emulator may be read once the device is gone.
-class FalconAtALineThatBreaks : public ::testing::Test {
- protected:
-  FalconAtALineThatBreaks() : emulator_(readyDevice(), makeHoldingHand()) {}
-
-  void start(double max_slew) {
-    FalconSettings settings = patientSettings();
-    settings.force.max_slew = max_slew;
-    device_ = std::make_unique<FalconDevice>(settings, FirmwareImage{}, [this] {
-      return breaks_.may_open ? std::make_unique<BreakingLine>(emulator_, breaks_) : nullptr;
-    });
-  }
-  [[nodiscard]] bool waitUntil(const std::function<bool(const FalconStatus&)>& is_so,
-                               const Vec3& push = Vec3(0.0, 25.0, 0.0)) {
-    for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
-         sleepFor(0.001)) {
-      device_->write(push);
-      if (is_so(device_->status())) return true;
-    }
-    return false;
-  }
-  [[nodiscard]] bool waitUntilPushed() {
-    return waitUntil([](const FalconStatus& s) { return s.force_D[1] > 7.99; });
-  }
-  void expectRest(double most_change) {
-    device_.reset();
-    EXPECT_GT(emulator_.felt().most_force, 7.9);
-    EXPECT_LT(emulator_.felt().most_change, most_change * 1.02);
-    EXPECT_EQ(emulator_.command().motors, FalconMotors{});
-    EXPECT_TRUE(emulator_.command().homes);
-  }
-
-  Breaks breaks_;
-  FalconEmulator emulator_;
-  std::unique_ptr<FalconDevice> device_;
-};
-
-TEST_F(FalconAtALineThatBreaks, ReadsThatFailLeaveNoForceBehind) {
-  start(2000.0);
-  ASSERT_TRUE(waitUntilPushed());
-  breaks_.may_open = false;
-  breaks_.reads = 1000000;
-  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
-  expectRest(2.0);
-}
-
-TEST_F(FalconAtALineThatBreaks, AWriteThatFailsOnceLeavesNoForceBehind) {
-  start(2000.0);
-  ASSERT_TRUE(waitUntilPushed());
-  breaks_.may_open = false;
-  breaks_.writes = 1;
-  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
-  expectRest(2.0);
-}
-
-// If only one frame gets through, it carries zero force, even if that is a single step.
-TEST_F(FalconAtALineThatBreaks, TheLastFrameOfABadLineIsOneWithoutForce) {
-  start(2000.0);
-  ASSERT_TRUE(waitUntilPushed());
-  breaks_.may_open = false;
-  breaks_.writes = 2;
-  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
-  expectRest(8.0);
-}
-
-TEST_F(FalconAtALineThatBreaks, ItComesBack) {
-  start(2000.0);
-  for (const std::uint64_t times : {1U, 2U, 3U}) {
-    ASSERT_TRUE(waitUntilPushed());
-    EXPECT_EQ(device_->status().opened, times);
-    breaks_.reads = 1;
-    EXPECT_TRUE(waitUntil([times](const FalconStatus& s) { return s.opened > times; }));
-  }
-  expectRest(2.0);
-}
-
-TEST_F(FalconAtALineThatBreaks, ASlowStopIsAWholeOne) {
-  start(50.0);
-  ASSERT_TRUE(waitUntilPushed());
-  expectRest(8.0 / 30.0);
-  EXPECT_EQ(emulator_.command().lights, 0);
-}
-
-// The program that asked for the force may have ended since.
-TEST_F(FalconAtALineThatBreaks, AForceAskedForWhileItWasClosedIsNotRendered) {
-  breaks_.may_open = false;
-  start(2000.0);
-  device_->write(Vec3(0.0, 8.0, 0.0));
-  breaks_.may_open = true;
-  std::uint64_t ready_at = 0;
-  for (const double end = readMonotonicClock() + kLongest; readMonotonicClock() < end;
-       sleepFor(0.001)) {
-    const FalconStatus& status = device_->status();
-    if (ready_at == 0 && status.state == FalconState::kReady) ready_at = status.frames;
-    if (ready_at > 0 && status.frames > ready_at + 200) break;
-  }
-  ASSERT_GT(ready_at, 0U);
-  device_.reset();
-  EXPECT_EQ(emulator_.felt().most_force, 0.0);
 }
 
 // Reading a sample again does not make it newer: it expires by the reader's time.
