@@ -12,7 +12,7 @@
 
 #include "bench/methods/all_methods.h"
 #include "bench/methods/bullet_scene.h"
-#include "coordination/src/schemes/remote_user.h"
+#include "bench/methods/tool_scheme.h"
 
 namespace tandem::demos::bench {
 namespace {
@@ -53,27 +53,6 @@ class HeldPathLink final : public Link {
   const BenchTool& tool_;
   std::uint64_t next_ = 0;
   StatePacket packet_;
-};
-
-/// Remote dynamic proxies with their own gains. Shared objects then need no coupler to copies
-/// elsewhere: the scenes have one copy of each.
-class ToolScheme final : public Scheme {
- public:
-  explicit ToolScheme(const BenchScene& scene)
-      : gains_(scene.tools.front().device ? scene.coupler : CouplerGains{0.0, 0.0}) {}
-  std::string_view name() const noexcept override { return "bench_tool"; }
-  RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy, const CouplerGains&,
-                            const PointState& start) const override {
-    return proxies_.makeRemoteUser(island, proxy, gains_, start);
-  }
-  void follow(Island& island, const RemoteUser& user,
-              const PointState& latest) const noexcept override {
-    proxies_.follow(island, user, latest);
-  }
-
- private:
-  CouplerGains gains_;
-  const Scheme& proxies_ = findScheme("remote_dynamic_proxy");
 };
 
 enum class Variant { kHandoff, kLate, kImpulse };

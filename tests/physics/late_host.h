@@ -11,8 +11,8 @@
 
 #include "bench/accuracy/comparison.h"
 #include "bench/methods/bullet_scene.h"
+#include "bench/methods/tool_scheme.h"
 #include "bench/reference/planar_reference.h"
-#include "coordination/src/schemes/remote_user.h"
 #include "support/fakes.h"
 
 /// \file
@@ -35,25 +35,6 @@ struct HostTiming {
   double known_stall = -1.0;  ///< SiteSettings::host_stall; negative: stall and jitter together
 };
 
-/// Tools of a scene with their own gains. Shared objects have no coupler.
-class LateToolScheme final : public Scheme {
- public:
-  explicit LateToolScheme(CouplerGains gains) : gains_(gains) {}
-  std::string_view name() const noexcept override { return "late_tool"; }
-  RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy, const CouplerGains&,
-                            const PointState& start) const override {
-    return proxies_.makeRemoteUser(island, proxy, gains_, start);
-  }
-  void follow(Island& island, const RemoteUser& user,
-              const PointState& latest) const noexcept override {
-    proxies_.follow(island, user, latest);
-  }
-
- private:
-  CouplerGains gains_;
-  const Scheme& proxies_ = findScheme("remote_dynamic_proxy");
-};
-
 /// A bench scene run by a site whose host steps at any time.
 class LateHost {
  public:
@@ -63,8 +44,7 @@ class LateHost {
         period_(1.0 / timing.rate),
         random_(timing.seed),
         bullet_(scene, {.has_tools = false, .keeps_plane = false, .shared_mass_factor = 2}),
-        scheme_(scene.tools.empty() || !scene.tools.front().device ? CouplerGains{0.0, 0.0}
-                                                                   : scene.coupler),
+        scheme_(scene),
         links_(scene.tools.size()) {
     settings.host_step = period_;
     settings.contact = scene.contact;
@@ -149,7 +129,7 @@ class LateHost {
   double period_;
   std::mt19937_64 random_;
   BulletScene bullet_;
-  LateToolScheme scheme_;
+  ToolScheme scheme_;
   test::FakeDevice device_{Vec3(0.0, 10.0, 10.0)};
   std::vector<test::FakeLink> links_;
   std::unique_ptr<Site> site_;
