@@ -40,7 +40,7 @@ class Forger {
         return {bytes_.data(), 172};
       }
       case 1:
-        return {bytes_.data(), encodeHello({route}, out)};
+        return {bytes_.data(), encodeHello({route, {}}, out)};
       case 2: {
         OpenMessage open;
         open.route = route;

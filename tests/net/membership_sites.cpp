@@ -17,13 +17,6 @@ MessageType typeOf(const std::vector<std::uint8_t>& bytes) {
   return static_cast<MessageType>(bytes[3]);
 }
 
-/// An OPEN with its cookie blanked.
-std::vector<std::uint8_t> withoutCookie(std::vector<std::uint8_t> open) {
-  constexpr std::size_t kCookieAt = 32, kCookieEnd = 48;
-  for (std::size_t i = kCookieAt; i < std::min(kCookieEnd, open.size()); ++i) open[i] = 0;
-  return open;
-}
-
 /// Session, sender, epoch and sequence. These form the nonce, and identify its key.
 std::vector<std::uint8_t> nonceOf(const std::vector<std::uint8_t>& bytes) {
   return {bytes.begin() + 4, bytes.begin() + kHeaderSize};
@@ -215,14 +208,10 @@ void MembershipSites::cut(std::size_t which, std::size_t size) {
   handOverChanged(std::move(datagram), as_it_was);
 }
 
-/// HELLO, COOKIE and REFUSE have no authenticated bit; in all others each bit is authenticated. The
-/// cookie of an OPEN is not: it may have been changed as a COOKIE, and be right again now.
+/// REFUSE has no authenticated bit; in all others each bit is authenticated.
 void MembershipSites::handOverChanged(Datagram datagram,
                                       const std::vector<std::uint8_t>& as_it_was) {
-  const bool is_open = typeOf(as_it_was) == MessageType::kOpen;
-  const bool is_covered = isSealed(typeOf(as_it_was)) ||
-                          typeOf(as_it_was) == MessageType::kAccept ||
-                          (is_open && withoutCookie(datagram.bytes) != withoutCookie(as_it_was));
+  const bool is_covered = typeOf(as_it_was) != MessageType::kRefuse;
   const bool is_taken = handOver(datagram);
   require(!is_taken || !is_covered, "a changed datagram taken");
 }

@@ -38,8 +38,8 @@ TEST(Membership, AnswerOfAPeerThatHasBegunAnewIsGotOver) {
   EXPECT_EQ(play({0, 11, 0, 3, 1, 1, 11, 0, 3, 1, 7, 1, 0, 10, 12, 1}), "");
 }
 
-// A bit of the COOKIE is turned, and turned back in the OPEN that repeats it.
-TEST(Membership, ACookieThatIsMendedOnTheWayIsRight) {
+// A bit of the COOKIE is turned: its tag is wrong, so no OPEN repeats it.
+TEST(Membership, AChangedCookieIsRefused) {
   EXPECT_EQ(
       play({0, 11, 0, 3,  4,  0, 24, 18, 1,  4, 0, 33, 1, 1, 11, 0, 3,  4, 0, 50, 8,  4, 0, 33,
             8, 37, 0, 24, 18, 1, 4,  0,  33, 1, 1, 11, 0, 3, 4,  0, 50, 8, 4, 0,  33, 8, 37}),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "net/tagged_datagrams.h"
 #include "net/virtual_net.h"
 
 namespace tandem {
@@ -116,8 +117,13 @@ TEST(Mesh, AnotherKeyIsRefusedAndSaid) {
   EXPECT_EQ(sites.status(1, 2).phase, PeerPhase::kCalling);
   ASSERT_TRUE(sites.status(1, 2).refused);
   EXPECT_EQ(*sites.status(1, 2).refused, RefuseCode::kKey);
+  EXPECT_TRUE(sites.status(2, 1).is_called_with_another_key);
   EXPECT_GT(sites.at(2).mesh->counts().of(Refusal::kKey), 0u);
   EXPECT_TRUE(sites.at(1).given[2].empty());
+  sites.start(2);
+  ASSERT_TRUE(sites.goLive(2.0));
+  EXPECT_FALSE(sites.status(1, 2).refused);
+  EXPECT_FALSE(sites.status(2, 1).is_called_with_another_key);
 }
 
 TEST(Mesh, OtherConfigurationsAreComparedByName) {
@@ -151,7 +157,7 @@ TEST(Mesh, AnotherVersionIsToldOurs) {
   VirtualSites sites(2);
   sites.stop(1);
   std::vector<std::uint8_t> hello(kHelloSize, 0);
-  ASSERT_GT(encodeHello({{PeerId{1}, PeerId{2}, 77}}, {hello.data(), hello.size()}), 0u);
+  ASSERT_GT(encodeHello({{PeerId{1}, PeerId{2}, 77}, {}}, {hello.data(), hello.size()}), 0u);
   hello[2] = 9;
   std::vector<std::uint8_t> answer;
   sites.net.tap = [&](const auto& bytes, const auto&, const auto&) { answer = bytes; };
@@ -175,9 +181,11 @@ TEST(Mesh, StrangersGetLessThanTheySend) {
   for (int i = 0; i < 1000; ++i) {
     const double now = 1e-3 * i;
     std::vector<std::uint8_t> hello(kHelloSize);
-    (void)encodeHello({{PeerId{1}, PeerId{2}, 77}}, {hello.data(), hello.size()});
+    // A copy of the peer's own, then one that nobody with the key has made.
+    (void)net::writeHello({PeerId{1}, PeerId{2}, 77}, test::makeKey(0x42),
+                          {hello.data(), hello.size()});
     throwAt(hello, now);
-    (void)encodeHello({{PeerId{1}, PeerId{3}, 77}}, {hello.data(), hello.size()});
+    (void)encodeHello({{PeerId{1}, PeerId{3}, 77}, {}}, {hello.data(), hello.size()});
     throwAt(hello, now);
     OpenMessage open;
     open.route = {PeerId{1}, PeerId{2}, 5};

@@ -11,6 +11,7 @@
 
 #include "coordination/src/wire/wire_sealing.h"
 #include "secure/cookie.h"
+#include "secure/handshake_tag.h"
 #include "secure/seal.h"
 #include "secure/secure_support.h"
 
@@ -38,20 +39,24 @@ nlohmann::json drawDatagram(Draw& draw, SecretKey key) {
 
 nlohmann::json drawCookie(Draw& draw) {
   const SecretKey secret = draw.key();
-  const ByteVector address = draw.bytes(draw.below(2) == 0 ? 4 : 16);
-  secure::CookieSubject subject{address, static_cast<std::uint16_t>(draw.number()),
-                                static_cast<std::uint16_t>(draw.number()),
+  secure::CookieSubject subject{static_cast<std::uint16_t>(draw.number()),
                                 static_cast<std::uint16_t>(draw.number()), draw.number()};
   const std::uint64_t slot = draw.below(1000000);
   const secure::CookieMaker maker(copyOf(secret), 1.0);
   return {{"secret", toHex(secret)},
-          {"address", toHex(address)},
-          {"port", subject.port},
           {"from", subject.from},
           {"to", subject.to},
           {"nonce", subject.nonce},
           {"slot", slot},
           {"cookie", toHex(maker.make(subject, static_cast<double>(slot) + 0.5))}};
+}
+
+nlohmann::json drawTag(Draw& draw) {
+  const SecretKey key = draw.key();
+  const ByteVector covered = draw.bytes(draw.below(100));
+  return {{"key", toHex(key)},
+          {"covered", toHex(covered)},
+          {"tag", toHex(secure::computeTag(key, covered))}};
 }
 
 nlohmann::json drawHandshake(Draw& draw) {
@@ -77,6 +82,7 @@ nlohmann::json drawHandshake(Draw& draw) {
   drawn["to_initiator"] = toHex(keys->receive);
   drawn["datagram"] = drawDatagram(draw, std::move(keys->send));
   drawn["cookie"] = drawCookie(draw);
+  drawn["tag"] = drawTag(draw);
   return drawn;
 }
 

@@ -148,11 +148,13 @@ def handshake(case):
 
 
 def compute_cookie(case):
-    address = bytes.fromhex(case["address"])
     text = b"".join(value.to_bytes(size, "little") for value, size in (
-        (case["slot"], 8), (case["nonce"], 8), (case["port"], 2), (case["from"], 2), (case["to"], 2),
-        (len(address), 1)))
-    return hashlib.blake2b(text + address, key=bytes.fromhex(case["secret"]), digest_size=16).digest()
+        (case["slot"], 8), (case["nonce"], 8), (case["from"], 2), (case["to"], 2)))
+    return compute_tag(bytes.fromhex(case["secret"]), text)
+
+
+def compute_tag(key, text):
+    return hashlib.blake2b(text, key=key, digest_size=16).digest()
 
 
 class Comparison:
@@ -208,6 +210,9 @@ def check_drawn(comparison, number, case):
                       seal(bytes.fromhex(sent["key"]), nonce, bytes.fromhex(sent["header"]),
                            bytes.fromhex(sent["text"])), sent["sealed"])
     comparison.expect(f"{name}, cookie", compute_cookie(case["cookie"]), case["cookie"]["cookie"])
+    tag = case["tag"]
+    comparison.expect(f"{name}, tag",
+                      compute_tag(bytes.fromhex(tag["key"]), bytes.fromhex(tag["covered"])), tag["tag"])
 
 
 def main(arguments):

@@ -19,7 +19,7 @@ def with_length(text):
 
 def write_clear(kind, f):
     route = ROUTE.pack(f["receiver"], f.get("code", 0), 0, f["nonce"])
-    body = f.get("cookie", b"") + f.get("noise", b"")
+    body = f.get("cookie", b"") + f.get("noise", b"") + f.get("tag", b"")
     return (route + body).ljust(CLEAR_SIZES[kind] - HEADER.size, b"\0")
 
 

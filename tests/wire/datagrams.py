@@ -9,7 +9,7 @@ MAX_TIME = 2**50
 TYPES = {1: "HELLO", 2: "COOKIE", 3: "OPEN", 4: "ACCEPT", 5: "REFUSE",
          16: "STATE", 17: "AGREE", 18: "AGREE_ACK", 19: "BYE"}
 NUMBERS = {name: number for number, name in TYPES.items()}
-CLEAR_SIZES = {"HELLO": 256, "COOKIE": 48, "OPEN": 104, "ACCEPT": 88, "REFUSE": 32}
+CLEAR_SIZES = {"HELLO": 256, "COOKIE": 64, "OPEN": 104, "ACCEPT": 88, "REFUSE": 32}
 
 HEADER = struct.Struct("<HBBIHHQ")
 ROUTE = struct.Struct("<HBBQ")
@@ -65,9 +65,10 @@ def read_clear(kind, sender, datagram):
     require(zero == 0, "zero")
     fields = {"receiver": receiver, "nonce": nonce}
     if kind == "HELLO":
-        require(not any(body), "zero")
+        require(not any(body[16:]), "zero")
+        fields["tag"] = body[:16]
     elif kind == "COOKIE":
-        fields["cookie"] = body
+        fields.update(cookie=body[:16], tag=body[16:])
     elif kind == "OPEN":
         fields.update(cookie=body[:16], noise=body[16:])
     elif kind == "ACCEPT":

@@ -1,6 +1,7 @@
 """The golden files: index.txt has their values, refused.txt what is done to them so that they are refused."""
 
 import configparser
+import hashlib
 import struct
 import sys
 
@@ -10,7 +11,8 @@ from datagrams import HEADER, NUMBERS, VERSION, Refused, read_datagram
 
 
 TEXT_FIELDS = ("key", "value")
-BYTE_FIELDS = ("cookie", "noise", "key_bytes")
+BYTE_FIELDS = ("cookie", "noise", "tag", "key_bytes")
+TAGGED = {"HELLO": 32, "COOKIE": 48}  # bytes before the tag
 
 
 def parse(name, text):
@@ -35,10 +37,15 @@ def read_index(folder):
         yield file, fields.pop("kind"), {name: parse(name, text) for name, text in fields.items()}
 
 
+def tag_of(key, covered):
+    """Section 4: the tag of HELLO and COOKIE."""
+    return hashlib.blake2b(covered, key=key, digest_size=16).digest()
+
+
 def make_file(folder, kind, f):
     """Bytes of a golden file that is no datagram by itself, from the other files where it needs them."""
     if kind == "PROLOGUE":
-        return b"tandem/1" + struct.pack("<HHB", f["initiator"], f["responder"], VERSION)
+        return b"tandem/1" + struct.pack("<HHB", f["initiator"], f["responder"], VERSION) + f["cookie"]
     if kind == "TERMS":
         return struct.pack("<IHBB", f["session"], f["key_epoch"], f["minor"], 0)
     if kind == "RECORDING":
@@ -104,6 +111,9 @@ def differences(folder):
                 continue
             if repr(read) != repr((kind, fields)):  # tells -0.0 from 0.0
                 yield f"{file}: reads as {read}, the index says {(kind, fields)}"
+        covered = TAGGED.get(kind, 0)
+        if covered and tag_of(bytes(range(32)), content[:covered]) != fields["tag"]:
+            yield f"{file}: the tag of its bytes is {tag_of(bytes(range(32)), content[:covered]).hex()}"
         if kind == "AGREE" and fields["parts"] == 1:
             items = [(name[5:], value) for name, value in fields.items() if name.startswith("item.")]
             if config_hash_of(items) != fields["config_hash"]:

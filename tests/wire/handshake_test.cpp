@@ -25,9 +25,9 @@ TEST(WireHandshake, EveryAnswerIsShorter) {
 }
 
 TEST(WireHandshake, OnlyTheLowerIdBegins) {
-  EXPECT_FALSE(collect([](ByteSpan out) { return encodeHello({kThere}, out); }).empty());
-  EXPECT_TRUE(collect([](ByteSpan out) { return encodeHello({kBack}, out); }).empty());
-  EXPECT_TRUE(collect([](ByteSpan out) { return encodeCookie({kThere, {}}, out); }).empty());
+  EXPECT_FALSE(collect([](ByteSpan out) { return encodeHello({kThere, {}}, out); }).empty());
+  EXPECT_TRUE(collect([](ByteSpan out) { return encodeHello({kBack, {}}, out); }).empty());
+  EXPECT_TRUE(collect([](ByteSpan out) { return encodeCookie({kThere, {}, {}}, out); }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeOpen({kBack, 1, {}, {}}, out); }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeAccept({kThere, 1, 1, {}}, out); }).empty());
   for (const HandshakeRoute& route : {kThere, kBack}) {
@@ -38,7 +38,7 @@ TEST(WireHandshake, OnlyTheLowerIdBegins) {
 
 TEST(WireHandshake, SendersKeepToTheStandard) {
   for (const std::uint32_t bad : {0U, 9U, 65537U}) {
-    const HelloMessage from{{PeerId{bad}, kHigh, 5}}, to{{kLow, PeerId{bad}, 5}};
+    const HelloMessage from{{PeerId{bad}, kHigh, 5}, {}}, to{{kLow, PeerId{bad}, 5}, {}};
     EXPECT_TRUE(collect([&](ByteSpan out) { return encodeHello(from, out); }).empty()) << bad;
     EXPECT_TRUE(collect([&](ByteSpan out) { return encodeHello(to, out); }).empty()) << bad;
   }
@@ -54,8 +54,8 @@ TEST(WireHandshake, SendersKeepToTheStandard) {
 TEST(WireHandshake, WritesNothingWithoutRoom) {
   Bytes bytes(kHelloSize, 0xee);
   const auto shortBy1 = [&bytes](std::size_t size) { return ByteSpan{bytes.data(), size - 1}; };
-  EXPECT_EQ(encodeHello({kThere}, shortBy1(kHelloSize)), 0U);
-  EXPECT_EQ(encodeCookie({kBack, {}}, shortBy1(kCookieSize)), 0U);
+  EXPECT_EQ(encodeHello({kThere, {}}, shortBy1(kHelloSize)), 0U);
+  EXPECT_EQ(encodeCookie({kBack, {}, {}}, shortBy1(kCookieSize)), 0U);
   EXPECT_EQ(encodeOpen({kThere, 1, {}, {}}, shortBy1(kOpenSize)), 0U);
   EXPECT_EQ(encodeAccept({kBack, 1, 1, {}}, shortBy1(kAcceptSize)), 0U);
   EXPECT_EQ(encodeRefuse({kBack, RefuseCode::kKey, 1}, shortBy1(kRefuseSize)), 0U);
@@ -101,7 +101,7 @@ TEST(WireHandshake, HelloOfAnotherVersionIsAnswered) {
   EXPECT_EQ(refuse->code, RefuseCode::kVersion);
   EXPECT_EQ(refuse->version, kWireVersion);
 
-  hello[40] = 1;  // invalid in any version of HELLO
+  hello[48] = 1;  // invalid in any version of HELLO
   EXPECT_EQ(encodeVersionRefusal(viewOf(hello), out), 0U);
   Bytes other = readGolden("open.bin");
   other[2] = 9;

@@ -109,14 +109,18 @@ Decoded<Envelope> decodeEnvelope(ByteView datagram, MessageType type) noexcept {
 std::size_t encodeHello(const HelloMessage& message, ByteSpan out) noexcept {
   const ClearHeader header = makeHeader(MessageType::kHello, message.route);
   if (!writeEnvelope(header, message.route, 0, out)) return 0;
-  makeBodyWriter(out).writeZeros(kHelloSize - kRouteEnd);
+  wire::ByteWriter writer = makeBodyWriter(out);
+  writer.writeBytes(message.tag);
+  writer.writeZeros(kHelloSize - kHelloTagOffset - message.tag.size());
   return kHelloSize;
 }
 
 std::size_t encodeCookie(const CookieMessage& message, ByteSpan out) noexcept {
   const ClearHeader header = makeHeader(MessageType::kCookie, message.route);
   if (!writeEnvelope(header, message.route, 0, out)) return 0;
-  makeBodyWriter(out).writeBytes(message.cookie);
+  wire::ByteWriter writer = makeBodyWriter(out);
+  writer.writeBytes(message.cookie);
+  writer.writeBytes(message.tag);
   return kCookieSize;
 }
 
@@ -149,9 +153,11 @@ std::size_t encodeRefuse(const RefuseMessage& message, ByteSpan out) noexcept {
 Decoded<HelloMessage> decodeHello(ByteView datagram) noexcept {
   const auto envelope = decodeEnvelope(datagram, MessageType::kHello);
   if (!envelope) return envelope.refusal();
-  if (!makeBodyReader(datagram).hasOnlyZeros()) return WireRefusal::kZero;
   Decoded<HelloMessage> message(WireRefusal::kNone);
   message->route = envelope->route();
+  wire::ByteReader reader = makeBodyReader(datagram);
+  reader.readInto(message->tag);
+  if (!reader.hasOnlyZeros()) return WireRefusal::kZero;
   return message;
 }
 
@@ -160,7 +166,9 @@ Decoded<CookieMessage> decodeCookie(ByteView datagram) noexcept {
   if (!envelope) return envelope.refusal();
   Decoded<CookieMessage> message(WireRefusal::kNone);
   message->route = envelope->route();
-  makeBodyReader(datagram).readInto(message->cookie);
+  wire::ByteReader reader = makeBodyReader(datagram);
+  reader.readInto(message->cookie);
+  reader.readInto(message->tag);
   return message;
 }
 

@@ -8,17 +8,18 @@
 
 /// \file
 /// The unencrypted datagrams of the handshake (section 4), with their headers. The caller makes the
-/// contents of the Noise messages and the cookie.
+/// contents of the Noise messages, the cookie and the tags.
 #pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kHelloSize = 256;  ///< [bytes]; these sizes include the header
-inline constexpr std::size_t kCookieSize = 48;
+inline constexpr std::size_t kCookieSize = 64;
 inline constexpr std::size_t kOpenSize = 104;
 inline constexpr std::size_t kAcceptSize = 88;
 inline constexpr std::size_t kRefuseSize = 32;
 
 using CookieBytes = std::array<std::uint8_t, 16>;
+using HandshakeTag = std::array<std::uint8_t, 16>;
 using NoiseMessage = std::array<std::uint8_t, 56>;  ///< key 32, sealed terms 8, tag 16
 
 /// Sender, receiver and attempt of a handshake.
@@ -31,12 +32,15 @@ struct HandshakeRoute {
 /// Initiator: asks to begin. The longest of all, so that no answer amplifies it.
 struct HelloMessage {
   HandshakeRoute route;
+  HandshakeTag tag{};  ///< over all bytes before it, under the pair's key
 };
 
-/// Responder: asks for proof that the initiator receives at its address. It has stored nothing.
+/// Responder: asks for proof that the initiator acts now, and not a recording of it. It has stored
+/// nothing.
 struct CookieMessage {
   HandshakeRoute route;
   CookieBytes cookie{};
+  HandshakeTag tag{};  ///< as in HELLO
 };
 
 /// Initiator: returns the cookie, with Noise message 1.
@@ -62,6 +66,10 @@ struct RefuseMessage {
   RefuseCode code = RefuseCode::kVersion;
   std::uint8_t version = kWireVersion;  ///< version that the sender speaks
 };
+
+/// HELLO and COOKIE carry their tags behind these many bytes.
+inline constexpr std::size_t kHelloTagOffset = 32;
+inline constexpr std::size_t kCookieTagOffset = 48;
 
 /// Each encoder writes one whole datagram and returns its size. It returns 0, with nothing written,
 /// if there is no room or the message is outside the standard.

@@ -16,13 +16,15 @@ void writeId(PeerId peer, wire::ByteWriter& writer) noexcept {
 
 }  // namespace
 
-NoisePrologue writeNoisePrologue(PeerId initiator, PeerId responder) noexcept {
+NoisePrologue writeNoisePrologue(PeerId initiator, PeerId responder,
+                                 const CookieBytes& cookie) noexcept {
   NoisePrologue prologue{};
   wire::ByteWriter writer({prologue.data(), prologue.size()});
   writer.writeBytes(kLabel);
   writeId(initiator, writer);
   writeId(responder, writer);
   writer.write(kWireVersion);
+  writer.writeBytes(cookie);
   return prologue;
 }
 

@@ -5,13 +5,14 @@
 #include <cstdint>
 
 #include "wire/wire.h"
+#include "wire/wire_handshake.h"
 
 /// \file
 /// Bytes that enter Noise and sealing besides keys and payload (sections 4 and 5).
 #pragma GCC visibility push(default)
 namespace tandem {
 
-using NoisePrologue = std::array<std::uint8_t, 13>;
+using NoisePrologue = std::array<std::uint8_t, 29>;
 using SessionTermsBytes = std::array<std::uint8_t, 8>;
 using AssociatedData = std::array<std::uint8_t, 32>;
 using SealNonce = std::array<std::uint8_t, 12>;
@@ -23,8 +24,10 @@ struct SessionTerms {
   std::uint8_t minor = 0;       ///< highest minor version spoken; the answer has the lower of both
 };
 
-/// Prologue of the pair's handshake; the initiator has the lower id.
-[[nodiscard]] NoisePrologue writeNoisePrologue(PeerId initiator, PeerId responder) noexcept;
+/// Prologue of the pair's handshake; the initiator has the lower id. With the responder's cookie in
+/// it, a recorded message 1 opens for no other cookie.
+[[nodiscard]] NoisePrologue writeNoisePrologue(PeerId initiator, PeerId responder,
+                                               const CookieBytes& cookie) noexcept;
 
 [[nodiscard]] SessionTermsBytes writeSessionTerms(const SessionTerms& terms) noexcept;
 [[nodiscard]] Decoded<SessionTerms> readSessionTerms(const SessionTermsBytes& bytes) noexcept;

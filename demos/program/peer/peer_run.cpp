@@ -136,9 +136,10 @@ void PeerRun::checkAnswer(double waited, double patience) const {
         static_cast<std::uint32_t>(other_)));
   if (waited < patience) return;
   const std::string where = status.address ? toString(*status.address) : "its address";
-  const std::string why =
-      status.refused ? fmt::format("it answers, but {}", explainRefusal(*status.refused))
-                     : "is it running, is the address right, does a firewall let UDP pass?";
+  std::string why = "is it running, is the address right, does a firewall let UDP pass?";
+  if (status.is_called_with_another_key)
+    why = "it calls, but with another key; give both sides the same key file";
+  if (status.refused) why = fmt::format("it answers, but {}", explainRefusal(*status.refused));
   throw Error(fmt::format("site {} at {} did not join within {} s: {}",
                           static_cast<std::uint32_t>(other_), where, patience, why));
 }

@@ -44,7 +44,7 @@ bool Answerer::isOld(const OpenMessage& message) const noexcept {
 
 std::optional<SessionKeys> Answerer::answer(const OpenMessage& message, double now,
                                             Outcome& outcome) {
-  secure::Responder noise(key_, writeNoisePrologue(pair_.peer, pair_.self));
+  secure::Responder noise(key_, writeNoisePrologue(pair_.peer, pair_.self, message.cookie));
   SessionTermsBytes bytes{};
   outcome = Refusal::kKey;
   const auto size = noise.readMessage(message.noise, bytes);

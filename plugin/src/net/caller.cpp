@@ -4,6 +4,7 @@
 #include <array>
 
 #include "net/random.h"
+#include "net/tagged_datagrams.h"
 
 namespace tandem::net {
 namespace {
@@ -35,7 +36,7 @@ void Caller::advance(double now, const Address& to, const std::optional<Address>
   std::array<std::uint8_t, kHelloSize> datagram;
   const ByteSpan out{datagram.data(), datagram.size()};
   const std::size_t size = stage_ == Stage::kHello
-                               ? encodeHello({{pair_.self, pair_.peer, nonce_}}, out)
+                               ? writeHello({pair_.self, pair_.peer, nonce_}, key_, out)
                                : encodeOpen(open_, out);
   outlet.send({datagram.data(), size}, to);
   if (also && *also != to) outlet.send({datagram.data(), size}, *also);
@@ -50,26 +51,27 @@ Outcome Caller::onCookie(ByteView datagram, double now) noexcept {
   const auto message = decodeCookie(datagram);
   if (!message) return message.refusal();
   if (!isAnswer(message->route) || stage_ != Stage::kHello) return Refusal::kOutOfTurn;
-  if (!noise_) {
-    const Outcome outcome = writeOpen();
+  // Only the peer can tag a cookie, so nobody can put another one in place of its own.
+  if (!isAuthentic(*message, datagram, key_)) return Refusal::kForged;
+  if (!noise_ || open_.cookie != message->cookie) {
+    const Outcome outcome = writeOpen(message->cookie);
     if (outcome.refusal != Refusal::kNone) return outcome;
+    opened_at_ = now;
   }
-  open_.cookie = message->cookie;
-  opened_at_ = now;
   stage_ = Stage::kOpen;
   retry_.start(now);
   return {};
 }
 
-/// Writes all of OPEN except the cookie.
-Outcome Caller::writeOpen() noexcept {
+Outcome Caller::writeOpen(const CookieBytes& cookie) noexcept {
   try {
-    const NoisePrologue prologue = writeNoisePrologue(pair_.self, pair_.peer);
+    const NoisePrologue prologue = writeNoisePrologue(pair_.self, pair_.peer, cookie);
     session_ = drawNumber<std::uint32_t>();
     const SessionTermsBytes terms = writeSessionTerms({session_, epoch_, 0});
     noise_.emplace(key_, prologue);
     open_.route = {pair_.self, pair_.peer, nonce_};
     open_.key_epoch = epoch_;
+    open_.cookie = cookie;
     if (!noise_->writeMessage(terms, open_.noise)) return Refusal::kOutOfTurn;
   } catch (const std::exception&) {
     noise_.reset();

@@ -41,7 +41,7 @@ class Caller {
  private:
   enum class Stage { kIdle, kHello, kOpen };
 
-  [[nodiscard]] Outcome writeOpen() noexcept;
+  [[nodiscard]] Outcome writeOpen(const CookieBytes& cookie) noexcept;
   [[nodiscard]] bool isAnswer(const HandshakeRoute& route) const noexcept;
 
   Pair pair_;

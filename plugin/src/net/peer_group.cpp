@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "net/tagged_datagrams.h"
+
 namespace tandem::net {
 namespace {
 
@@ -14,9 +16,9 @@ constexpr double kRefusalsPerSecond = 5.0;
 constexpr double kAtOnce = 10.0;
 constexpr double kOpensAtOnce = 2.0;
 
-secure::CookieSubject makeSubject(const HandshakeRoute& route, const Address& from) noexcept {
-  return {from.ip, from.port, static_cast<std::uint16_t>(route.sender),
-          static_cast<std::uint16_t>(route.receiver), route.nonce};
+secure::CookieSubject makeSubject(const HandshakeRoute& route) noexcept {
+  return {static_cast<std::uint16_t>(route.sender), static_cast<std::uint16_t>(route.receiver),
+          route.nonce};
 }
 
 void checkIds(PeerId self, const std::vector<PeerGroup::Peer>& peers) {
@@ -142,15 +144,21 @@ Outcome PeerGroup::handle(ByteSpan datagram, const Address& from, double now) no
 Outcome PeerGroup::handleHello(ByteView datagram, const Address& from, double now) noexcept {
   const auto hello = decodeHello(datagram);
   if (!hello) return hello.refusal();
-  if (hello->route.receiver != self_ || !find(hello->route.sender)) {
+  PeerSession* session = hello->route.receiver == self_ ? find(hello->route.sender) : nullptr;
+  if (!session) {
     refuse(hello->route, RefuseCode::kUnknownPeer, from, now);
     return Refusal::kNotForMe;
   }
-  if (!limitsOf(*find(hello->route.sender), from).hellos.take(now)) return Refusal::kTooMany;
-  const CookieMessage answer{{self_, hello->route.sender, hello->route.nonce},
-                             cookies_.make(makeSubject(hello->route, from), now)};
+  if (!isAuthentic(*hello, datagram, session->key())) {
+    session->noteForeignKey();
+    refuse(hello->route, RefuseCode::kKey, from, now);
+    return Refusal::kKey;
+  }
+  if (!limitsOf(*session, from).hellos.take(now)) return Refusal::kTooMany;
   std::array<std::uint8_t, kCookieSize> bytes;
-  const std::size_t size = encodeCookie(answer, {bytes.data(), bytes.size()});
+  const std::size_t size = writeCookie({self_, hello->route.sender, hello->route.nonce},
+                                       cookies_.make(makeSubject(hello->route), now),
+                                       session->key(), {bytes.data(), bytes.size()});
   outlet_.send({bytes.data(), size}, from);
   return {};
 }
@@ -160,7 +168,7 @@ Outcome PeerGroup::handleOpen(ByteView datagram, const Address& from, double now
   if (!open) return open.refusal();
   PeerSession* session = open->route.receiver == self_ ? find(open->route.sender) : nullptr;
   if (!session) return Refusal::kNotForMe;
-  if (!cookies_.accepts(open->cookie, makeSubject(open->route, from), now)) {
+  if (!cookies_.accepts(open->cookie, makeSubject(open->route), now)) {
     refuse(open->route, RefuseCode::kCookie, from, now);
     return Refusal::kCookie;
   }

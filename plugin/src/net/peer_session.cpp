@@ -150,6 +150,7 @@ void PeerSession::install(SessionKeys keys, double now) noexcept {
   has_heard_present_ = false;
   newest_sequence_ = 0;
   left_.reset();
+  is_called_with_another_key_ = false;
   stream_.startKeys();
   agreement_.restart();
   agree_at_ = now;
@@ -271,6 +272,7 @@ PeerStatus PeerSession::status(double now) const {
     status.refused = refused->code;
     status.refused_version = refused->version;
   }
+  status.is_called_with_another_key = is_called_with_another_key_ && !keys_;
   status.left = left_;
   if (keys_ || left_ == ByeReason::kConfigurationsDiffer)
     status.difference = agreement_.difference();

@@ -65,6 +65,10 @@ class PeerSession {
     return address_ == address || configured_ == address;
   }
   [[nodiscard]] const Pair& pair() const noexcept { return pair_; }
+  /// The key that the pair shares.
+  [[nodiscard]] const SecretKey& key() const noexcept { return key_; }
+  /// Somebody calls in the peer's name with another key. Not authentic.
+  void noteForeignKey() noexcept { is_called_with_another_key_ = true; }
 
  private:
   [[nodiscard]] Outcome handle(MessageType type, std::optional<std::uint64_t> sequence,
@@ -103,6 +107,7 @@ class PeerSession {
   double bye_at_ = 0.0;
   std::optional<ByeReason> left_;  ///< the peer's reason
   std::uint64_t states_sent_ = 0, states_unsent_ = 0;
+  bool is_called_with_another_key_ = false;  ///< since the last handshake
 };
 
 }  // namespace tandem::net

@@ -1,6 +1,5 @@
 #include "secure/cookie.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,8 +10,7 @@
 namespace tandem::secure {
 namespace {
 
-constexpr std::size_t kLongestAddress = 16;
-constexpr std::size_t kFixedPart = 8 + 8 + 3 * 2 + 1;
+constexpr std::size_t kTextSize = 8 + 8 + 2 * 2;
 
 }  // namespace
 
@@ -32,8 +30,7 @@ std::int64_t CookieMaker::slotAt(double now) const noexcept {
 }
 
 Cookie CookieMaker::makeIn(std::int64_t slot, const CookieSubject& subject) const noexcept {
-  const std::size_t address_size = std::min(subject.address.size(), kLongestAddress);
-  std::array<std::uint8_t, kFixedPart + kLongestAddress> text;
+  std::array<std::uint8_t, kTextSize> text;
   std::uint8_t* end = text.data();
   const auto append = [&end](auto number) {
     wire::storeLittleEndian(number, end);
@@ -41,15 +38,12 @@ Cookie CookieMaker::makeIn(std::int64_t slot, const CookieSubject& subject) cons
   };
   append(static_cast<std::uint64_t>(slot));
   append(subject.nonce);
-  append(subject.port);
   append(subject.from);
   append(subject.to);
-  *end++ = static_cast<std::uint8_t>(address_size);
-  std::copy_n(subject.address.begin(), address_size, end);
 
   Cookie cookie;
-  crypto_generichash(cookie.data(), cookie.size(), text.data(), kFixedPart + address_size,
-                     secret_.data(), SecretKey::kSize);
+  crypto_generichash(cookie.data(), cookie.size(), text.data(), text.size(), secret_.data(),
+                     SecretKey::kSize);
   return cookie;
 }
 

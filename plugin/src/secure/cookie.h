@@ -5,18 +5,15 @@
 
 #include "tandem/plugin/secret_key.h"
 
-#include "secure/bytes.h"
-
 namespace tandem::secure {
 
 /// A responder sends it before it stores anything about an initiator. An initiator that returns it
-/// can receive at its source address.
+/// is there now: a recording does not know it.
 using Cookie = std::array<std::uint8_t, 16>;
 
-/// The initiator's identity. The address is the socket's, up to 16 bytes (IPv6).
+/// A question that a cookie answers. Its source address is no part of it: copies of a HELLO from
+/// other addresses get the same cookie, so none of them can put a wrong one in its place.
 struct CookieSubject {
-  ByteView address;
-  std::uint16_t port = 0;
   std::uint16_t from = 0;  ///< site that sends HELLO
   std::uint16_t to = 0;    ///< site that it calls
   std::uint64_t nonce = 0;
@@ -25,7 +22,7 @@ struct CookieSubject {
 /// Makes cookies and recognises its own without storing any.
 ///
 ///   cookie = BLAKE2b-128 keyed by a secret of this maker alone, over
-///            slot i64 | nonce u64 | port u16 | from u16 | to u16 | address size u8 | address
+///            slot i64 | nonce u64 | from u16 | to u16
 ///
 /// The slot is the number of full `slot_length`s, so the function changes with each slot. A cookie
 /// is valid for one to two slots. Pure functions of the given time; real-time safe.
@@ -36,8 +33,7 @@ class CookieMaker {
   /// Throws std::invalid_argument unless `slot_length` [s] is positive and finite.
   explicit CookieMaker(SecretKey secret = SecretKey::generate(), double slot_length = kSlotLength);
 
-  /// Makes the cookie at `now` [s, from any origin]. Of a longer address only the first 16 bytes
-  /// count.
+  /// Makes the cookie at `now` [s, from any origin].
   [[nodiscard]] Cookie make(const CookieSubject& subject, double now) const noexcept;
 
   /// True if the cookie was made for this subject in this slot or the previous one.

@@ -51,7 +51,8 @@ struct PeerStatus {
   std::uint64_t states_too_late = 0;  ///< more than 0.5 s older than the rest: dropped
   std::optional<RefuseCode> refused;  ///< reason sent by the peer, or in its name: not authentic
   std::uint8_t refused_version = 0;   ///< protocol version of the refusing side
-  std::optional<ByeReason> left;      ///< reason of the peer's farewell
+  bool is_called_with_another_key = false;  ///< somebody calls in the peer's name: not authentic
+  std::optional<ByeReason> left;            ///< reason of the peer's farewell
   std::optional<ConfigurationDifference> difference;
 };
 
