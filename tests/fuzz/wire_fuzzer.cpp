@@ -81,6 +81,10 @@ void checkSealedType(const ClearHeader& header, ByteView payload) {
     if (const auto answer = decodeAgreeAck(payload))
       requireSame(payload, [&](ByteSpan out) { return encodeAgreeAck(*answer, out); });
   }
+  if (header.type == MessageType::kPathChallenge || header.type == MessageType::kPathResponse) {
+    if (const auto token = decodePath(payload))
+      requireSame(payload, [&](ByteSpan out) { return encodePath(*token, out); });
+  }
   if (header.type == MessageType::kBye) {
     if (const auto reason = decodeBye(payload))
       requireSame(payload, [&](ByteSpan out) { return encodeBye(*reason, out); });

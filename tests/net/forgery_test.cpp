@@ -77,8 +77,9 @@ class Forger {
   }
 
   void writeNextHeader(Bytes& bytes) {
-    constexpr std::array kSealed = {MessageType::kState, MessageType::kAgree,
-                                    MessageType::kAgreeAck, MessageType::kBye};
+    constexpr std::array kSealed = {MessageType::kState,         MessageType::kAgree,
+                                    MessageType::kAgreeAck,      MessageType::kBye,
+                                    MessageType::kPathChallenge, MessageType::kPathResponse};
     ClearHeader header = *decodeHeader({heard_.back().data(), heard_.back().size()});
     header.type = kSealed[below(kSealed.size())];
     header.sequence += 1 + below(2000);

@@ -136,12 +136,20 @@ class VirtualSites {
 
   /// (Re)starts a site's program without any memory of earlier runs.
   void start(int id, std::uint8_t key = 0x42, const Configuration& configuration = usual()) {
+    startWith(id, true, key, configuration);
+  }
+  /// Starts one that waits for calls, from wherever they come.
+  void startWithoutAddress(int id) { startWith(id, false, 0x42, usual()); }
+  void startWith(int id, bool knows_addresses, std::uint8_t key,
+                 const Configuration& configuration) {
     Site& site = at(id);
     std::vector<net::PeerGroup::Peer> peers;
     for (const Site& other : sites_)
       if (other.id != id)
-        peers.push_back({PeerId{static_cast<std::uint32_t>(other.id)},
-                         VirtualNet::addressOf(other.id), makeKey(key)});
+        peers.push_back(
+            {PeerId{static_cast<std::uint32_t>(other.id)},
+             knows_addresses ? std::optional(VirtualNet::addressOf(other.id)) : std::nullopt,
+             makeKey(key)});
     net::PeerSession::Common common;
     common.configuration = configuration;
     site.mesh = std::make_unique<net::PeerGroup>(PeerId{static_cast<std::uint32_t>(id)},

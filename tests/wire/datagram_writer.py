@@ -46,8 +46,12 @@ def write_agree_ack(f):
             + with_length(f["key"]) + with_length(f["value"]))
 
 
+def write_path(f):
+    return struct.pack("<Q", f["token"])
+
+
 WRITERS = {"STATE": write_state, "AGREE": write_agree, "AGREE_ACK": write_agree_ack,
-           "BYE": lambda f: bytes([f["reason"]])}
+           "BYE": lambda f: bytes([f["reason"]]), "PATH_CHALLENGE": write_path, "PATH_RESPONSE": write_path}
 
 
 def write_datagram(kind, f):

@@ -7,7 +7,7 @@ import struct
 VERSION = 1
 MAX_TIME = 2**50
 TYPES = {1: "HELLO", 2: "COOKIE", 3: "OPEN", 4: "ACCEPT", 5: "REFUSE",
-         16: "STATE", 17: "AGREE", 18: "AGREE_ACK", 19: "BYE"}
+         16: "STATE", 17: "AGREE", 18: "AGREE_ACK", 19: "BYE", 20: "PATH_CHALLENGE", 21: "PATH_RESPONSE"}
 NUMBERS = {name: number for number, name in TYPES.items()}
 CLEAR_SIZES = {"HELLO": 256, "COOKIE": 64, "OPEN": 104, "ACCEPT": 88, "REFUSE": 32}
 
@@ -186,7 +186,13 @@ def read_bye(payload):
     return {"reason": payload[0]}
 
 
-READERS = {"STATE": read_state, "AGREE": read_agree, "AGREE_ACK": read_agree_ack, "BYE": read_bye}
+def read_path(payload):
+    require(len(payload) == 8, "wrong_size")
+    return {"token": int.from_bytes(payload, "little")}
+
+
+READERS = {"STATE": read_state, "AGREE": read_agree, "AGREE_ACK": read_agree_ack, "BYE": read_bye,
+           "PATH_CHALLENGE": read_path, "PATH_RESPONSE": read_path}
 
 
 def read_datagram(datagram):

@@ -236,6 +236,19 @@ TEST(WireGolden, Bye) {
   EXPECT_EQ(*reason, ByeReason::kProgramEnds);
 }
 
+TEST(WireGolden, Paths) {
+  for (const auto& [type, file] : {std::pair{MessageType::kPathChallenge, "path_challenge.bin"},
+                                   std::pair{MessageType::kPathResponse, "path_response.bin"}}) {
+    const ClearHeader header =
+        type == MessageType::kPathChallenge ? makeHeader(type, 7) : makeAnswersHeader(type, 8);
+    const auto encode = [](ByteSpan out) { return encodePath(kNonce, out); };
+    EXPECT_EQ(collectOpened(header, encode), readGolden(file));
+    const auto token = decodePath(payloadOf(viewOf(readGolden(file))));
+    ASSERT_TRUE(token);
+    EXPECT_EQ(*token, kNonce);
+  }
+}
+
 template <std::size_t kCount>
 Bytes toBytes(const std::array<std::uint8_t, kCount>& bytes) {
   return {bytes.begin(), bytes.end()};

@@ -32,6 +32,9 @@ inline WireRefusal findRefusal(ByteView datagram) {
       return decodeAgreeAck(payload).refusal();
     case MessageType::kBye:
       return decodeBye(payload).refusal();
+    case MessageType::kPathChallenge:
+    case MessageType::kPathResponse:
+      return decodePath(payload).refusal();
   }
   return WireRefusal::kType;
 }

@@ -29,7 +29,7 @@ bool isType(std::uint8_t type) noexcept {
     return type >= static_cast<std::uint8_t>(first) && type <= static_cast<std::uint8_t>(last);
   };
   return within(MessageType::kHello, MessageType::kRefuse) ||
-         within(MessageType::kState, MessageType::kBye);
+         within(MessageType::kState, MessageType::kPathResponse);
 }
 
 /// Checks the fields behind the type (section 3).
@@ -105,6 +105,21 @@ Decoded<ByeReason> decodeBye(ByteView payload) noexcept {
   Decoded<ByeReason> reason(WireRefusal::kNone);
   *reason = static_cast<ByeReason>(payload.data[0]);
   return reason;
+}
+
+std::size_t encodePath(PathToken token, ByteSpan out) noexcept {
+  if (out.size < kPathSize) return 0;
+  wire::ByteWriter writer(out);
+  writer.write(token);
+  return kPathSize;
+}
+
+Decoded<PathToken> decodePath(ByteView payload) noexcept {
+  if (payload.size != kPathSize) return WireRefusal::kWrongSize;
+  wire::ByteReader reader(payload);
+  Decoded<PathToken> token(WireRefusal::kNone);
+  *token = reader.read<PathToken>();
+  return token;
 }
 
 }  // namespace tandem

@@ -98,6 +98,8 @@ enum class MessageType : std::uint8_t {
   kAgree = 17,
   kAgreeAck = 18,
   kBye = 19,
+  kPathChallenge = 20,
+  kPathResponse = 21,
 };
 
 /// True for types with a sealed payload, false for those of the handshake.
@@ -133,6 +135,14 @@ inline constexpr std::size_t kByeSize = 1;  ///< payload [bytes]
 /// Writes the payload of BYE and returns its size; 0 if there is no room.
 [[nodiscard]] std::size_t encodeBye(ByeReason reason, ByteSpan out) noexcept;
 [[nodiscard]] Decoded<ByeReason> decodeBye(ByteView payload) noexcept;
+
+/// Payload of PATH_CHALLENGE, which PATH_RESPONSE repeats.
+using PathToken = std::uint64_t;
+inline constexpr std::size_t kPathSize = 8;  ///< payload [bytes]
+
+/// Writes the payload of either and returns its size; 0 if there is no room.
+[[nodiscard]] std::size_t encodePath(PathToken token, ByteSpan out) noexcept;
+[[nodiscard]] Decoded<PathToken> decodePath(ByteView payload) noexcept;
 
 }  // namespace tandem
 #pragma GCC visibility pop

@@ -29,8 +29,7 @@ struct Room {
 PeerSession::PeerSession(const Pair& pair, std::optional<Address> address, SecretKey key,
                          const Common& common)
     : pair_(pair),
-      address_(address),
-      configured_(address),
+      paths_(address),
       key_(std::move(key)),
       caller_(pair, key_),
       answerer_(pair, key_),
@@ -46,6 +45,7 @@ void PeerSession::advance(double now, Outlet& outlet) noexcept {
   }
   callIfNeeded(now, outlet);
   tellConfiguration(now, outlet);
+  checkPaths(now, outlet);
 }
 
 void PeerSession::dropOldKeys(double now) noexcept {
@@ -71,7 +71,7 @@ void PeerSession::forgetKeys() noexcept {
 }
 
 void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
-  if (!pair_.isInitiator() || !address_) return;
+  if (!pair_.isInitiator() || !paths_.inUse()) return;
   // Nothing can come under new keys before a round trip is over.
   const double silence = has_heard_present_ ? kSilence : kSilence + caller_.took();
   const bool is_needed =
@@ -83,7 +83,7 @@ void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
   // The peer was silent for a while, and still has the same keys.
   if (!is_needed) caller_.stop();
   // A peer at a new address may have restarted at its configured one: call both.
-  caller_.advance(now, *address_, configured_, outlet);
+  caller_.advance(now, *paths_.inUse(), paths_.configured(), outlet);
 }
 
 void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
@@ -98,6 +98,29 @@ void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
     }
   } catch (const std::bad_alloc&) {
     // Retry at the next period.
+  }
+}
+
+void PeerSession::checkPaths(double now, Outlet& outlet) noexcept {
+  if (!keys_) return;
+  if (stream_.unheardFor(now) > kSilence + stream_.trip().trip()) paths_.check(now);
+  for (const auto& challenge : paths_.advance(now, stream_.trip().trip())) {
+    if (!challenge) continue;
+    Room room;
+    (void)sendSealedTo(challenge->to, MessageType::kPathChallenge,
+                       encodePath(challenge->token, room.payload()), room.datagram(), outlet);
+  }
+}
+
+/// Answers there as well where the peer was before: a listener's copy of the challenge may have
+/// come first.
+void PeerSession::answerChallenge(PathToken token, const Address& from, Outlet& outlet) noexcept {
+  const std::optional<Address> usual = paths_.inUse();
+  for (const Address& to : {from, usual.value_or(from)}) {
+    Room room;
+    (void)sendSealedTo(to, MessageType::kPathResponse, encodePath(token, room.payload()),
+                       room.datagram(), outlet);
+    if (usual == from) break;
   }
 }
 
@@ -126,8 +149,8 @@ Outcome PeerSession::onAccept(ByteView datagram, const Address& from, double now
   Outcome outcome;
   auto keys = caller_.onAccept(datagram, now, outcome);
   if (!keys) return outcome;
-  address_ = from;
   install(std::move(*keys), now);
+  paths_.note(from, now);
   return {};
 }
 
@@ -139,6 +162,7 @@ Outcome PeerSession::onOpen(const OpenMessage& message, const Address& from, dou
   Outcome outcome;
   auto keys = answerer_.onOpen(message, from, now, outlet, outcome);
   if (keys) coming_ = std::move(keys);
+  if (outcome.refusal == Refusal::kNone) paths_.hear(from);
   return outcome;
 }
 
@@ -154,6 +178,7 @@ void PeerSession::install(SessionKeys keys, double now) noexcept {
   stream_.startKeys();
   agreement_.restart();
   agree_at_ = now;
+  paths_.check(now);
 }
 
 Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
@@ -163,6 +188,7 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
   std::optional<SessionKeys>& keys = is_coming ? coming_ : is_current ? keys_ : previous_;
   if (!keys || !keys->isFor(header)) return Refusal::kUnknownSession;
   const Refusal refusal = keys->open(header, datagram, now);
+  if (refusal == Refusal::kReplayed) paths_.hear(from);
   if (refusal != Refusal::kNone) return refusal;
   if (is_coming) {
     // The initiator has the keys, too.
@@ -178,7 +204,7 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
     stream_.note(*sequence, now);
     if (*sequence >= newest_sequence_) {
       newest_sequence_ = *sequence;
-      address_ = from;
+      paths_.note(from, now);
     }
   } else if (!has_heard_present_) {
     heard_at_ = now;
@@ -186,14 +212,14 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
   const ByteView payload{datagram.data + kHeaderSize,
                          datagram.size - kHeaderSize - secure::kTagSize};
   try {
-    return handle(header.type, sequence, payload, now, outlet);
+    return handle(header.type, sequence, payload, from, now, outlet);
   } catch (const std::bad_alloc&) {
     return Refusal::kTooMany;  // no memory for a configuration: it comes again
   }
 }
 
 Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> sequence,
-                            ByteView payload, double now, Outlet& outlet) {
+                            ByteView payload, const Address& from, double now, Outlet& outlet) {
   if (bye_reason_) return Refusal::kAfterBye;
   // Messages from before a peer's restart are ignored.
   const bool is_past = !sequence && (type != MessageType::kBye || has_heard_present_);
@@ -222,6 +248,18 @@ Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> seque
       forgetKeys();
       return {};
     }
+    case MessageType::kPathChallenge: {
+      const auto token = decodePath(payload);
+      if (!token) return token.refusal();
+      answerChallenge(*token, from, outlet);
+      return {};
+    }
+    case MessageType::kPathResponse: {
+      const auto token = decodePath(payload);
+      if (!token) return token.refusal();
+      paths_.onResponse(*token);
+      return {};
+    }
     default:
       return Refusal::kOutOfTurn;
   }
@@ -237,9 +275,13 @@ void PeerSession::send(const StatePacket& packet, double now, Outlet& outlet) no
 
 bool PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                              Outlet& outlet) noexcept {
-  if (!keys_ || !address_) return false;
-  const std::size_t size = keys_->seal(type, payload_size, datagram);
-  if (size > 0) outlet.send({datagram.data, size}, *address_);
+  return paths_.inUse() && sendSealedTo(*paths_.inUse(), type, payload_size, datagram, outlet);
+}
+
+bool PeerSession::sendSealedTo(const Address& to, MessageType type, std::size_t payload_size,
+                               ByteSpan datagram, Outlet& outlet) noexcept {
+  const std::size_t size = keys_ ? keys_->seal(type, payload_size, datagram) : 0;
+  if (size > 0) outlet.send({datagram.data, size}, to);
   return size > 0;
 }
 
@@ -254,7 +296,8 @@ PeerStatus PeerSession::status(double now) const {
     status.phase = PeerPhase::kLive;
   else
     status.phase = agreement_.difference() ? PeerPhase::kDifferent : PeerPhase::kAgreeing;
-  status.address = address_;
+  status.address = paths_.inUse();
+  status.address_changes = paths_.moves();
   status.silence = keys_ ? now - heard_at_ : 0.0;
   status.round_trip = stream_.trip().trip();
   status.clock_offset = stream_.trip().offset();

@@ -8,6 +8,7 @@
 #include "net/agreement.h"
 #include "net/answerer.h"
 #include "net/caller.h"
+#include "net/paths.h"
 #include "net/state_stream.h"
 
 namespace tandem::net {
@@ -61,9 +62,7 @@ class PeerSession {
 
   [[nodiscard]] PeerStatus status(double now) const;
   /// True for the peer's configured address and the one last heard from.
-  [[nodiscard]] bool knows(const Address& address) const noexcept {
-    return address_ == address || configured_ == address;
-  }
+  [[nodiscard]] bool knows(const Address& address) const noexcept { return paths_.knows(address); }
   [[nodiscard]] const Pair& pair() const noexcept { return pair_; }
   /// The key that the pair shares.
   [[nodiscard]] const SecretKey& key() const noexcept { return key_; }
@@ -72,11 +71,16 @@ class PeerSession {
 
  private:
   [[nodiscard]] Outcome handle(MessageType type, std::optional<std::uint64_t> sequence,
-                               ByteView payload, double now, Outlet& outlet);
+                               ByteView payload, const Address& from, double now, Outlet& outlet);
   void install(SessionKeys keys, double now) noexcept;
   /// Returns false if the key is used up or the peer's address is unknown.
   bool sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
                   Outlet& outlet) noexcept;
+  /// The same to any address.
+  bool sendSealedTo(const Address& to, MessageType type, std::size_t payload_size,
+                    ByteSpan datagram, Outlet& outlet) noexcept;
+  void checkPaths(double now, Outlet& outlet) noexcept;
+  void answerChallenge(PathToken token, const Address& from, Outlet& outlet) noexcept;
   void callIfNeeded(double now, Outlet& outlet) noexcept;
   void tellConfiguration(double now, Outlet& outlet) noexcept;
   void sayBye(double now, Outlet& outlet) noexcept;
@@ -84,8 +88,7 @@ class PeerSession {
   void forgetKeys() noexcept;
 
   Pair pair_;
-  std::optional<Address> address_;           ///< last one heard from
-  const std::optional<Address> configured_;  ///< given at set-up
+  Paths paths_;
   SecretKey key_;
   Caller caller_;
   Answerer answerer_;

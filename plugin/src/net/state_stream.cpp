@@ -21,6 +21,7 @@ std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan p
   // The time stamp identifies the datagram, so it increases whatever the clock does.
   message.send_time_us = std::max(toMicroseconds(now), last_sent_us_ + 1);
   last_sent_us_ = message.send_time_us;
+  if (!unheard_since_) unheard_since_ = now;
   if (has_news_) {
     const double hold = std::max(toSeconds(message.send_time_us) - newest_at_, 0.0);
     message.echo_send_time_us = newest_sent_us_;
@@ -47,6 +48,10 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
     newest_ = *sequence;
     newest_sent_us_ = message->send_time_us;
     newest_at_ = now;
+  }
+  if (message->echo_send_time_us > newest_echo_us_) {
+    newest_echo_us_ = message->echo_send_time_us;
+    unheard_since_.reset();
   }
   if (message->echo_send_time_us != 0)
     trip_.add(toSeconds(message->echo_send_time_us), toSeconds(message->send_time_us),
@@ -87,6 +92,7 @@ void StateStream::startKeys() noexcept {
   is_first_of_keys_ = true;
   has_begun_anew_ = false;
   loss_received_ = 0;
+  unheard_since_.reset();
 }
 
 void StateStream::note(std::uint64_t sequence, double now) noexcept {

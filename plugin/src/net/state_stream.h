@@ -38,6 +38,11 @@ class StateStream {
   /// Starts new keys: datagrams count from 0 again.
   void startKeys() noexcept;
 
+  /// Time since the first STATE that the peer may have missed, 0 if it missed none [s].
+  [[nodiscard]] double unheardFor(double now) const noexcept {
+    return unheard_since_ ? now - *unheard_since_ : 0.0;
+  }
+
   [[nodiscard]] const RoundTrip& trip() const noexcept { return trip_; }
   [[nodiscard]] const Playout& playout() const noexcept { return playout_; }
   /// Fraction of the peer's datagrams lost in the last second, 0 to 1.
@@ -52,6 +57,8 @@ class StateStream {
   WireProfile profile_;
   std::uint32_t config_hash_;
   std::int64_t last_sent_us_ = 0;
+  std::int64_t newest_echo_us_ = 0;      ///< newest STATE that the peer says it has
+  std::optional<double> unheard_since_;  ///< first STATE after that [s]
 
   // Received under the present keys.
   std::optional<std::uint64_t> top_;  ///< highest sequence of all datagrams

@@ -36,14 +36,15 @@ enum class PeerPhase {
 struct PeerStatus {
   PeerId peer{};
   PeerPhase phase = PeerPhase::kCalling;
-  std::optional<Address> address;  ///< source of the last datagram
-  double silence = 0.0;            ///< since the last authentic datagram [s]
-  double round_trip = 0.0;         ///< smoothed [s]
-  double clock_offset = 0.0;       ///< peer's clock - own [s], if both ways take equal time
-  double wait = 0.0;               ///< delay added by playout [s]
-  double jitter = 0.0;             ///< 99 % of the packets stay within it [s]
-  double loss = 0.0;               ///< lost fraction of the peer's packets, 0 to 1
-  std::uint16_t key_epoch = 0;     ///< handshakes so far
+  std::optional<Address> address;     ///< at which the peer is
+  std::uint64_t address_changes = 0;  ///< how often it was found at another one
+  double silence = 0.0;               ///< since the last authentic datagram [s]
+  double round_trip = 0.0;            ///< smoothed [s]
+  double clock_offset = 0.0;          ///< peer's clock - own [s], if both ways take equal time
+  double wait = 0.0;                  ///< delay added by playout [s]
+  double jitter = 0.0;                ///< 99 % of the packets stay within it [s]
+  double loss = 0.0;                  ///< lost fraction of the peer's packets, 0 to 1
+  std::uint16_t key_epoch = 0;        ///< handshakes so far
   std::uint64_t states_sent = 0;
   std::uint64_t states_unsent = 0;    ///< not encodable, such as beyond 1000 m
   std::uint64_t states_given = 0;     ///< passed to the site
