@@ -21,7 +21,7 @@ class AccuracyCommand final : public Command {
   }
 
   ExitStatus run() override {
-    output_.check();
+    output_.open();
     const std::vector<bench::SceneAccuracy> scenes = measure();
     output_.write("accuracy", bench::makeAccuracyJson(scenes, quick_).dump(2) + "\n",
                   bench::makeAccuracyTable(scenes));

@@ -1,25 +1,22 @@
 #include "bench/program/result_output.h"
 
-#include <filesystem>
-
-#include "demos/program/files/output_folder.h"
 #include "demos/program/plot/drawing.h"
 #include "demos/program/terminal/standard_output.h"
 
 namespace tandem::demos::bench {
 
-void ResultOutput::check() const {
+void ResultOutput::open() {
   if (!folder) return;
-  prepareFolder(*folder);
+  files_.emplace(*folder, "--out " + *folder);
   requireDrawing();
 }
 
 void ResultOutput::write(const std::string& name, const std::string& json_text,
                          const std::string& table) const {
-  if (folder) {
-    const std::filesystem::path file = std::filesystem::path(*folder) / (name + ".json");
-    writeText(file, json_text);
-    drawBench(file);
+  if (files_) {
+    writeText(*files_ / (name + ".json"), json_text);
+    drawBench(*files_ / (name + ".json"));
+    files_->publish(name + ".json");
   }
   writeOutput(json ? json_text : table);
 }

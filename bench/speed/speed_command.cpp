@@ -18,7 +18,7 @@ class SpeedCommand final : public Command {
   }
 
   ExitStatus run() override {
-    output_.check();
+    output_.open();
     const bench::SpeedReport report = measure();
     output_.write("speed", bench::makeSpeedJson(report, quick_).dump(2) + "\n",
                   bench::makeSpeedTable(report));

@@ -70,9 +70,9 @@ class StressCommand final : public Command {
   }
 
  private:
-  bool runAll() const {
+  bool runAll() {
     const StressOptions options = makeOptions();
-    output_.check();
+    output_.open();
     const StressResult result = measure(options);
     output_.write("stress", makeStressJson(result).dump(2) + "\n", makeStressTable(result));
     return result.countFailed() == 0;

@@ -8,19 +8,55 @@
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
+namespace {
 
-void prepareFolder(const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+const fs::path& makeFolder(const fs::path& folder, const std::string& name) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const std::filesystem::path trial = folder / ".tandem-trial";
-  const bool works = !error && std::ofstream(trial).put('x').good();
-  std::filesystem::remove(trial, error);
-  if (!works)
-    throw UsageError("--out " + folder.string() +
-                     ": cannot make files in this folder; choose one that is writable");
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    throw UsageError(name + ": cannot make files in this folder; choose one that is writable");
+  return folder;
 }
 
-void writeText(const std::filesystem::path& file, const std::string& text) {
+/// Each part has a place of its own for unfinished files.
+std::string nameAside(FolderPart part) {
+  const std::string name = ".tandem-unfinished";
+  return part == FolderPart::kAll ? name : name + (part == FolderPart::kSite1 ? "-1" : "-2");
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& folder, const std::string& name, FolderPart part)
+    : folder_(makeFolder(folder, name)),
+      aside_(folder / nameAside(part)),
+      lock_(folder, part, name) {
+  std::error_code error;
+  fs::remove_all(aside_, error);  // a killed program may have left it
+  if (!fs::create_directory(aside_, error))
+    throw UsageError(name + ": cannot make files in this folder; choose one that is writable");
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  fs::remove_all(aside_, ignored);
+}
+
+void OutputFolder::publish(const std::string& mark,
+                           const std::vector<std::string>& other_marks) const {
+  std::vector<fs::path> names;
+  for (const fs::directory_entry& file : fs::directory_iterator(aside_))
+    if (file.path().filename() != mark) names.push_back(file.path().filename());
+
+  fs::remove(folder_ / mark);
+  for (const std::string& other : other_marks) fs::remove(folder_ / other);
+  for (const fs::path& name : names) fs::remove(folder_ / name);
+  for (const fs::path& name : names) fs::rename(aside_ / name, folder_ / name);
+  fs::rename(aside_ / mark, folder_ / mark);
+}
+
+void writeText(const fs::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   stream.close();

@@ -13,7 +13,6 @@
 #include "device/get_ready.h"
 #include "device/open_device.h"
 #include "device/user_axes.h"
-#include "files/output_folder.h"
 #include "peer/peer_configuration.h"
 #include "peer/peer_output.h"
 #include "peer/peer_run.h"
@@ -116,7 +115,10 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Sc
 void runPeer(const PeerOptions& options) {
   checkOptions(options);
   const Scenario scenario = loadScenario(options.scenario, options.overrides);
-  if (options.folder) prepareFolder(*options.folder);
+  std::optional<OutputFolder> folder;
+  if (options.folder)
+    folder.emplace(*options.folder, "--out " + *options.folder,
+                   options.site == 1 ? FolderPart::kSite1 : FolderPart::kSite2);
   UdpPeer peer{PeerId{static_cast<std::uint32_t>(3 - options.site)}, resolveAddress(options.peer),
                readKeyFile(options.key)};
   if (!peer.key.isLocked())
@@ -136,7 +138,7 @@ void runPeer(const PeerOptions& options) {
   run.run(stop, report,
           [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); });
   const nlohmann::json summary = makePeerSummary(scenario, options.site, run);
-  if (options.folder) writePeerRun(*options.folder, options.site, summary, run);
+  if (folder) writePeerRun(*folder, options.site, summary, run);
   if (!options.quiet) printPeerSummary(summary, options.site);
   finishOutput();
 }

@@ -1,7 +1,5 @@
 #include "peer/peer_output.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -58,24 +56,12 @@ nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run)
   return j;
 }
 
-void writePeerRun(const std::filesystem::path& folder, int site, const nlohmann::json& summary,
+void writePeerRun(const OutputFolder& folder, int site, const nlohmann::json& summary,
                   const PeerRun& run) {
   const std::string name = fmt::format("site{}", site);
-  const std::filesystem::path csv = folder / (name + ".csv"), json = folder / (name + ".json");
-  const std::filesystem::path new_csv = csv.string() + ".unfinished",
-                              new_json = json.string() + ".unfinished";
-  run.recording().writeCsv(new_csv, makeSceneFrame(run.scenario()).q_WS);
-  std::ofstream file(new_json, std::ios::binary);
-  file << summary.dump(2) << "\n";
-  file.close();
-  if (!file) {
-    std::error_code ignored;
-    std::filesystem::remove(new_csv, ignored);
-    std::filesystem::remove(new_json, ignored);
-    throw Error("cannot write " + json.string() + ": is the folder there, writable and not full?");
-  }
-  std::filesystem::rename(new_csv, csv);
-  std::filesystem::rename(new_json, json);
+  run.recording().writeCsv(folder / (name + ".csv"), makeSceneFrame(run.scenario()).q_WS);
+  writeText(folder / (name + ".json"), summary.dump(2) + "\n");
+  folder.publish(name + ".json", {"summary.json"});
 }
 
 void printPeerSummary(const nlohmann::json& summary, int site) {

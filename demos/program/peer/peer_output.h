@@ -1,9 +1,8 @@
 #pragma once
 
-#include <filesystem>
-
 #include <nlohmann/json_fwd.hpp>
 
+#include "files/output_folder.h"
 #include "peer/peer_run.h"
 
 namespace tandem::demos {
@@ -12,8 +11,8 @@ namespace tandem::demos {
 /// its loop.
 [[nodiscard]] nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run);
 
-/// Writes siteN.csv and siteN.json: both or, on an error, none.
-void writePeerRun(const std::filesystem::path& folder, int site, const nlohmann::json& summary,
+/// Publishes siteN.csv and siteN.json: both or, on an error, none.
+void writePeerRun(const OutputFolder& folder, int site, const nlohmann::json& summary,
                   const PeerRun& run);
 
 void printPeerSummary(const nlohmann::json& summary, int site);

@@ -42,24 +42,51 @@ def draw(figures, folder):
         sys.stderr.write("\r\033[K")
 
 
+def marks(folders):
+    """Identity and age of all summaries; another result in a folder changes them."""
+    return [(stat.st_ino, stat.st_mtime_ns) for folder in folders
+            for name in ("summary.json", "site1.json", "site2.json")
+            if (stat := _stat(os.path.join(folder, name)))]
+
+
+def _stat(path):
+    try:
+        return os.stat(path)
+    except OSError:
+        return None
+
+
+def publish(draft, home):
+    """Moves report and figures home. The report leaves first and comes last: it marks a whole set."""
+    report, figures = os.path.join(home, "report.html"), os.path.join(home, "figures")
+    if os.path.exists(report):
+        os.remove(report)
+    os.makedirs(figures, exist_ok=True)
+    for name in os.listdir(figures):  # the folder belongs to this command
+        if name.endswith((".svg", ".png")):
+            os.remove(os.path.join(figures, name))
+    for name in os.listdir(draft):
+        if name != "report.html":
+            os.replace(os.path.join(draft, name), os.path.join(figures, name))
+    os.replace(os.path.join(draft, "report.html"), report)
+
+
 def plot_runs(folders):
     """Draws all aside first, so that a failure leaves what was there."""
+    before = marks(folders)
     runs = load_runs(folders)
     from report import Report
     report, home = Report(runs), folders[0]
-    draft, figures = os.path.join(home, f".plot-draft-{os.getpid()}"), os.path.join(home, "figures")
+    draft = os.path.join(home, ".plot-draft")
+    shutil.rmtree(draft, ignore_errors=True)  # a killed program may have left it
     try:
         os.makedirs(draft)
         draw(report.figures, draft)
         with open(os.path.join(draft, "report.html"), "w", encoding="utf-8") as file:
             file.write(report.html(draft))
-        os.makedirs(figures, exist_ok=True)
-        for name in os.listdir(figures):  # the folder belongs to this command
-            if name.endswith((".svg", ".png")):
-                os.remove(os.path.join(figures, name))
-        for name in os.listdir(draft):
-            to = home if name == "report.html" else figures
-            os.replace(os.path.join(draft, name), os.path.join(to, name))
+        if marks(folders) != before:
+            raise UsageError(f"{', '.join(folders)}: a run ended here while it was read; plot again")
+        publish(draft, home)
     finally:
         shutil.rmtree(draft, ignore_errors=True)
     print(os.path.join(home, "report.html"))

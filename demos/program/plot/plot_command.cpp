@@ -1,4 +1,7 @@
+#include <optional>
+
 #include "command/command.h"
+#include "files/folder_lock.h"
 #include "plot/drawing.h"
 
 namespace tandem::demos {
@@ -11,7 +14,13 @@ class PlotCommand final : public Command {
     arguments.several("folders", folders_, "folders of runs; the report goes into the first");
   }
 
-  ExitStatus run() override { return static_cast<ExitStatus>(plotRuns(folders_)); }
+  ExitStatus run() override {
+    // A folder that is not there gets the message of one without a run.
+    std::optional<FolderLock> lock;
+    if (const std::string& home = folders_.front(); std::filesystem::is_directory(home))
+      lock.emplace(home, FolderPart::kAll, home);
+    return static_cast<ExitStatus>(plotRuns(folders_));
+  }
 
  private:
   std::vector<std::string> folders_;

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "command/command.h"
-#include "files/output_folder.h"
 #include "run/run_output.h"
 #include "scenario/scenario.h"
 #include "terminal/standard_output.h"
@@ -42,14 +41,15 @@ class RunCommand final : public Command {
 
   ExitStatus run() override {
     const Scenario scenario = loadScenario(scenario_, overrides_);
-    if (folder_) prepareFolder(*folder_);
+    std::optional<OutputFolder> folder;
+    if (folder_) folder.emplace(*folder_, "--out " + *folder_);
     VirtualRun run(scenario);
     {
       ProgressLine line(quiet_);
       run.run([&](double share) { line.show(fmt::format("of {} s", scenario.duration), share); });
     }
     const nlohmann::json summary = makeSummary(scenario, run);
-    if (folder_) writeRun(*folder_, summary, run);
+    if (folder) writeRun(*folder, summary, run);
     print(summary);
     return kDone;
   }

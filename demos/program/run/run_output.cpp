@@ -1,39 +1,10 @@
 #include "run/run_output.h"
 
-#include <filesystem>
-#include <system_error>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "files/output_folder.h"
-
 namespace tandem::demos {
 namespace {
-
-/// A folder for files being written; removed at the end with all files still in it.
-class UnfinishedFolder {
- public:
-  explicit UnfinishedFolder(const std::filesystem::path& target)
-      : target_(target), path_(target / ".tandem-unfinished") {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directory(path_);
-  }
-  ~UnfinishedFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  UnfinishedFolder(const UnfinishedFolder&) = delete;
-  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  void finish(const std::string& name) const {
-    std::filesystem::rename(path_ / name, target_ / name);
-  }
-
- private:
-  std::filesystem::path target_, path_;
-};
 
 nlohmann::json describeBody(const PlacedSceneBody& placed) {
   const SceneBody& body = placed.body;
@@ -84,17 +55,12 @@ nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run) {
   return j;
 }
 
-void writeRun(const std::filesystem::path& folder, const nlohmann::json& summary,
-              const VirtualRun& run) {
-  const UnfinishedFolder unfinished(folder);
+void writeRun(const OutputFolder& folder, const nlohmann::json& summary, const VirtualRun& run) {
   for (int s = 0; s < 2; ++s)
-    run.recording(s).writeCsv(unfinished / fmt::format("site{}.csv", s + 1), run.frame().q_WS);
-  writeText(unfinished / "scene.csv", makeSceneCsv(run));
-  writeText(unfinished / "summary.json", summary.dump(2) + "\n");
-  // An older run's summary must not belong to the files of this run.
-  std::filesystem::remove(folder / "summary.json");
-  for (const char* name : {"site1.csv", "site2.csv", "scene.csv", "summary.json"})
-    unfinished.finish(name);
+    run.recording(s).writeCsv(folder / fmt::format("site{}.csv", s + 1), run.frame().q_WS);
+  writeText(folder / "scene.csv", makeSceneCsv(run));
+  writeText(folder / "summary.json", summary.dump(2) + "\n");
+  folder.publish("summary.json", {"site1.json", "site2.json"});
 }
 
 }  // namespace tandem::demos

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <filesystem>
-
 #include <nlohmann/json_fwd.hpp>
 
+#include "files/output_folder.h"
 #include "run/virtual_run.h"
 
 namespace tandem::demos {
@@ -11,10 +10,8 @@ namespace tandem::demos {
 /// summary.json of a finished run.
 [[nodiscard]] nlohmann::json makeSummary(const Scenario& scenario, const VirtualRun& run);
 
-/// Writes site1.csv, site2.csv, scene.csv and summary.json: all of them or, on an error, none.
-/// summary.json comes last, so it marks a complete run. Throws tandem::Error or
-/// std::filesystem::filesystem_error that names the file.
-void writeRun(const std::filesystem::path& folder, const nlohmann::json& summary,
-              const VirtualRun& run);
+/// Publishes site1.csv, site2.csv, scene.csv and summary.json: all of them or, on an error, none.
+/// Throws tandem::Error or std::filesystem::filesystem_error that names the file.
+void writeRun(const OutputFolder& folder, const nlohmann::json& summary, const VirtualRun& run);
 
 }  // namespace tandem::demos
