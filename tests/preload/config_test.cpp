@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tandem/plugin/key_file.h"
 
@@ -139,6 +140,22 @@ TEST_F(PreloadConfigFile, ThatIsNotThereIsNamed) {
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("none.toml: cannot read"), std::string::npos);
+  }
+}
+
+TEST_F(PreloadConfigFile, NestsAtMost64Deep) {
+  std::string key = "object";
+  for (int i = 0; i < 40'000; ++i) key += ".a";
+  expectRefused("# 1\n" + key + " = 1\n", {":2:", "64 deep"});
+}
+
+TEST_F(PreloadConfigFile, IsNoDeviceNoPipeAndNotTooLarge) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::string large = folder_.write("large", std::string((1 << 20) + 1, '#'));
+  for (const std::string& file : {pipe, std::string("/dev/zero"), large}) {
+    EXPECT_TRUE(preload::isWanted(file.c_str())) << file;  // the adaptor gives the reason
+    EXPECT_THROW((void)readPreloadConfig(file), Error) << file;
   }
 }
 

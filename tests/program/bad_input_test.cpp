@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "program/process.h"
@@ -153,6 +154,35 @@ TEST(BadInput, FileThatCannotBeRead) {
     expectOneLine(runTandem({"run", path, "--out", folder / "out"}), 2, {path, "cannot read"});
     EXPECT_EQ(listFolder(folder / "out"), Words{});
   }
+}
+
+TEST(BadInput, ScenarioThatIsADeviceAPipeOrTooLarge) {
+  const TempFolder folder;
+  const std::string pipe = folder / "pipe",
+                    large = folder.write("large", std::string(1 << 20, '#'));
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(runTandem({"run", large, "--quiet"}).status, 0);  // 1 MiB of comment
+  folder.write("large", std::string((1 << 20) + 1, '#'));
+  for (const std::string& path : {pipe, std::string("/dev/zero"), std::string("/dev/null")})
+    expectOneLine(runTandem({"run", path, "--out", folder / "out"}), 2, {path, "device or a pipe"});
+  expectOneLine(runTandem({"run", large, "--out", folder / "out"}), 2, {large, "1 MiB"});
+  expectOneLine(runTandem({"link", "--listen", ":0", "--forward", "127.0.0.1:9", "--script", pipe}),
+                2, {pipe, "device or a pipe"});
+  EXPECT_EQ(listFolder(folder / "out"), Words{});
+}
+
+TEST(BadInput, TomlThatNestsTooDeep) {
+  std::string key = "a";
+  for (int i = 0; i < 40'000; ++i) key += ".a";
+  expectFileRefused("# 1\n" + key + " = 1\n", {":2:", "64 deep"});
+  expectFileRefused("[" + key + "]\n", {":1:", "64 deep"});
+  expectFileRefused("title = " + std::string(65, '[') + std::string(65, ']'), {":1:", "64 deep"});
+  expectOverrideRefused("title={" + key.substr(0, 99'999) + "=1}", {"--set title", "64 deep"});
+  const TempFolder folder;
+  const std::string script = folder.write("script", key + " = 1\n");
+  expectOneLine(
+      runTandem({"link", "--listen", ":0", "--forward", "127.0.0.1:9", "--script", script}), 2,
+      {script + ":1:", "64 deep"});
 }
 
 TEST(BadInput, HandFileThatCannotBeRead) {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "tandem/plugin/toml_text.h"
+
 #include "scenario/keys.h"
 #include "scenario/toml_input.h"
 #include "terminal/usage_error.h"
@@ -63,25 +65,30 @@ void applyTable(Scenario& scenario, const std::string& file, const std::string& 
   }
 }
 
+/// Table with the value of an override. One that is not valid TOML is a text without its quotes.
+toml::table parseValue(const std::string& key, const std::string& value) {
+  const std::string plain = "value = " + value;
+  try {
+    requireShallowToml(plain, "--set " + key);
+    if (toml::table parsed = toml::parse(plain); parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  try {
+    if (toml::table parsed = toml::parse("value = '''" + value + "'''"); parsed.size() == 1)
+      return parsed;
+  } catch (const toml::parse_error&) {
+  }
+  throw UsageError("--set " + key + ": the value is neither TOML nor plain UTF-8 text");
+}
+
 void applyOverride(Scenario& scenario, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--set " + text + ": must be key=value, for instance contact.stiffness=2000");
   const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
-  // A value that is not valid TOML is a text without its quotes.
-  toml::table parsed;
-  try {
-    parsed = toml::parse("value = " + value);
-  } catch (const toml::parse_error&) {
-    parsed.clear();
-  }
-  if (parsed.size() != 1) {
-    try {
-      parsed = toml::parse("value = '''" + value + "'''");
-    } catch (const toml::parse_error&) {
-      throw UsageError("--set " + key + ": the value is neither TOML nor plain UTF-8 text");
-    }
-  }
+  toml::table parsed = parseValue(key, value);
   applyKey(scenario, {"--set", key}, *parsed.get("value"));
 }
 

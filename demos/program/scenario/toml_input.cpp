@@ -1,9 +1,11 @@
 #include "scenario/toml_input.h"
 
-#include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "tandem/plugin/toml_text.h"
 
 #include "terminal/usage_error.h"
 
@@ -25,7 +27,10 @@ void refuse(const Place& place, const toml::node& node, const std::string& allow
 
 toml::table parseToml(const std::string& text, const std::string& name) {
   try {
+    requireShallowToml(text, name);
     return toml::parse(text, name);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   } catch (const toml::parse_error& error) {
     throw UsageError(
         fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
@@ -33,12 +38,11 @@ toml::table parseToml(const std::string& text, const std::string& name) {
 }
 
 std::string readText(const std::filesystem::path& file, const std::string& kind) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw UsageError(file.string() + ": cannot read this " + kind + "; is the path right?");
-  return text.str();
+  try {
+    return readTomlText(file, kind);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
 }
 
 }  // namespace tandem::demos

@@ -20,10 +20,11 @@ struct Place {
 /// Throws UsageError "<file>: <key> = <value>: must be <allowed>".
 [[noreturn]] void refuse(const Place& place, const toml::node& node, const std::string& allowed);
 
-/// Parses a TOML text. Throws UsageError with `name` and the line if it is invalid.
+/// Parses a TOML text. Throws UsageError with `name` and the line if it is invalid or nests too
+/// deep.
 [[nodiscard]] toml::table parseToml(const std::string& text, const std::string& name);
 
-/// Reads a whole file; `kind` names its expected content. Throws UsageError if it cannot be read.
+/// Reads a TOML file as readTomlText does; `kind` names its expected content. Throws UsageError.
 [[nodiscard]] std::string readText(const std::filesystem::path& file, const std::string& kind);
 
 }  // namespace tandem::demos

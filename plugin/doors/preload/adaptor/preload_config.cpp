@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <sstream>
@@ -11,6 +10,8 @@
 
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
+
+#include "tandem/plugin/toml_text.h"
 
 namespace tandem::preload {
 namespace {
@@ -195,13 +196,10 @@ class Reader {
 
  private:
   toml::table parse() const {
-    std::ifstream stream(file_, std::ios::binary);
-    std::ostringstream text;
-    if (stream) text << stream.rdbuf();
-    if (!stream || std::filesystem::is_directory(file_))
-      throw Error(file_ + ": cannot read this config; is the path in TANDEM_PRELOAD right?");
     try {
-      return toml::parse(text.str(), file_);
+      return toml::parse(readTomlText(file_, "config"), file_);
+    } catch (const std::invalid_argument& error) {
+      throw Error(error.what());
     } catch (const toml::parse_error& error) {
       throw Error(file_ + ":" + std::to_string(error.source().begin.line) +
                   ": not TOML: " + std::string(error.description()));

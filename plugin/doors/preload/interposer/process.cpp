@@ -55,7 +55,8 @@ bool findProcessKey(const char* text, char* name, unsigned long size) noexcept {
 
 bool isWanted(const char* config) noexcept {
   const int error = errno;
-  const int file = open(config, O_RDONLY | O_CLOEXEC);
+  // Without O_NONBLOCK a pipe would hold the host until it has a writer; the adaptor refuses pipes.
+  const int file = open(config, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   auto* text = static_cast<char*>(std::malloc(kMostOfFile + 1));
   bool is_wanted = true;
   const ssize_t size = file >= 0 && text ? read(file, text, kMostOfFile) : -1;
