@@ -40,6 +40,7 @@ void requireSound(const std::vector<ForceRow>& rows) {
   require(!rows.empty());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     require(std::isfinite(rows[i].t) && rows[i].f_W.allFinite());
+    require(rows[i].f_W.cwiseAbs().maxCoeff() <= 1e6);
     require(i == 0 || rows[i].t > rows[i - 1].t);
   }
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tandem/falcon/simulated_device.h"
@@ -75,7 +76,7 @@ TEST_F(RecordedHandTest, TakesOneRowCrlfAndAMissingLastLineEnd) {
 }
 
 TEST_F(RecordedHandTest, StaysFiniteBetweenTheLargestForces) {
-  const auto hand = load(kHeader + "0,1.7e308,0,0\n1,-1.7e308,0,0\n");
+  const auto hand = load(kHeader + "0,1e6,0,0\n1,-1e6,0,0\n");
   for (int i = 0; i <= 10; ++i) EXPECT_TRUE(hand->computeForce(0.1 * i, {}).allFinite()) << i;
 }
 
@@ -116,6 +117,8 @@ TEST_F(RecordedHandTest, RefusesBadRowsWithLineColumnAndText) {
       {"1,inf,3,4", "force_x is 'inf', not finite"},
       {"1,2,-inf,4", "force_y is '-inf', not finite"},
       {"1,2,3,1e999", "force_z is '1e999', out of range"},
+      {"1,1e300,3,4", "force_x is '1e300', above 1e6 N"},
+      {"1,2,-1000000.5,4", "force_y is '-1000000.5', above 1e6 N"},
       {"1,2,3", "row has 3 columns"},
       {"1", "row has 1 columns"},
       {"1,2,3,4,5", "row has 5 columns"},
@@ -126,6 +129,20 @@ TEST_F(RecordedHandTest, RefusesBadRowsWithLineColumnAndText) {
     const std::string text = refusal(kHeader + "0,1,1,1\n" + bad.row + "\n2,1,1,1\n");
     EXPECT_EQ(text.rfind(":3: " + bad.complaint + "; ", 0), 0U) << bad.complaint << " in: " << text;
   }
+}
+
+TEST_F(RecordedHandTest, RefusesADeviceAndAPipeWithoutReadingThem) {
+  const std::string pipe = path_ + ".pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero")}) {
+    try {
+      (void)makeRecordedHand(path);
+      ADD_FAILURE() << "accepted " << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.what(), path + ": is a device or a pipe; give the path of a CSV file");
+    }
+  }
+  std::remove(pipe.c_str());
 }
 
 TEST_F(RecordedHandTest, RefusesAFileThatCannotBeRead) {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -14,6 +15,7 @@ namespace tandem::falcon_detail {
 namespace {
 
 constexpr std::string_view kHeader = "t,force_x,force_y,force_z";
+constexpr double kMostForce = 1e6;  // [N]; of a scenario's hand_force, too
 constexpr std::array<std::string_view, 4> kColumns = {"t", "force_x", "force_y", "force_z"};
 
 /// Makes text of the file fit for a one-line message: short, without control characters.
@@ -27,7 +29,14 @@ std::string quote(std::string_view text) {
 /// Reads the file line by line, and adds the line number to its errors.
 class LineReader {
  public:
-  explicit LineReader(const std::string& path) : path_(path), stream_(path) {
+  explicit LineReader(const std::string& path) : path_(path) {
+    // A pipe would wait for its writer, and a device may never end.
+    std::error_code ignored;
+    const auto type = std::filesystem::status(path, ignored).type();
+    if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::socket ||
+        type == std::filesystem::file_type::character || type == std::filesystem::file_type::block)
+      throw Error(path_ + ": is a device or a pipe; give the path of a CSV file");
+    stream_.open(path);
     if (!stream_) refuseFile();
   }
 
@@ -73,6 +82,8 @@ double parseNumber(const LineReader& reader, std::string_view column, std::strin
   if (!std::isfinite(value)) {
     reader.refuseLine(what + ", not finite", "write a finite number or remove the row");
   }
+  if (column != kColumns[0] && std::abs(value) > kMostForce)
+    reader.refuseLine(what + ", above 1e6 N", "write a force of at most 1e6 N");
   return value;
 }
 

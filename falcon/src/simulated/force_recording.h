@@ -14,7 +14,8 @@ struct ForceRow {
 };
 
 /// Reads a recorded force with the header `t,force_x,force_y,force_z`. It needs one or more rows,
-/// finite values and growing times. Throws tandem::Error "FILE:LINE: fault; remedy" in one line.
+/// finite values, growing times and forces of at most 1e6 N. Throws tandem::Error
+/// "FILE:LINE: fault; remedy" in one line.
 [[nodiscard]] std::vector<ForceRow> readForceRecording(const std::string& csv_path);
 
 }  // namespace tandem::falcon_detail

@@ -49,7 +49,8 @@ struct Waypoint {
 /// Plays back a recorded force: linear between rows, constant before the first and after the last.
 /// The file's first line is the header `t,force_x,force_y,force_z`; lines end in LF or CRLF. This
 /// function reads the whole file; the hand does no I/O. Throws tandem::Error with file, line and
-/// cause: missing file or column, bad number, times that do not grow, non-finite value.
+/// cause: missing file or column, a device or a pipe, bad number, times that do not grow,
+/// non-finite value, a component above 1e6 N.
 [[nodiscard]] std::unique_ptr<Hand> makeRecordedHand(const std::string& csv_path);
 
 /// A damped mass in a simulated hand, sampled at the haptic rate.
