@@ -42,7 +42,7 @@ class MotionTest(unittest.TestCase):
                 (self.ROWS, [BOX], 'line 3, column "body": 1 is not a body of summary.json'),
                 (self.ROWS, [BOX] * 3, 'column "body": body 2 of summary.json never appears'),
                 ("0,1,nan,1,2,3,1,0,0,0\n", [BOX],
-                 'line 2, column "body": nan is not a body of summary.json'),
+                 'line 2, column "body": "nan" is not a finite number'),
                 ("0,1,0,1,2,3,3,0,0,0\n", [BOX],
                  'line 2, columns "x" to "qz": not a finite position and unit quaternion')]:
             with self.subTest(message):

@@ -1,5 +1,7 @@
 """CSV tables of numbers, and text files, with messages that name file, line and column."""
 
+from math import isfinite
+
 import numpy as np
 
 
@@ -10,8 +12,8 @@ class UsageError(Exception):
 class Table:
     """A CSV file of numbers, read by header name. A line that does not fit raises UsageError.
 
-    The first line names the columns, in any order. Every further line has one number per column;
-    `nan` and `inf` are numbers.
+    The first line names the columns, in any order. Every further line has one finite number per
+    column.
     """
 
     def __init__(self, text, source):
@@ -39,14 +41,16 @@ class Table:
             raise UsageError(f"{self.source}: line {number}: {len(cells)} values, but the header "
                              f"names {len(self.names)} columns")
         try:
-            if "_" not in line:  # Python allows 1_000
-                return list(map(float, cells))
+            values = list(map(float, cells))
+            if "_" not in line and isfinite(sum(values)):  # Python allows 1_000
+                return values
         except ValueError:
             pass
         for name, cell in zip(self.names, cells):
-            if not _is_number(cell):
+            if fault := _fault_of(cell):
                 raise UsageError(f'{self.source}: line {number}, column "{name}": '
-                                 f'"{cell.strip()}" is not a number')
+                                 f'"{cell.strip()}" is {fault}')
+        return values
 
     def __len__(self):
         return self.values.shape[1]
@@ -69,12 +73,15 @@ class Table:
         return np.linalg.norm(self.vectors(prefix), axis=1)
 
 
-def _is_number(cell):
+def _fault_of(cell):
+    """What keeps a cell from being a number; empty if it is one."""
     try:
-        float(cell)
+        value = float(cell)
     except ValueError:
-        return False
-    return "_" not in cell
+        return "not a number"
+    if "_" in cell:
+        return "not a number"
+    return "" if isfinite(value) else "not a finite number"
 
 
 def read_text(path):
