@@ -73,7 +73,7 @@ class FalconOverTty : public ::testing::Test {
     visit([](FalconEmulator& emulator) {
       EXPECT_LT(emulator.felt().most_force, 8.0 * 1.01);
       EXPECT_LT(emulator.felt().most_change, 2.0 * 1.02);
-      EXPECT_EQ(emulator.refused(), 0U);
+      EXPECT_EQ(emulator.strange(), 0U);
     });
   }
   void expectWork() {

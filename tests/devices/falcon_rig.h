@@ -26,6 +26,12 @@ inline FalconEmulatorSettings readyDevice() {
   return settings;
 }
 
+/// The device with the worst effect of commands beyond the motors' range.
+inline FalconEmulatorSettings makeHarsh(FalconEmulatorSettings settings) {
+  settings.overrange = FalconOverrange::kIgnore;
+  return settings;
+}
+
 /// Driver and emulator connected directly, in virtual time.
 class FalconRig {
  public:
@@ -33,7 +39,7 @@ class FalconRig {
 
   explicit FalconRig(const FalconEmulatorSettings& device, const FalconSettings& settings = {},
                      std::unique_ptr<Hand> hand = nullptr)
-      : emulator(device, std::move(hand)), driver(settings, makeSyntheticFirmware(7)) {}
+      : emulator(makeHarsh(device), std::move(hand)), driver(settings, makeSyntheticFirmware(7)) {}
 
   /// Runs for `duration`; calls `each` before the driver in every step.
   void run(double duration, const std::function<void(double)>& each = nullptr) {

@@ -35,6 +35,7 @@ void readFrames(const std::uint8_t* bytes, std::size_t count) {
     require(reply && isSameBut14(encodeReply(*reply), *frame));
     const auto command = decodeCommand(*frame);
     if (command) require(isSameBut14(encodeCommand(*command), *frame));
+    require(readCommand(*frame).motors == reply->counts);
   }
 }
 
@@ -99,6 +100,7 @@ void drive(const std::uint8_t* bytes, std::size_t count) {
 void emulate(const std::uint8_t* bytes, std::size_t count) {
   FalconEmulatorSettings settings;
   settings.runs = count % 2 == 0;
+  settings.overrange = count % 4 < 2 ? FalconOverrange::kClamp : FalconOverrange::kIgnore;
   FalconEmulator emulator(settings);
   emulator.setLine({settings.runs ? 1500000 : 9600, 1, true, false});
   inPieces(bytes, count, [&](const std::uint8_t* piece, std::size_t size, double now) {
@@ -108,6 +110,8 @@ void emulate(const std::uint8_t* bytes, std::size_t count) {
     std::uint8_t out[128];
     (void)emulator.collect(out, sizeof out, now);
     require(emulator.plant().position().allFinite());
+    for (const std::int16_t motor : emulator.command().motors)
+      require(std::abs(motor) <= kMostMotor);
   });
 }
 

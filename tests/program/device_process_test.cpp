@@ -68,7 +68,7 @@ TEST_P(DeviceOfAnotherProcess, FeelsTheCubeAndIsLeftWithoutForce) {
   port.visit([](FalconEmulator& emulator, double) {
     EXPECT_EQ(emulator.command().motors, FalconMotors{});
     EXPECT_EQ(emulator.command().lights, 0);
-    EXPECT_EQ(emulator.refused(), 0U);
+    EXPECT_EQ(emulator.strange(), 0U);
   });
 }
 INSTANTIATE_TEST_SUITE_P(Signals, DeviceOfAnotherProcess,

@@ -17,8 +17,18 @@ constexpr double kFelt = 0.01;          // smallest force that counts as felt [N
 constexpr double kUsbFrame = 0.001;     // [s]
 constexpr double kBaudSlack = 0.025;    // largest relative error of a usable speed
 
+/// Speed that the FTDI chip makes when a host asks for `baud`: 3 MHz by a number of eighths from 2
+/// on, or by 1.5 or 1; the nearest of these.
+int computeChipSpeed(int baud) noexcept {
+  constexpr double kEighths = 8.0 * 3e6;
+  if (baud <= 0) return 0;
+  const double divisor = std::round(kEighths / baud);
+  if (divisor < 14.0) return divisor < 10.0 ? 3'000'000 : 2'000'000;
+  return static_cast<int>(kEighths / std::max(divisor, 16.0));
+}
+
 bool isNear(int baud, int wanted) noexcept {
-  return std::abs(baud - wanted) <= kBaudSlack * wanted;
+  return std::abs(computeChipSpeed(baud) - wanted) <= kBaudSlack * wanted;
 }
 
 /// Uses up one of `count` pending mishaps. Returns false if none is pending.
@@ -87,12 +97,7 @@ void FalconEmulator::takeByte(std::uint8_t byte, double now) {
       break;
     case State::kRunning:
       if (!isNear(line_.baud, 1500000)) break;
-      if (const auto frame = frames_.take(byte)) {
-        if (const auto command = decodeCommand(*frame))
-          takeCommand(*command, now);
-        else
-          ++refused_;
-      }
+      if (const auto frame = frames_.take(byte)) takeFrame(*frame, now);
       break;
   }
 }
@@ -118,6 +123,16 @@ void FalconEmulator::takeImage(std::uint8_t byte, double now) {
   if (state != BootTableReader::State::kDone) return;
   state_ = use(mishaps.dead_starts) ? State::kWaiting : State::kRunning;
   frames_.clear();
+}
+
+void FalconEmulator::takeFrame(const FalconFrame& frame, double now) {
+  FalconCommand command = readCommand(frame);
+  if (!decodeCommand(frame)) ++strange_;
+  const FalconMotors wanted = command.motors;
+  for (std::int16_t& motor : command.motors)
+    motor = std::clamp<std::int16_t>(motor, -kMostMotor, kMostMotor);
+  if (command.motors != wanted && settings_.overrange == FalconOverrange::kIgnore) return;
+  takeCommand(command, now);
 }
 
 void FalconEmulator::takeCommand(const FalconCommand& command, double now) {
@@ -173,7 +188,7 @@ void FalconEmulator::sendReply(double now) {
   FalconReply reply;
   reply.counts = countNow();
   reply.buttons = buttons_;
-  if (command_.homes) reply.homed = homed_;
+  if (command_.homes || settings_.always_tells_homed) reply.homed = homed_;
   const FalconFrame frame = encodeReply(reply);
   std::array<std::uint8_t, kFalconFrameSize + 1> bytes{};
   std::copy(frame.begin(), frame.end(), bytes.begin());

@@ -39,6 +39,12 @@ struct FalconMishaps {
   int stuck_leg = -1;        ///< leg whose encoder stopped counting; -1: none
 };
 
+/// Effect of motor commands beyond +-4095. The effect in a real device is not known.
+enum class FalconOverrange : std::uint8_t {
+  kClamp,   ///< the motors do all they can; the belief
+  kIgnore,  ///< the frame is not answered and the last force stays; worse for a host
+};
+
 struct FalconEmulatorSettings {
   FalconPlantSettings plant;
   std::uint64_t seed = 1;          ///< of the encoder offsets before homing, and of the mishaps
@@ -48,7 +54,9 @@ struct FalconEmulatorSettings {
   bool answers_with_zero = false;  ///< sends 00 before the boot loader's answer, as some stacks do
   bool echoes_with_dc3 = false;    ///< sends 13 before the echo of 'A', as some stacks do
   bool has_usb_times = false;      ///< bytes come at the latency timer's ticks; false: at once
-  double watchdog = 0.0;           ///< without frames the motors rest after this [s]; 0: never
+  FalconOverrange overrange = FalconOverrange::kClamp;
+  bool always_tells_homed = false;  ///< tells the homed legs outside of homing mode, too
+  double watchdog = 0.0;            ///< without frames the motors rest after this [s]; 0: never
 };
 
 /// Forces that the hand at an emulated device has felt.
@@ -99,8 +107,8 @@ class FalconEmulator {
   [[nodiscard]] const FalconCommand& command() const noexcept { return command_; }  ///< last one
   [[nodiscard]] const FalconFelt& felt() const noexcept { return felt_; }
   [[nodiscard]] std::uint64_t commands() const noexcept { return commands_; }
-  /// Number of frames that are no valid command: motors out of range, unknown bits.
-  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
+  /// Number of frames beyond what is known of commands: motors out of range, unknown bits.
+  [[nodiscard]] std::uint64_t strange() const noexcept { return strange_; }
 
  private:
   struct Byte {
@@ -111,6 +119,7 @@ class FalconEmulator {
   void takeByte(std::uint8_t byte, double now);
   void takeCall(std::uint8_t byte, double now);
   void takeImage(std::uint8_t byte, double now);
+  void takeFrame(const FalconFrame& frame, double now);
   void takeCommand(const FalconCommand& command, double now);
   void feel(const Vec3& before_D, double now) noexcept;
   void findIndices() noexcept;
@@ -137,7 +146,7 @@ class FalconEmulator {
   FalconCommand command_;
   FalconFelt felt_;
   std::uint8_t homed_ = 0, buttons_ = 0;
-  std::uint64_t commands_ = 0, refused_ = 0;
+  std::uint64_t commands_ = 0, strange_ = 0;
   double commanded_at_ = 0.0;
   Vec3 angles_;                           ///< at the last search for index marks
   std::array<std::int16_t, 3> counts_{};  ///< at the last reply; repeated by a stuck encoder

@@ -62,14 +62,17 @@ FalconFrame encodeReply(const FalconReply& reply) noexcept {
                    static_cast<std::uint8_t>((reply.homed & 7) << 4 | (reply.buttons & 0xf)));
 }
 
+FalconCommand readCommand(const FalconFrame& frame) noexcept {
+  const std::uint8_t info = infoOf(frame);
+  return {readNumbers(frame), (info & kHoming) != 0,
+          static_cast<std::uint8_t>(info & kCommandInfo & ~kHoming)};
+}
+
 std::optional<FalconCommand> decodeCommand(const FalconFrame& frame) noexcept {
   if (!isFrame(frame) || infoOf(frame) > kCommandInfo) return std::nullopt;
-  FalconCommand command;
-  command.motors = readNumbers(frame);
+  const FalconCommand command = readCommand(frame);
   for (const std::int16_t motor : command.motors)
     if (motor < -kMostMotor || motor > kMostMotor) return std::nullopt;
-  command.homes = (infoOf(frame) & kHoming) != 0;
-  command.lights = static_cast<std::uint8_t>(infoOf(frame) & ~kHoming);
   return command;
 }
 

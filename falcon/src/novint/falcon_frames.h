@@ -28,7 +28,7 @@ using FalconFrame = std::array<std::uint8_t, kFalconFrameSize>;
 enum FalconLight : std::uint8_t { kGreenLight = 0x02, kBlueLight = 0x04, kRedLight = 0x08 };
 
 struct FalconCommand {
-  FalconMotors motors{};    ///< clamped to the motors' range
+  FalconMotors motors{};    ///< encodeCommand clamps them to their range
   bool homes = false;       ///< homing mode; must be set in every frame
   std::uint8_t lights = 0;  ///< bits of FalconLight
 };
@@ -42,6 +42,9 @@ struct FalconReply {
 
 [[nodiscard]] FalconFrame encodeCommand(const FalconCommand& command) noexcept;
 [[nodiscard]] FalconFrame encodeReply(const FalconReply& reply) noexcept;
+/// Command in a frame as a device may read it: motors beyond their range stay, and unknown bits of
+/// the info are left out. Needs isFrame().
+[[nodiscard]] FalconCommand readCommand(const FalconFrame& frame) noexcept;
 /// Returns nothing for 16 bytes that are no frame, or recognizably one of the other kind.
 [[nodiscard]] std::optional<FalconCommand> decodeCommand(const FalconFrame& frame) noexcept;
 [[nodiscard]] std::optional<FalconReply> decodeReply(const FalconFrame& frame) noexcept;
