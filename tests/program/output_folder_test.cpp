@@ -54,6 +54,17 @@ TEST(OutputFolder, SecondProgramIsRefused) {
   EXPECT_EQ(readFile(out + "/summary.json"), before);
 }
 
+TEST(OutputFolder, SecondRecordingOfADeviceIsRefused) {
+  const TempFolder folder;
+  const std::string file = folder.write("r.csv", "earlier");
+  const demos::OutputLock first(file + ".lock", file);
+  const Outcome refused = runTandem({"device", "record", file, "--device", "simulated"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find(file + ": another tandem is writing"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(readFile(file), "earlier");
+}
+
 TEST(OutputFolder, KilledProgramLeavesTheEarlierResultAndNoLock) {
   const TempFolder folder;
   const std::string out = folder / "out";

@@ -8,6 +8,7 @@
 #include "device/device_task.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
+#include "files/output_lock.h"
 #include "terminal/standard_output.h"
 #include "terminal/status_line.h"
 #include "terminal/usage_error.h"
@@ -24,11 +25,14 @@ struct Row {
   int buttons;
 };
 
-/// A file being written; removed unless it is finished.
+/// A file being written, by no other program; removed unless it is finished.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::string& target)
-      : target_(target), path_(target + ".unfinished"), file_(path_, std::ios::binary) {
+      : target_(target),
+        path_(target + ".unfinished"),
+        lock_(target + ".lock", target),
+        file_(path_, std::ios::binary) {
     if (!file_) throw UsageError(target + ": cannot be made; is the folder there and writable?");
   }
   ~UnfinishedFile() {
@@ -47,6 +51,7 @@ class UnfinishedFile {
 
  private:
   std::string target_, path_;
+  OutputLock lock_;
   std::ofstream file_;
 };
 

@@ -16,7 +16,7 @@ const fs::path& makeFolder(const fs::path& folder, const std::string& name) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error))
-    throw UsageError(name + ": cannot make files in this folder; choose one that is writable");
+    throw UsageError(name + ": cannot make files here; choose a folder that is there and writable");
   return folder;
 }
 
@@ -31,11 +31,11 @@ std::string nameAside(FolderPart part) {
 OutputFolder::OutputFolder(const fs::path& folder, const std::string& name, FolderPart part)
     : folder_(makeFolder(folder, name)),
       aside_(folder / nameAside(part)),
-      lock_(folder, part, name) {
+      lock_(folder / kFolderLock, name, part) {
   std::error_code error;
   fs::remove_all(aside_, error);  // a killed program may have left it
   if (!fs::create_directory(aside_, error))
-    throw UsageError(name + ": cannot make files in this folder; choose one that is writable");
+    throw UsageError(name + ": cannot make files here; choose a folder that is there and writable");
 }
 
 OutputFolder::~OutputFolder() {

@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "files/folder_lock.h"
+#include "files/output_lock.h"
 
 namespace tandem::demos {
+
+/// File in an output folder by which programs keep each other out.
+inline constexpr const char* kFolderLock = ".tandem-lock";
 
 /// A folder for results, locked against other programs. Files are written aside and published
 /// together, so the folder has an older result, none, or a whole new one, even if the process is
@@ -34,7 +37,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path folder_, aside_;
-  FolderLock lock_;
+  OutputLock lock_;
 };
 
 /// Stores `text` as a file. Throws Error with the file's name.

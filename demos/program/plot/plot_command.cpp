@@ -1,7 +1,7 @@
 #include <optional>
 
 #include "command/command.h"
-#include "files/folder_lock.h"
+#include "files/output_folder.h"
 #include "plot/drawing.h"
 
 namespace tandem::demos {
@@ -16,9 +16,9 @@ class PlotCommand final : public Command {
 
   ExitStatus run() override {
     // A folder that is not there gets the message of one without a run.
-    std::optional<FolderLock> lock;
+    std::optional<OutputLock> lock;
     if (const std::string& home = folders_.front(); std::filesystem::is_directory(home))
-      lock.emplace(home, FolderPart::kAll, home);
+      lock.emplace(std::filesystem::path(home) / kFolderLock, home);
     return static_cast<ExitStatus>(plotRuns(folders_));
   }
 

@@ -1,4 +1,4 @@
-#include "files/folder_lock.h"
+#include "files/output_lock.h"
 
 #include <cerrno>
 #include <cstring>
@@ -20,9 +20,8 @@ constexpr double kPause = 0.005;  // between tries [s]
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder, FolderPart part,
-                       const std::string& name)
-    : path_(folder / ".tandem-lock") {
+OutputLock::OutputLock(const std::filesystem::path& file, const std::string& name, FolderPart part)
+    : path_(file) {
   for (int tries = 1;; ++tries) {
     open(name);
     const bool is_locked = lock(part);
@@ -35,27 +34,27 @@ FolderLock::FolderLock(const std::filesystem::path& folder, FolderPart part,
       sleepFor(kPause);
       continue;
     }
-    throw UsageError(name + (is_taken ? ": another tandem is writing into this folder; wait for "
-                                        "its end or choose another folder"
+    throw UsageError(name + (is_taken ? ": another tandem is writing here; wait for "
+                                        "its end or choose another place"
                                       : std::string(": cannot be locked (") + std::strerror(cause) +
-                                            "); choose a folder on another disk"));
+                                            "); choose a place on another disk"));
   }
 }
 
-FolderLock::~FolderLock() {
+OutputLock::~OutputLock() {
   // The last user removes the file; whoever opened it meanwhile makes a new one.
   if (lock(FolderPart::kAll)) ::unlink(path_.c_str());
   ::close(file_);
 }
 
-void FolderLock::open(const std::string& name) {
+void OutputLock::open(const std::string& name) {
   file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
   if (file_ < 0)
-    throw UsageError(name + ": cannot make files in this folder; choose one that is writable");
+    throw UsageError(name + ": cannot make files here; choose a folder that is there and writable");
 }
 
 /// Locks a byte for each site, or all bytes. Such a lock belongs to the open file.
-bool FolderLock::lock(FolderPart part) const noexcept {
+bool OutputLock::lock(FolderPart part) const noexcept {
   struct flock range {};
   range.l_type = F_WRLCK;
   range.l_whence = SEEK_SET;
@@ -64,7 +63,7 @@ bool FolderLock::lock(FolderPart part) const noexcept {
   return ::fcntl(file_, F_OFD_SETLK, &range) == 0;
 }
 
-bool FolderLock::isStillThere() const noexcept {
+bool OutputLock::isStillThere() const noexcept {
   struct stat opened {
   }, named{};
   return ::fstat(file_, &opened) == 0 && ::lstat(path_.c_str(), &named) == 0 &&
