@@ -146,6 +146,7 @@ TEST(LivePeers, RefuseWhatIsOutOfRange) {
   EXPECT_THROW(two.one->startThread(100), std::invalid_argument);
   EXPECT_THROW(two.one->startThread(-1), std::invalid_argument);
   EXPECT_THROW(two.one->agreeOnStart(kHeld, 0.0), std::invalid_argument);
+  EXPECT_THROW(two.one->agreeOnStart(kHeld, 128.0, 0.0), std::invalid_argument);
   EXPECT_THROW(two.one->setStart(std::numeric_limits<double>::infinity()), std::invalid_argument);
 }
 

@@ -26,13 +26,14 @@ class Sites {
     double ahead;  ///< its clock minus true time [s]
     std::vector<std::unique_ptr<ShiftedLink>> ways;
     std::vector<std::unique_ptr<TimeBridge>> bridges;
+    std::vector<PeerId> ids;  ///< of the peers that the bridges lead to
     std::unique_ptr<StartExchange> exchange;
     bool is_there = true;
   };
 
   Sites(int count, const Impairments& network) : round_trip_(2.0 * network.delay) {
     for (int i = 0; i < count; ++i) {
-      sites_.push_back({1000.0 * i, {}, {}, nullptr});
+      sites_.push_back({1000.0 * i, {}, {}, {}, nullptr});
       begin(i);
     }
     for (int i = 0; i < count; ++i)
@@ -40,8 +41,7 @@ class Sites {
   }
 
   void begin(int i) {
-    at(i).exchange = std::make_unique<StartExchange>(PeerId{static_cast<std::uint32_t>(i + 1)},
-                                                     i == 0, kHeld, kPacketRate);
+    at(i).exchange = std::make_unique<StartExchange>(idOf(i), kHeld, kPacketRate);
     for (const auto& bridge : at(i).bridges) bridge->awaitStart();
   }
 
@@ -65,20 +65,22 @@ class Sites {
   void connect(int i, int k, const Impairments& network) {
     auto ends = makeSimulatedLinks(network);
     links_.push_back(std::move(ends.first));
-    add(at(i), *links_.back());
+    add(at(i), idOf(k), *links_.back());
     links_.push_back(std::move(ends.second));
-    add(at(k), *links_.back());
+    add(at(k), idOf(i), *links_.back());
   }
-  void add(Site& site, Link& link) {
+  static PeerId idOf(int i) { return PeerId{static_cast<std::uint32_t>(i + 1)}; }
+  void add(Site& site, PeerId peer, Link& link) {
+    site.ids.push_back(peer);
     site.ways.push_back(std::make_unique<ShiftedLink>(link, site.ahead));
     site.bridges.push_back(std::make_unique<TimeBridge>(*site.ways.back()));
     site.bridges.back()->awaitStart();
   }
   void poll(Site& site) {
     std::vector<StartExchange::Peer> peers;
-    for (const auto& bridge : site.bridges) {
-      bridge->setClock(now + site.ahead);
-      peers.push_back({*bridge, true, round_trip_, 0.0});
+    for (std::size_t i = 0; i < site.bridges.size(); ++i) {
+      site.bridges[i]->setClock(now + site.ahead);
+      peers.push_back({site.ids[i], *site.bridges[i], true, round_trip_, 0.0});
     }
     site.exchange->advance(now + site.ahead, peers);
   }
@@ -119,8 +121,7 @@ TEST(StartExchange, ThreeSitesBeginAtOneMoment) {
   sites.run(0.5);
   for (const int i : {1, 2}) {
     ASSERT_TRUE(sites.startOf(i));
-    // The third may learn it from the second.
-    EXPECT_NEAR(*sites.startOf(i), *sites.startOf(0), 2.0 * kPoll);
+    EXPECT_NEAR(*sites.startOf(i), *sites.startOf(0), kPoll);
   }
 }
 
@@ -136,11 +137,11 @@ TEST(StartExchange, WaitsUntilAllPeersAreLive) {
   auto ends = makeSimulatedLinks({});
   TimeBridge bridge(*ends.first);
   bridge.awaitStart();
-  StartExchange exchange(self, true, kHeld, kPacketRate);
+  StartExchange exchange(self, kHeld, kPacketRate);
   const auto poll = [&](double from, double until, bool is_live, double round_trip) {
     for (double now = from; now < until; now += kPoll) {
       bridge.setClock(now);
-      exchange.advance(now, {{bridge, is_live, round_trip, 0.0}});
+      exchange.advance(now, {{PeerId{2}, bridge, is_live, round_trip, 0.0}});
     }
     return exchange.start().has_value();
   };
@@ -162,6 +163,54 @@ TEST(StartExchange, ALateSiteLearnsAStartThatHasPassed) {
   sites.run(0.2);
   ASSERT_TRUE(sites.startOf(0));
   EXPECT_NEAR(*sites.startOf(0), start, 2.0 * kPoll);
+}
+
+/// Site `self` hears a peer whose states carry this time; it is polled for 50 ms.
+class Listening {
+ public:
+  Listening(PeerId self, PeerId peer, double time, double longest = kLongestCountdown)
+      : ends_(makeSimulatedLinks({})),
+        bridge_(*ends_.first),
+        exchange(self, kHeld, 128.0, longest) {
+    bridge_.awaitStart();
+    StatePacket packet;
+    packet.sender = peer;
+    packet.time = time;
+    ends_.second->send(packet, 0.0);
+    for (double now = 0.0; now < 0.05; now += kPoll) {
+      bridge_.setClock(now);
+      exchange.advance(now, {{peer, bridge_, true, 0.02, 0.0}});
+    }
+  }
+
+ private:
+  std::pair<std::unique_ptr<SimulatedLink>, std::unique_ptr<SimulatedLink>> ends_;
+  TimeBridge bridge_;
+
+ public:
+  StartExchange exchange;
+};
+
+// A peer whose site time began at 0 held the other one in a countdown of 976 s.
+TEST(StartExchange, ACountdownThatIsTooLongIsRefused) {
+  for (const auto& [time, longest] : {std::pair{24.0, 60.0}, {939.9, 60.0}, {994.0, 5.0}}) {
+    SCOPED_TRACE(time);
+    const Listening two(PeerId{2}, PeerId{1}, time, longest);
+    EXPECT_FALSE(two.exchange.start());
+    ASSERT_TRUE(two.exchange.refused());
+    EXPECT_EQ(two.exchange.refused()->peer, PeerId{1});
+    EXPECT_NEAR(two.exchange.refused()->length, 1000.0 - time, 1e-9);
+  }
+  EXPECT_TRUE(Listening(PeerId{2}, PeerId{1}, 940.1).exchange.start());
+  EXPECT_FALSE(Listening(PeerId{2}, PeerId{1}, 0.0).exchange.refused());
+}
+
+TEST(StartExchange, TheLowerSiteFollowsNoCountdown) {
+  const Listening one(PeerId{1}, PeerId{2}, 990.0);
+  EXPECT_FALSE(one.exchange.start());
+  EXPECT_FALSE(one.exchange.refused());
+  // One that runs already is joined, whoever it is.
+  EXPECT_TRUE(Listening(PeerId{1}, PeerId{2}, 1000.5).exchange.start());
 }
 
 TEST(StartExchange, HeldStatesComeAtTheirRate) {

@@ -1,5 +1,6 @@
 #include "peer/peer_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -79,7 +80,7 @@ PeerStatus PeerRun::peerStatus() const { return peers_.status(other_, readMonoto
 bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
                           const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
-  peers_.agreeOnStart(held, scenario_.site.packet_rate);
+  peers_.agreeOnStart(held, scenario_.site.packet_rate, patience);
   const double began = readMonotonicClock();
   double next_report = began;
   for (;;) {
@@ -94,23 +95,31 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
       if (now - *start > kMostBehind) joinLate(now);
       return true;
     }
-    if (!start) {
-      try {
-        checkAnswer(now - began, patience);
-      } catch (const UsageError&) {
-        peers_.sayFarewell(ByeReason::kConfigurationsDiffer);
-        throw;
-      } catch (const std::exception&) {
-        peers_.sayFarewell(ByeReason::kProgramEnds);
-        throw;
-      }
-    }
     if (now >= next_report) {
       report(makeReport(start ? now - *start : 0.0));
       next_report += kReportPeriod;
     }
+    try {
+      if (start)
+        checkCountdown();
+      else
+        checkAnswer(now - began, patience);
+    } catch (const UsageError&) {
+      peers_.sayFarewell(ByeReason::kConfigurationsDiffer);
+      throw;
+    } catch (const std::exception&) {
+      peers_.sayFarewell(ByeReason::kProgramEnds);
+      throw;
+    }
     peers_.wait(1e-3);
   }
+}
+
+/// A site that leaves before the start will not be there at the start.
+void PeerRun::checkCountdown() const {
+  if (peerStatus().phase != PeerPhase::kLeft) return;
+  throw Error(fmt::format("site {} left before the start; start both again",
+                          static_cast<std::uint32_t>(other_)));
 }
 
 /// The other site has been running for a while: it and its copies fade in.
@@ -134,6 +143,13 @@ void PeerRun::checkAnswer(double waited, double patience) const {
     throw UsageError(fmt::format(
         "site {} says that it has another scenario; use the same file and --set on both sides",
         static_cast<std::uint32_t>(other_)));
+  if (const auto refused = peers_.refusedCountdown())
+    throw Error(
+        fmt::format("site {} counts down {:.0f} s to the start, at most {:.0f} s are allowed; "
+                    "raise --wait, and "
+                    "if that does not help install the same release on both sides",
+                    static_cast<std::uint32_t>(refused->peer), refused->length,
+                    std::min(patience, kLongestCountdown)));
   if (waited < patience) return;
   const std::string where = status.address ? toString(*status.address) : "its address";
   std::string why = "is it running, is the address right, does a firewall let UDP pass?";

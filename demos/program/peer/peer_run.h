@@ -34,8 +34,8 @@ class PeerRun {
           HapticDevice* device = nullptr);
 
   /// Waits until the other site is there and both know the start. Throws UsageError if it has
-  /// another configuration, tandem::Error if it does not answer within `patience` [s]. Returns
-  /// false if `stop` asked to end.
+  /// another configuration. Throws tandem::Error if it does not answer within `patience` [s],
+  /// counts down for longer, or leaves before the start. Returns false if `stop` asked to end.
   bool waitForPeer(double patience, const std::function<bool()>& stop,
                    const std::function<void(const PeerReport&)>& report);
 
@@ -59,6 +59,7 @@ class PeerRun {
   void makeWorld();
   void joinLate(double now);
   void checkAnswer(double waited, double patience) const;
+  void checkCountdown() const;
   [[nodiscard]] PeerReport makeReport(double time);
   [[nodiscard]] double computeCoherency() const noexcept;
 

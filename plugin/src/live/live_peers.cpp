@@ -84,8 +84,8 @@ void LivePeers::Impl::lookForStart(double now) noexcept {
   seen.clear();
   for (const auto& end : ends) {
     const PeerStatus status = mesh.status(end->id, now);
-    seen.push_back(
-        {end->link.bridge(), status.phase == PeerPhase::kLive, status.round_trip, status.wait});
+    seen.push_back({end->id, end->link.bridge(), status.phase == PeerPhase::kLive,
+                    status.round_trip, status.wait});
   }
   exchange->advance(now, seen);
   start = exchange->start();
@@ -157,17 +157,22 @@ void LivePeers::setHapticThread(PeerId peer, bool has_one) {
   impl_->find(peer).link.setHapticThread(has_one);
 }
 
-void LivePeers::agreeOnStart(const PointState& held, double rate) {
+void LivePeers::agreeOnStart(const PointState& held, double rate, double longest) {
   if (!(rate > 0.0 && std::isfinite(rate)))
     throw std::invalid_argument("rate = " + std::to_string(rate) +
                                 ": must be above 0 and finite [1/s]");
-  const bool chooses = std::all_of(impl_->ends.begin(), impl_->ends.end(),
-                                   [&](const auto& end) { return impl_->self < end->id; });
+  if (!(longest > 0.0))
+    throw std::invalid_argument("longest = " + std::to_string(longest) + ": must be above 0 [s]");
   const std::lock_guard lock(impl_->mutex);
   impl_->start.reset();
   for (const auto& end : impl_->ends) end->link.bridge().awaitStart();
   impl_->seen.reserve(impl_->ends.size());
-  impl_->exchange.emplace(impl_->self, chooses, held, rate);
+  impl_->exchange.emplace(impl_->self, held, rate, std::min(longest, kLongestCountdown));
+}
+
+std::optional<RefusedCountdown> LivePeers::refusedCountdown() const noexcept {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->exchange ? impl_->exchange->refused() : std::nullopt;
 }
 
 std::optional<double> LivePeers::start() const noexcept {

@@ -33,13 +33,14 @@ void TimeBridge::sendHeld(const PointState& user, PeerId self) noexcept {
   sendNumbered(packet, clock_);
 }
 
-std::optional<double> TimeBridge::listenForStart(double delay) noexcept {
-  std::optional<double> start;
+std::optional<TimeBridge::ToldStart> TimeBridge::listenForStart(double delay) noexcept {
+  std::optional<ToldStart> told;
   while (const auto arrival = way_.receive(clock_before_, clock_)) {
-    if (start || arrival->packet.time == 0.0) continue;
-    start = arrival->time - delay - (arrival->packet.time - shift_);
+    if (told || arrival->packet.time == 0.0) continue;
+    const double site_time = arrival->packet.time - shift_;
+    told = ToldStart{arrival->time - delay - site_time, -site_time};
   }
-  return start;
+  return told;
 }
 
 void TimeBridge::send(const StatePacket& packet, double now) noexcept {

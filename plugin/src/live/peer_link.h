@@ -46,8 +46,13 @@ class TimeBridge final : public Link {
   void setStart(double start) noexcept { times_.set(start); }
   /// Tells the peer the state that the user holds until the start.
   void sendHeld(const PointState& user, PeerId self) noexcept;
-  /// Drops what has come in; gives the start that it tells of, if states take `delay` [s].
-  [[nodiscard]] std::optional<double> listenForStart(double delay) noexcept;
+  /// A start that a peer tells of, by the clock here.
+  struct ToldStart {
+    double start = 0.0;      ///< [s]
+    double countdown = 0.0;  ///< from when its state was sent; below 0: the peer runs [s]
+  };
+  /// Drops what has come in; gives the first start that it tells of, if states take `delay` [s].
+  [[nodiscard]] std::optional<ToldStart> listenForStart(double delay) noexcept;
 
   // Link, in the site's time.
   void send(const StatePacket& packet, double now) noexcept override;

@@ -14,8 +14,9 @@ constexpr double kSettling = 0.3;
 }  // namespace
 
 void StartExchange::advance(double now, const std::vector<Peer>& peers) noexcept {
-  learn(peers);
-  if (chooses_ && !start_) choose(now, peers);
+  const PeerId lowest = findLowest(peers);
+  learn(peers, lowest);
+  if (lowest == self_ && !start_) choose(now, peers);
   if (start_)
     for (const Peer& peer : peers) peer.bridge.setStart(*start_);
   if (now < next_send_.value_or(now)) return;
@@ -23,10 +24,21 @@ void StartExchange::advance(double now, const std::vector<Peer>& peers) noexcept
   next_send_ = std::max(next_send_.value_or(now) + period_, now);
 }
 
-void StartExchange::learn(const std::vector<Peer>& peers) noexcept {
+PeerId StartExchange::findLowest(const std::vector<Peer>& peers) const noexcept {
+  PeerId lowest = self_;
+  for (const Peer& peer : peers) lowest = std::min(lowest, peer.id);
+  return lowest;
+}
+
+void StartExchange::learn(const std::vector<Peer>& peers, PeerId lowest) noexcept {
   for (const Peer& peer : peers) {
     const auto told = peer.bridge.listenForStart(0.5 * peer.round_trip + peer.wait);
-    if (!start_) start_ = told;
+    const bool is_running = told && told->countdown <= 0.0;
+    if (!told || start_ || !(is_running || peer.id == lowest)) continue;
+    if (told->countdown > longest_)
+      refused_ = RefusedCountdown{peer.id, told->countdown};
+    else
+      start_ = told->start;
   }
 }
 

@@ -9,6 +9,15 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
+/// A longer countdown to a start is refused, whatever a site allows [s] (STANDARD.md, section 6).
+inline constexpr double kLongestCountdown = 60.0;
+
+/// A countdown that is not followed.
+struct RefusedCountdown {
+  PeerId peer{};        ///< site that counts down
+  double length = 0.0;  ///< [s]
+};
+
 /// The remote sites of a live site: one UDP socket, its thread, and a link in the site's own time
 /// for each of them.
 ///
@@ -76,7 +85,12 @@ class LivePeers {
   /// lowest number chooses, a second ahead at the least, once all peers are live. If the two ways
   /// of a pair differ, its sites start half the difference apart. Throws std::invalid_argument for
   /// a rate that is not above 0 and finite.
-  void agreeOnStart(const PointState& held, double rate);
+  ///
+  /// A countdown of more than `longest` [s] is not followed: see refusedCountdown(). It must be
+  /// above 0, and at most kLongestCountdown counts.
+  void agreeOnStart(const PointState& held, double rate, double longest = kLongestCountdown);
+  /// A countdown that was too long to be followed.
+  [[nodiscard]] std::optional<RefusedCountdown> refusedCountdown() const noexcept;
   /// The clock at site time 0 [s], once it is known: HapticLoopSettings::begin.
   [[nodiscard]] std::optional<double> start() const noexcept;
   /// Sets it without asking: a site that joins others late. Throws std::invalid_argument for one
