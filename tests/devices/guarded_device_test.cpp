@@ -48,16 +48,37 @@ TEST(GuardedDevice, ClampsWithTheDirectionKeptHoweverHuge) {
   }
 }
 
-TEST(GuardedDevice, ChangesNoFasterThanItsSlewCountedInTime) {
+TEST(GuardedDevice, RisesNoFasterThanItsSlewCountedInTime) {
   GuardRig rig;
   rig.warmUp(Vec3::Zero());
   EXPECT_NEAR(rig.tick(kPush).norm(), 2.0, 1e-9);
   rig.guard->write(kPush);  // a second write in the same tick: no time has passed
   EXPECT_NEAR(rig.script.force.norm(), 2.0, 1e-9);
   rig.now += 0.02;  // a late tick counts for two periods
-  EXPECT_NEAR(rig.tick(-10.0 * kPush).norm(), 2.0, 1e-9);
+  EXPECT_NEAR(rig.tick(-10.0 * kPush).norm(), 4.0, 1e-9);
   EXPECT_LT(rig.script.force.dot(kPush), 0.0);
   EXPECT_EQ(rig.guard->status().slewed, 3u);
+}
+
+// A force that lags behind its cause pushes the hand on, and gives it energy.
+TEST(GuardedDevice, FallsAtOnce) {
+  GuardRig rig;
+  rig.warmUp(kPush);
+  EXPECT_EQ(rig.tick(0.25 * kPush), 0.25 * kPush);
+  EXPECT_EQ(rig.tick(Vec3::Zero()), Vec3::Zero());
+  EXPECT_EQ(rig.guard->status().slewed, 0u);
+}
+
+// The fade of 5 N takes 3 ms. At 1 m/s along the force it would give 6 mJ.
+TEST(GuardedDevice, AFadeThatPushesTheHandAlongEndsAtOnce) {
+  for (const double speed : {1.0, -1.0}) {
+    GuardRig rig;
+    rig.script.sample.hip.v_W = speed * kPush.normalized();
+    rig.warmUp(kPush);
+    rig.guard->holdDeadMan(false);
+    const double left = rig.tick(kPush).norm();
+    EXPECT_NEAR(left, speed > 0.0 ? 0.0 : 3.0, 1e-9);
+  }
 }
 
 TEST(GuardedDevice, TakesTheDevicesOwnLimitsWhereTheyAreSmaller) {

@@ -28,7 +28,7 @@ using namespace std::chrono_literals;
 
 constexpr double kLean = 3.0;  ///< push of the hand against the wall [N]
 /// Limits of the felt force. The margin covers a grip that moves while a command is on its way.
-constexpr double kMostForce = 8.0 * 1.06, kMostChange = 2.0 * 1.1;
+constexpr double kMostForce = 8.0 * 1.06, kMostRise = 2.0 * 1.1;
 constexpr double kRamp = 0.1;    ///< [s]
 constexpr auto kPatience = 20s;  ///< longest wait on a busy machine
 
@@ -101,7 +101,7 @@ class LiveFalcon : public ::testing::Test {
     EXPECT_EQ(guarded.status().force, Vec3(Vec3::Zero()));
     port.visit([](FalconEmulator& emulator, double) {
       EXPECT_LE(emulator.felt().most_force, kMostForce);
-      EXPECT_LE(emulator.felt().most_change, kMostChange);
+      EXPECT_LE(emulator.felt().most_rise, kMostRise);
       EXPECT_GT(emulator.felt().most_force, 0.5 * kLean);
     });
   }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coordination/src/force_rise.h"
 #include "guard/force_limit.h"
 #include "guard/settings_check.h"
 
@@ -18,6 +19,7 @@ using falcon_detail::shorten;
 
 constexpr double kLongestSilence = 0.05;  // longest time between reads, or between writes [s]
 constexpr double kLongestFade = 0.03;     // longest time from max_force to zero [s]
+constexpr double kMostFadeEnergy = 1e-3;  // most energy that a fade may give the hand [J]
 constexpr int kMostStanding = 50;         // reads in a row at the same time
 constexpr double kMostCounted = 2e-3;     // most time that a write counts: two haptic periods [s]
 
@@ -45,6 +47,7 @@ DeviceSample GuardedDevice::read(double now) noexcept {
   takeTime(now);
   DeviceSample sample = device_->read(now);
   sample.valid = sample.valid && isFinite(sample.hip);
+  if (sample.valid) v_W_ = sample.hip.v_W;
 
   if (is_time_wrong_)
     cut(GuardCut::kTime);
@@ -77,9 +80,10 @@ void GuardedDevice::write(const Vec3& f) noexcept {
   if (wanted != f) ++status_.clamped;
   if (status_.share < 1.0 && wanted != Vec3::Zero()) ++status_.ramped;
   wanted *= status_.share;
-  const double most_change = capabilities_.max_slew * std::min(unused_, kMostCounted);
-  if ((wanted - status_.force).norm() > most_change) ++status_.slewed;
-  send(wanted, most_change);
+  const Vec3 force =
+      riseTowards(wanted, status_.force, capabilities_.max_slew * std::min(unused_, kMostCounted));
+  if (force != wanted) ++status_.slewed;
+  send(force);
 }
 
 /// Updates the time available for a change of force, and detects invalid times.
@@ -96,18 +100,22 @@ void GuardedDevice::takeTime(double now) noexcept {
 
 void GuardedDevice::cut(GuardCut reason) noexcept {
   if (!status_.is_cut || reason != reason_) ++status_.cuts[static_cast<std::size_t>(reason)];
+  if (!status_.is_cut) fade_energy_ = 0.0;
   status_.is_cut = true;
   status_.share = 0.0;
   reason_ = reason;
 }
 
+/// A fade is no source of energy either: it ends at once where it would push the hand along.
 void GuardedDevice::fade() noexcept {
-  send(Vec3::Zero(),
-       is_time_wrong_ ? std::numeric_limits<double>::infinity() : fade_slew_ * unused_);
+  fade_energy_ += std::max(0.0, status_.force.dot(v_W_)) * passed_;
+  const bool must_end = is_time_wrong_ || fade_energy_ > kMostFadeEnergy;
+  const double left = status_.force.norm() - fade_slew_ * unused_;
+  send(must_end || left <= 0.0 ? Vec3(Vec3::Zero()) : shorten(status_.force, left));
 }
 
-void GuardedDevice::send(const Vec3& wanted, double most_change) noexcept {
-  status_.force += shorten(wanted - status_.force, most_change);
+void GuardedDevice::send(const Vec3& force) noexcept {
+  status_.force = force;
   unused_ = 0.0;
   device_->write(status_.force);
 }

@@ -150,6 +150,7 @@ void FalconEmulator::feel(const Vec3& before_D, double now) noexcept {
   const double change = (after_D - before_D).norm();
   felt_.most_force = std::max(felt_.most_force, after_D.norm());
   felt_.most_change = std::max(felt_.most_change, change);
+  felt_.most_rise = std::max(felt_.most_rise, after_D.norm() - before_D.norm());
   felt_.most_slew = std::max(felt_.most_slew, change / std::max(now - commanded_at_, kUsbFrame));
 }
 

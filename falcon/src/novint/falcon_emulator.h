@@ -63,6 +63,7 @@ struct FalconEmulatorSettings {
 struct FalconFelt {
   double most_force = 0.0;   ///< largest force [N]
   double most_change = 0.0;  ///< largest change from one frame to the next [N]
+  double most_rise = 0.0;    ///< largest growth of the force from one frame to the next [N]
   double most_slew = 0.0;    ///< the change per time between the frames, at least 1 ms [N/s]
   double pushed_at = -1.0;   ///< last time with a force above 0.01 N [s]
 };

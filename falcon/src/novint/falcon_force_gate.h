@@ -15,9 +15,10 @@ class FalconForceGate {
   explicit FalconForceGate(const FalconForceLimits& limits) noexcept : limits_(limits) {}
 
   /// `age` is the time since the request [s]; `is_open` tells whether force is allowed at all. A
-  /// non-finite request counts as zero. The change never exceeds the slew limit, also on the way to
-  /// zero: that takes 4 ms from 8 N. A force that is not renewed, not finite or no longer allowed
-  /// ends within 30 ms, even if the slew limit is lower. A call counts for at most 1 ms.
+  /// non-finite request counts as zero. The rise never exceeds the slew limit, and a request that
+  /// falls is followed at once. A force that is not renewed, not finite or no longer allowed fades
+  /// at the slew limit, 4 ms from 8 N, and within 30 ms even if that limit is lower. A call counts
+  /// for at most 1 ms.
   Vec3 advance(const Vec3& wanted, double age, bool is_open, double now) noexcept;
 
   /// Restarts the ramp after a position that jumped.
@@ -27,7 +28,7 @@ class FalconForceGate {
   void clear() noexcept;
 
  private:
-  [[nodiscard]] Vec3 limit(const Vec3& wanted, double age, double now) const noexcept;
+  [[nodiscard]] double computeShare(double age, double now) const noexcept;
 
   FalconForceLimits limits_;
   Vec3 force_ = Vec3::Zero();

@@ -42,9 +42,10 @@ struct GuardStatus {
 
 /// Last safety guard before a device; it trusts no caller. Each write passes these stages:
 ///
-///   not finite: cut  ->  no longer than max_force  ->  ramp  ->  no faster than max_slew
+///   not finite: cut  ->  no longer than max_force  ->  ramp  ->  rises no faster than max_slew
 ///
-/// The first three stages keep the direction of the force. A cut (GuardCut) takes the force to
+/// A force may fall at once, so that the guard never renders one whose cause has gone. The first
+/// three stages keep the direction of the force. A cut (GuardCut) takes the force to
 /// zero; the ramp restarts when the cut ends. The force is zero within 100 ms of any fault if
 /// read() is called at least every 10 ms. Usually it is zero within 4 ms of detection. If the loop
 /// stops calling, the device's own watchdog must act.
@@ -84,7 +85,7 @@ class GuardedDevice final : public HapticDevice {
   void takeTime(double now) noexcept;
   void cut(GuardCut reason) noexcept;
   void fade() noexcept;
-  void send(const Vec3& wanted, double most_change) noexcept;
+  void send(const Vec3& force) noexcept;
 
   std::unique_ptr<HapticDevice> device_;
   DeviceCapabilities capabilities_;
@@ -95,6 +96,8 @@ class GuardedDevice final : public HapticDevice {
   double now_ = 0.0, passed_ = 0.0;  ///< time of the last read, and since the one before [s]
   double unused_ = 0.0;              ///< time not yet used for a change of force [s]
   double last_write_ = 0.0;          ///< time of the last write [s]
+  Vec3 v_W_ = Vec3::Zero();          ///< velocity of the last valid sample [m/s]
+  double fade_energy_ = 0.0;         ///< energy that this cut's fade gave the hand [J]
   bool was_read_ = false, is_time_wrong_ = false;
   int standing_ = 0;  ///< reads in a row whose time did not advance
 };
