@@ -52,7 +52,7 @@ TEST(Allocations, AreNotOfAStepOfGuests) {
   TandemState now = guest.body(guest.cube), given{};
   TandemPacket packet{};
   packet.sender = 2;
-  packet.port_energy = std::nan("");
+  packet.energy_granted = std::nan("");
   Results all;
   const double speed[3] = {0.1, 0.0, 0.0};
   const auto step = [&] {

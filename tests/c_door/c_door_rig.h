@@ -97,7 +97,7 @@ struct LoneDoorProxy : DoorSite {
     ok(tandem_site_connect(site, 2, link, start, &proxy));
     TandemPacket packet{};
     packet.sender = 2;
-    packet.port_energy = std::nan("");
+    packet.energy_granted = std::nan("");
     ok(tandem_link_push(link, &packet));
   }
   static TandemSiteSettings makeSettings() {

@@ -248,7 +248,8 @@ class Caller {
     int there = 0;
     packet.sender = static_cast<std::uint32_t>(random_.below(5));
     packet.sequence = static_cast<std::uint64_t>(random_.below(1000));
-    packet.port_energy = random_.uniform(-1.0, 1.0);
+    packet.energy_granted = random_.uniform(-1.0, 1.0);
+    packet.energy_holdings = random_.uniform(-1.0, 1.0);
     packet.object_count = static_cast<std::size_t>(random_.below(4));
     for (TandemState& object : packet.objects) object = makeState(random_.inCube(1.0));
     if (random_.below(8) == 0) packet.objects[0].velocity[0] = std::nan("");

@@ -34,7 +34,7 @@ TEST(ManualLink, BringsStatesOfObjects) {
   ok(tandem_site_connect(site.site, 2, site.link, kFarAway, nullptr));
   TandemPacket packet{};
   packet.sender = 2;
-  packet.port_energy = std::nan("");
+  packet.energy_granted = std::nan("");
   packet.object_count = 1;
   packet.objects[0] = makeState(Vec3(0.5, 0.0, 0.0));
   ok(tandem_link_push(site.link, &packet));

@@ -12,88 +12,115 @@
 namespace tandem {
 namespace {
 
-constexpr double kTank = 0.02, kBand = 0.01, kMost = 10.0;
+constexpr double kTank = 0.02, kBand = 0.01, kMost = 2.0;
 
 TEST(PassivityObserver, LeavesTheForceAloneWhileEnoughIsLeft) {
   PassivityObserver observer;
-  EXPECT_EQ(observer.computeShare(1e-3), 1.0);
-  observer.addOwn(-(kTank - kBand));
+  EXPECT_EQ(observer.computeShare({1e-3, 0.0}), 1.0);
+  observer.addHand(-(kTank - kBand));
   EXPECT_NEAR(observer.available(), kBand, 1e-15);
-  EXPECT_NEAR(observer.computeShare(1e-3), 1.0, 1e-12);
-  EXPECT_EQ(observer.computeShare(-1.0), observer.computeShare(1e-3));
+  EXPECT_NEAR(observer.computeShare({1e-3, 0.0}), 1.0, 1e-12);
+  EXPECT_EQ(observer.computeShare({-1.0, 0.0}), observer.computeShare({1e-3, 0.0}));
 }
 
 TEST(PassivityObserver, FadesTheForceWithWhatIsLeft) {
   PassivityObserver observer;
-  observer.addOwn(-kTank + 0.25 * kBand);
-  EXPECT_NEAR(observer.computeShare(1e-6), 0.25, 1e-12);
+  observer.addHand(-kTank + 0.25 * kBand);
+  EXPECT_NEAR(observer.computeShare({1e-6, 0.0}), 0.25, 1e-12);
   // The sign of the hand's power must not make a step in the share.
-  EXPECT_EQ(observer.computeShare(-1e-6), observer.computeShare(1e-6));
+  EXPECT_EQ(observer.computeShare({-1e-6, 0.0}), observer.computeShare({1e-6, 0.0}));
 }
 
-TEST(PassivityObserver, OneTickTakesNoMoreThanThereIs) {
+TEST(PassivityObserver, OneTickTakesNoMoreThanMostOfWhatIsLeft) {
   PassivityObserver observer;
-  EXPECT_NEAR(observer.computeShare(1.0) * 1.0, kTank, 1e-15);
-  observer.addOwn(-kTank);
-  EXPECT_EQ(observer.computeShare(1e-9), 0.0);
+  EXPECT_NEAR(observer.computeShare({1.0, 0.0}) * 1.0, 0.8 * kTank, 2e-6);
+  observer.addHand(-kTank);
+  EXPECT_EQ(observer.computeShare({1e-9, 0.0}), 0.0);
 }
 
 TEST(PassivityObserver, CountsWhatWasGotWhenNothingWasLeft) {
   PassivityObserver observer;
-  observer.addOwn(-kTank - 0.003);
+  observer.addHand(-kTank - 0.003);
   EXPECT_NEAR(observer.overdrawn(), 0.003, 1e-15);
-  observer.addOwn(-0.001);
+  observer.addHand(-0.001);
   EXPECT_NEAR(observer.overdrawn(), 0.004, 1e-15);
   // Energy that others absorbed is not energy that this hand got.
-  observer.addOwn(1.0);
-  observer.addReported(-5.0);
+  observer.addHand(1.0);
+  observer.addMoved(-0.5);
   EXPECT_NEAR(observer.overdrawn(), 0.004, 1e-15);
 }
 
 TEST(PassivityObserver, AnEmptyTankFillsAsTheHandPushes) {
   PassivityObserver observer;
-  observer.addOwn(-kTank);
+  observer.addHand(-kTank);
   int ticks = 0;
-  for (; observer.computeShare(-1e-3) < 1.0; ++ticks) {
+  for (; observer.computeShare({-1e-3, 0.0}) < 1.0; ++ticks) {
     ASSERT_LT(ticks, 2000);
-    observer.addOwn(1e-3 * observer.computeShare(-1e-3));
+    observer.addHand(1e-3 * observer.computeShare({-1e-3, 0.0}));
   }
   EXPECT_GT(ticks, 10);
 }
 
 TEST(PassivityObserver, WhatOthersPutInMayBeGot) {
   PassivityObserver observer;
-  observer.addReported(0.1);
-  observer.addOwn(-0.1);
-  EXPECT_EQ(observer.computeShare(1e-3), 1.0);
+  observer.addMoved(0.1);
+  observer.addHand(-0.1);
+  EXPECT_EQ(observer.computeShare({1e-3, 0.0}), 1.0);
   EXPECT_EQ(observer.own(), -0.1);
-  observer.addReported(-0.1);  // the peer takes it out again
-  EXPECT_NEAR(observer.available(), -kTank, 1e-15);
-  EXPECT_EQ(observer.computeShare(1e-3), 0.0);
+  observer.addMoved(-kTank);  // granted
+  EXPECT_EQ(observer.computeShare({1e-3, 0.0}), 0.0);
 }
 
 // An hour of friction must not pay for a blow afterwards.
 TEST(PassivityObserver, HeatIsForgotten) {
   PassivityObserver observer;
-  for (int i = 0; i < 1000; ++i) observer.addOwn(1.0);
+  for (int i = 0; i < 1000; ++i) observer.addHand(1.0);
   EXPECT_NEAR(observer.available(), kTank + kMost, 1e-9);
   EXPECT_NEAR(observer.own(), 1000.0, 1e-9);
 }
 
-TEST(PassivityObserver, DebtsCountToOneTank) {
+// A debt that is forgiven is energy from nowhere.
+TEST(PassivityObserver, DebtsStay) {
   PassivityObserver observer;
-  observer.addReported(-1000.0);
-  EXPECT_NEAR(observer.available(), -kTank, 1e-12);
-  observer.addOwn(2.0 * kTank);
-  EXPECT_EQ(observer.computeShare(1e-3), 1.0);
+  observer.addHand(-1.0);
+  EXPECT_NEAR(observer.available(), kTank - 1.0, 1e-12);
+  observer.addMoved(1.0);
+  EXPECT_EQ(observer.computeShare({1e-3, 0.0}), 1.0);
+}
+
+// A hand that lifts a weight may get its energy back, although the weight has it now.
+TEST(PassivityObserver, AWorldThatTookEnergyCountsAsZero) {
+  PassivityObserver observer;
+  observer.addHand(0.5);
+  observer.addWorld(-0.5);
+  EXPECT_NEAR(observer.available(), kTank + 0.5, 1e-15);
+  EXPECT_EQ(observer.own(), 0.0);
+  observer.addWorld(0.75);
+  EXPECT_NEAR(observer.available(), kTank + 0.75, 1e-15);
+}
+
+// Motion that the force itself causes counts: the hand may be at rest, and light.
+TEST(PassivityObserver, AForceThatMovesTheHandTakesNoMoreThanThereIs) {
+  for (const double linear : {-0.02, -1e-4, 0.0, 1e-4, 0.02, 10.0}) {
+    for (const double quadratic : {1e-6, 0.05, 600.0}) {
+      for (const double left : {0.0, 1e-4, 5e-3, kTank}) {
+        PassivityObserver observer;
+        observer.addHand(left - kTank);
+        const double share = observer.computeShare({linear, quadratic});
+        EXPECT_GE(share, 0.0);
+        EXPECT_LE(share, 1.0);
+        EXPECT_LE(share * (linear + share * quadratic), 0.8 * left + 1e-15);
+      }
+    }
+  }
 }
 
 TEST(PassivityObserver, WhatIsNoNumberDoesNotCount) {
   PassivityObserver observer;
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    observer.addOwn(bad);
-    observer.addOwn(-bad);
-    observer.addReported(bad);
+    observer.addHand(bad);
+    observer.addHand(-bad);
+    observer.addMoved(bad);
   }
   EXPECT_EQ(observer.own(), 0.0);
   EXPECT_EQ(observer.available(), kTank);
@@ -101,11 +128,11 @@ TEST(PassivityObserver, WhatIsNoNumberDoesNotCount) {
 
 TEST(PassivityObserver, RefillsToTheTankAndNoFurther) {
   PassivityObserver observer;
-  observer.addOwn(-0.015);
+  observer.addHand(-0.015);
   observer.refill();
   EXPECT_NEAR(observer.available(), kTank, 1e-15);
   EXPECT_NEAR(observer.own(), 0.0, 1e-15);
-  observer.addOwn(1.0);
+  observer.addHand(1.0);
   observer.refill();
   EXPECT_NEAR(observer.available(), kTank + 1.0, 1e-15);
   EXPECT_NEAR(observer.lowest(), kTank - 0.015, 1e-15);
@@ -122,11 +149,11 @@ TEST(PassivityObserver, HoldsForDrawnForces) {
     double got = 0.0, reported = 0.0;
     for (int tick = 0; tick < 2000; ++tick) {
       const double wanted = random.uniform(-0.02, 0.05);
-      const double given = wanted * observer.computeShare(wanted);
-      observer.addOwn(-given);
+      const double given = wanted * observer.computeShare({wanted, 0.0});
+      observer.addHand(-given);
       got += given;
       const double more = random.uniform(0.0, 2e-4);
-      observer.addReported(more);
+      observer.addMoved(more);
       reported += more;
       ASSERT_LE(got, kTank + reported + 1e-12);
       ASSERT_GE(observer.available(), -1e-12);
@@ -141,6 +168,10 @@ TEST(PassivitySettings, BadOnesAreRefusedByName) {
   EXPECT_NE(refusal([&](auto& s) { s.tank = nan; }).find("passivity.tank"), std::string::npos);
   EXPECT_NE(refusal([](auto& s) { s.band = 1.0; }).find("passivity.band = 1"), std::string::npos);
   EXPECT_NE(refusal([](auto& s) { s.most = -1.0; }).find("passivity.most = -1"), std::string::npos);
+  EXPECT_NE(refusal([](auto& s) { s.power = -1.0; }).find("passivity.power = -1"),
+            std::string::npos);
+  EXPECT_NE(refusal([](auto& s) { s.least_mass = 0.0; }).find("passivity.least_mass = 0"),
+            std::string::npos);
   EXPECT_EQ(refusal([](auto&) {}), "");
 }
 

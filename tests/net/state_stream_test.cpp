@@ -14,15 +14,15 @@ struct Way {
   double now = 1.0;
   std::uint64_t datagram = 0;
 
-  void send(std::uint64_t sequence, std::optional<double> port_energy) {
-    EXPECT_EQ(receive(make(sequence, port_energy), datagram++), Refusal::kNone);
+  void send(std::uint64_t sequence, std::optional<double> granted) {
+    EXPECT_EQ(receive(make(sequence, granted), datagram++), Refusal::kNone);
   }
-  std::vector<std::uint8_t> make(std::uint64_t sequence, std::optional<double> port_energy) {
+  std::vector<std::uint8_t> make(std::uint64_t sequence, std::optional<double> granted) {
     StatePacket packet;
     packet.sender = PeerId{2};
     packet.sequence = sequence;
     packet.time = now;
-    packet.port_energy = port_energy;
+    if (granted) packet.energy = {*granted, -0.5};
     std::vector<std::uint8_t> bytes(2048);
     bytes.resize(sender.write(packet, now, {bytes.data(), bytes.size()}));
     now += 0.01;
@@ -44,17 +44,18 @@ struct Way {
 TEST(StateStream, EnergyArrivesOrThatThereIsNone) {
   Way way;
   way.send(0, 0.25);
-  way.send(1, -1.5);
+  way.send(1, 1.5);
   way.send(2, std::nullopt);
   const std::vector<StatePacket> got = way.take();
   ASSERT_EQ(got.size(), 3u);
-  EXPECT_EQ(got[0].port_energy, 0.25);
-  EXPECT_EQ(got[1].port_energy, -1.5);
-  EXPECT_FALSE(got[2].port_energy);
+  EXPECT_EQ(got[0].energy->granted, 0.25);
+  EXPECT_EQ(got[0].energy->holdings, -0.5);
+  EXPECT_EQ(got[1].energy->granted, 1.5);
+  EXPECT_FALSE(got[2].energy);
 }
 
-// The restarted peer's account begins at zero. The energy reported before still counts.
-TEST(StateStream, EnergyOfAPeerThatBeginsAnewGoesOn) {
+// The restarted peer's grants begin at zero. The receiver goes on from those before.
+TEST(StateStream, GrantsOfAPeerThatBeginsAnewGoOn) {
   Way way;
   way.send(0, 0.25);
   way.send(1, 3.0);
@@ -66,12 +67,12 @@ TEST(StateStream, EnergyOfAPeerThatBeginsAnewGoesOn) {
   way.send(1, 0.5);
   const std::vector<StatePacket> got = way.take();
   ASSERT_EQ(got.size(), 2u);
-  EXPECT_EQ(got[0].port_energy, 3.0);
-  EXPECT_EQ(got[1].port_energy, 3.5);
+  EXPECT_EQ(got[0].energy->granted, 3.0);
+  EXPECT_EQ(got[1].energy->granted, 3.5);
 }
 
-// New keys alone do not change the energy.
-TEST(StateStream, EnergyGoesOnOverNewKeys) {
+// New keys alone do not change the grants.
+TEST(StateStream, GrantsGoOnOverNewKeys) {
   Way way;
   way.send(0, 1.0);
   way.receiver.startKeys();
@@ -79,7 +80,7 @@ TEST(StateStream, EnergyGoesOnOverNewKeys) {
   way.send(1, 2.0);
   const std::vector<StatePacket> got = way.take();
   ASSERT_EQ(got.size(), 2u);
-  EXPECT_EQ(got[1].port_energy, 2.0);
+  EXPECT_EQ(got[1].energy->granted, 2.0);
 }
 
 // A datagram with the new keys that overtakes must not invalidate those under the old keys.

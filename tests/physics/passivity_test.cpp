@@ -84,9 +84,9 @@ struct ShakenHand {
     site->connect(kRemote, link, Vec3::Zero());
   }
 
-  /// `report(t)` fills the report of the packet at time t.
-  template <typename Report>
-  void run(double duration, Report report, double start = 0.0) {
+  /// `granted(t)` is the energy that the peer has granted by time t; it keeps the rest.
+  template <typename Granted>
+  void run(double duration, Granted granted, double start = 0.0) {
     Vec3 force_W = Vec3::Zero();
     const auto first = std::lround(start / kPeriod);
     for (auto tick = first; tick < first + std::lround(duration / kPeriod); ++tick) {
@@ -95,7 +95,8 @@ struct ShakenHand {
         StatePacket packet = makePacket(kRemote, static_cast<std::uint64_t>(tick / 8),
                                         Vec3(0.03 * std::sin(20.0 * now), 0.0, 0.0));
         packet.user.v_W.x() = 0.6 * std::cos(20.0 * now);
-        packet.port_energy = report(now);
+        const std::optional<double> energy = granted(now);
+        if (energy) packet.energy = {*energy, 1e6};
         link.arrivals.push_back({packet, now});
       }
       site->tick(now);
@@ -112,7 +113,7 @@ struct ShakenHand {
   }
 };
 
-TEST(Passivity, APeerThatPutsNothingInGivesNoMoreThanTheTank) {
+TEST(Passivity, APeerThatGrantsNothingGivesNoMoreThanTheTank) {
   const PassivitySettings settings;
   ShakenHand hand(settings);
   hand.run(20.0, [](double) { return 0.0; });
@@ -127,7 +128,7 @@ TEST(Passivity, APeerThatPutsNothingInGivesNoMoreThanTheTank) {
   EXPECT_GT(unwatched.got, 10.0 * settings.tank);
 }
 
-TEST(Passivity, APeerThatPutsItInMayGiveIt) {
+TEST(Passivity, APeerThatGrantsItMayGiveIt) {
   ShakenHand hand(PassivitySettings{});
   hand.run(20.0, [](double t) { return t > 0.0 ? 0.1 + t : 0.0; });
   EXPECT_GT(hand.got, 10.0 * PassivitySettings{}.tank);
@@ -135,16 +136,12 @@ TEST(Passivity, APeerThatPutsItInMayGiveIt) {
   EXPECT_NEAR(hand.site->passivity().own(), -hand.got, 0.01 * hand.got);
 }
 
-// Energy of a peer before it was heard, or while it was lost, is no debt and no credit of this
-// hand.
-TEST(Passivity, OnlyWhatAPeerDoesWhileItIsHeardCounts) {
-  for (const double past : {-5.0, 5.0}) {
-    SCOPED_TRACE(past);
-    ShakenHand hand(PassivitySettings{});
-    hand.run(0.1, [&](double) { return past; });
-    const PassivityObserver& passivity = hand.site->passivity();
-    EXPECT_NEAR(passivity.available(), PassivitySettings{}.tank + passivity.own(), 1e-12);
-  }
+// Grants of a peer before it was heard are of another time.
+TEST(Passivity, OnlyWhatAPeerGrantsWhileItIsHeardCounts) {
+  ShakenHand hand(PassivitySettings{});
+  hand.run(0.1, [](double) { return 5.0; });
+  const PassivityObserver& passivity = hand.site->passivity();
+  EXPECT_NEAR(passivity.available(), PassivitySettings{}.tank + passivity.own(), 1e-12);
 }
 
 // A single bad reading costs the force of its own tick, and nothing later.
@@ -160,16 +157,23 @@ TEST(Passivity, AReadingThatIsNoNumberLeavesTheAccountAlone) {
   hand.run(0.5, giving, 0.501);
   EXPECT_TRUE(std::isfinite(hand.site->passivity().own()));
   ASSERT_FALSE(hand.link.sent.empty());
-  EXPECT_TRUE(std::isfinite(hand.link.sent.back().port_energy.value_or(std::nan(""))));
+  ASSERT_TRUE(hand.link.sent.back().energy);
+  EXPECT_TRUE(std::isfinite(hand.link.sent.back().energy->holdings));
   EXPECT_EQ(hand.site->counters().energy_limited, 0u);
   EXPECT_GT(hand.largest_step, 0.1);
 }
 
-TEST(Passivity, APeerWithoutAnAccountIsTakenAtItsWord) {
-  ShakenHand hand(PassivitySettings{});
-  hand.run(20.0, [](double) { return std::nullopt; });
-  EXPECT_GT(hand.got, 10.0 * PassivitySettings{}.tank);
-  EXPECT_EQ(hand.site->counters().energy_limited, 0u);
+// A peer that keeps no account, and one that lies, give no more than the power that is allowed.
+TEST(Passivity, APeerGivesNoMoreThanThePower) {
+  PassivitySettings settings;
+  settings.power = 2e-3;
+  for (const bool keeps_account : {false, true}) {
+    SCOPED_TRACE(keeps_account);
+    ShakenHand hand(settings);
+    hand.run(20.0, [&](double t) { return keeps_account ? std::optional(1e6 * t) : std::nullopt; });
+    EXPECT_LT(hand.got, settings.tank + settings.power * 20.0 + 1e-4);
+    EXPECT_GT(hand.got, 0.5 * settings.power * 20.0);
+  }
 }
 
 TEST(Passivity, SwitchedOffItSaysSoInPackets) {
@@ -179,7 +183,7 @@ TEST(Passivity, SwitchedOffItSaysSoInPackets) {
   hand.link = FakeLink(10);
   hand.run(1.0, [](double) { return 0.0; });
   ASSERT_FALSE(hand.link.sent.empty());
-  EXPECT_FALSE(hand.link.sent.back().port_energy);
+  EXPECT_FALSE(hand.link.sent.back().energy);
   EXPECT_GT(hand.got, 0.0);
   EXPECT_EQ(hand.site->counters().energy_limited, 0u);
 }
@@ -212,8 +216,8 @@ TEST(EnergyAccount, CountsTheWeightOfWhatFalls) {
   const double height = -scene.site->object(0).p_W.z();
   EXPECT_GT(height, 0.7);
   EXPECT_NEAR(scene.own(), LoneCube::kShare * 9.81 * height, 1e-6);
-  ASSERT_TRUE(scene.link.sent.back().port_energy);
-  EXPECT_NEAR(*scene.link.sent.back().port_energy, scene.own(), 0.1);
+  ASSERT_TRUE(scene.link.sent.back().energy);
+  EXPECT_NEAR(scene.link.sent.back().energy->holdings, scene.own(), 0.1);
 }
 
 TEST(EnergyAccount, CountsTheHostsImpulses) {

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"connect peer=1 link=0 start=0,0,0", -TANDEM_INVALID_ARGUMENT, "its own remote"},
         Wrong{"proxy remote=0 body=0", kBad, "no such remote"},
         Wrong{"hand force=1,0,0", kBad, "position"}, Wrong{"pop link=3", kBad, "no manual link"},
-        Wrong{"push link=0", kBad, "12 doubles"},
+        Wrong{"push link=0", kBad, "13 doubles"},
         Wrong{"mesh self=1 bind=nowhere", -TANDEM_INVALID_ARGUMENT, ""},
         Wrong{"mesh_status peer=2", kOrder, "no mesh"}));
 

@@ -69,7 +69,8 @@ TEST(PacketDoubles, GiveThePacketBack) {
   packet.sender = 4294967295U;
   packet.sequence = 1ULL << 50U;
   packet.time = 0.1;
-  packet.port_energy = -2.0;
+  packet.energy_granted = 3.0;
+  packet.energy_holdings = -2.0;
   packet.object_count = TANDEM_MAX_OBJECTS_PER_PACKET;
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     packet.object_ids[i] = 100 + i;
@@ -87,9 +88,9 @@ TEST(PacketDoubles, RefuseWhatIsNone) {
                                   {0, 0.5},
                                   {0, 1e10},
                                   {2, 1e17},
-                                  {11, 9.0},
-                                  {11, 1.0},
-                                  {11, std::numeric_limits<double>::quiet_NaN()}}) {
+                                  {12, 9.0},
+                                  {12, 1.0},
+                                  {12, std::numeric_limits<double>::quiet_NaN()}}) {
     std::vector<double> bad = good;
     bad[static_cast<std::size_t>(at)] = value;
     EXPECT_THROW((void)toPacket(bad), Refusal) << at << " " << value;

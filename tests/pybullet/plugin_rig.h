@@ -22,8 +22,20 @@ inline double computeRinging(double x0, double t) {
 
 /// A packet of user 2, whose hand rests at `hand`, with these objects at rest.
 inline std::vector<double> makePacket(const Vec3& hand, const std::vector<Vec3>& objects = {}) {
-  std::vector<double> packet{2,        0, 0, 0, hand.x(),     hand.y(),
-                             hand.z(), 0, 0, 0, std::nan(""), static_cast<double>(objects.size())};
+  const double none = std::nan("");  // no account of energy
+  std::vector<double> packet{2,
+                             0,
+                             0,
+                             0,
+                             hand.x(),
+                             hand.y(),
+                             hand.z(),
+                             0,
+                             0,
+                             0,
+                             none,
+                             none,
+                             static_cast<double>(objects.size())};
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Vec3& p = objects[i];
     packet.insert(packet.end(),

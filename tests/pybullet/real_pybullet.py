@@ -89,7 +89,7 @@ class FreeCoupler(unittest.TestCase):
             site.share(cube, shape=("box", HALF) if maximal else None)
             link = site.manual_link()
             site.connect(2, link, start=(-5, 0, 0))
-            link.push(tandem.Packet(2, False, 0, 0.0, (-5, 0, 0), (0, 0, 0), math.nan,
+            link.push(tandem.Packet(2, False, 0, 0.0, (-5, 0, 0), (0, 0, 0), math.nan, math.nan,
                                     [(0, AT_REST)]))
             worst = 0.0
             for step in range(1, rate // 2):

@@ -156,25 +156,30 @@ TEST(Peers, TiesOfALostPeerActAgainOnceTheyAreRenewed) {
   EXPECT_EQ(talk.share(1), talk.share(0));
 }
 
-TEST(Peers, CountTheEnergyThatAPeerReportsBetweenPackets) {
+TEST(Peers, TakeWhatAPeerGrantsOnce) {
   Conversation talk;
-  const PassivityObserver& observer = talk.rig.hand.energy().observer();
-  const double start = observer.available();
+  EnergyPort& energy = talk.rig.hand.energy();
+  const double start = energy.observer().available();
   EXPECT_TRUE(talk.rig.peers.keepAccounts());
-  const double reports[] = {5.0, 5.5, 5.25};
-  for (std::uint64_t i = 0; i < 3; ++i) {
-    StatePacket packet = talk.makePacket(i);
-    packet.port_energy = reports[i];
-    talk.arrive(packet, 0.01 * static_cast<double>(i));
-  }
-  EXPECT_NEAR(observer.available() - start, 0.25, 1e-15);
-  // The first report after a loss is a new reference.
+  const auto arrive = [&](std::uint64_t sequence, double granted) {
+    StatePacket packet = talk.makePacket(sequence);
+    packet.energy = {granted, 0.0};
+    talk.arrive(packet, 0.01 * static_cast<double>(sequence));
+    energy.receive(1.0, true);
+  };
+  arrive(0, 5.0);  // the first only says where the sum stands
+  arrive(2, 5.75);
+  arrive(1, 5.5);  // overtaken
+  arrive(3, 5.75);
+  EXPECT_NEAR(energy.observer().available() - start, 0.75, 1e-15);
+  // A silence loses nothing: sums of grants go on.
   talk.follow(0.4);
-  StatePacket back = talk.makePacket(3);
-  back.port_energy = 9.0;
-  talk.arrive(back, 0.4);
-  EXPECT_NEAR(observer.available() - start, 0.25, 1e-15);
-  talk.arrive(talk.makePacket(4), 0.41);
+  arrive(40, 6.0);
+  EXPECT_NEAR(energy.observer().available() - start, 1.0, 1e-15);
+  arrive(41, 0.25);  // a peer that began anew
+  arrive(42, 0.5);
+  EXPECT_NEAR(energy.observer().available() - start, 1.25, 1e-15);
+  talk.arrive(talk.makePacket(43), 0.43);
   EXPECT_FALSE(talk.rig.peers.keepAccounts());
 }
 

@@ -67,7 +67,7 @@ TEST(CDoor, ALoopRunsBesideTheHost) {
         TandemPacket theirs{};
         theirs.sender = 2;
         theirs.sequence = popped;
-        theirs.port_energy = std::nan("");
+        theirs.energy_granted = std::nan("");
         ok(tandem_link_push(link, &theirs));
         usleep(500);
       }

@@ -16,13 +16,13 @@ using test::Wire;
 
 /// Settings that need no privileges and tolerate a busy machine.
 constexpr HapticLoopSettings kModest{.priority = 0, .locks_memory = false, .begin = {}};
-/// Limits of the force: 2 N per tick, 8 N in all, plus rounding.
-constexpr double kMostStep = 2.0 + 1e-9, kMostForce = 8.0 + 1e-9;
+/// Limits of the force: a rise of 2 N per tick, 8 N in all, plus rounding.
+constexpr double kMostRise = 2.0 + 1e-9, kMostForce = 8.0 + 1e-9;
 
 void expectSafe(const test::WatchedDevice& device) {
   EXPECT_TRUE(device.is_finite);
   EXPECT_LE(device.largest, kMostForce);
-  EXPECT_LE(device.largest_step, kMostStep);
+  EXPECT_LE(device.largest_rise, kMostRise);
   EXPECT_EQ(device.last_W, Vec3(Vec3::Zero())) << "the hand was let go with a force on it";
 }
 

@@ -36,7 +36,7 @@ class WatchedDevice final : public HapticDevice {
     device_.write(f_W);
     is_finite &= f_W.allFinite();
     largest = std::max(largest, f_W.norm());
-    largest_step = std::max(largest_step, (f_W - last_W).norm());
+    largest_rise = std::max(largest_rise, f_W.norm() - last_W.norm());
     last_W = f_W;
   }
 
@@ -44,7 +44,7 @@ class WatchedDevice final : public HapticDevice {
   int dawdles_every = 0;
   // For the haptic thread, or for any thread when there is none.
   Vec3 last_W = Vec3::Zero();
-  double largest = 0.0, largest_step = 0.0;
+  double largest = 0.0, largest_rise = 0.0;
   bool is_finite = true;
 
  private:

@@ -4,7 +4,7 @@ import math
 import re
 import struct
 
-VERSION = 1
+VERSION = 2
 MAX_TIME = 2**50
 TYPES = {1: "HELLO", 2: "COOKIE", 3: "OPEN", 4: "ACCEPT", 5: "REFUSE",
          16: "STATE", 17: "AGREE", 18: "AGREE_ACK", 19: "BYE", 20: "PATH_CHALLENGE", 21: "PATH_RESPONSE"}
@@ -13,9 +13,9 @@ CLEAR_SIZES = {"HELLO": 256, "COOKIE": 64, "OPEN": 104, "ACCEPT": 88, "REFUSE": 
 
 HEADER = struct.Struct("<HBBIHHQ")
 ROUTE = struct.Struct("<HBBQ")
-BLOCK = struct.Struct("<qqQqIIdHBBI")
+BLOCK = struct.Struct("<qqQqIIddHBBI")
 BLOCK_FIELDS = ("send_time_us", "state_time_us", "state_sequence", "echo_send_time_us", "echo_hold_us",
-                "ack_bits", "port_energy", "flags", "profile", "object_count", "config_hash")
+                "ack_bits", "granted", "holdings", "flags", "profile", "object_count", "config_hash")
 MOTION = {"position": 1e3, "velocity": 1e2, "angular_velocity": 1e3}  # bounds of each component
 DEVICE_FIELDS = (("position", 3), ("velocity", 3))
 OBJECT_FIELDS = (("position", 3), ("orientation", 4), ("velocity", 3), ("angular_velocity", 3))
@@ -102,7 +102,7 @@ def read_state(payload):
     require(len(payload) == size, "wrong_size")
     require(block["flags"] & ~15 == 0, "flags")
     require(all(0 <= block[name] <= MAX_TIME for name in BLOCK_FIELDS if "_time_us" in name), "time")
-    require(abs(block["port_energy"]) <= 1e9, "energy")  # false for a NaN, too
+    require(all(abs(block[name]) <= 1e9 for name in ("granted", "holdings")), "energy")  # false for a NaN, too
     device, offset = read_reals(payload, BLOCK.size, real, DEVICE_FIELDS)
     block.update({f"device.{name}": value for name, value in device.items()})
     ids = set()

@@ -77,7 +77,7 @@ inline StateMessage makeState(WireProfile profile) {
   message.echo_send_time_us = 77000456;
   message.echo_hold_us = 7812;
   message.ack_bits = 0xfffffffd;
-  message.port_energy = -0.0125;
+  message.energy = {0.375, -0.0125};
   message.flags = profile == WireProfile::kFloat32 ? kStateFlags : 0;
   message.profile = profile;
   message.config_hash = 0xdeadbeef;
@@ -97,7 +97,7 @@ inline StateMessage makeFullState() {
   message.packet.time = 1125899906.842624;  // 2^50 us
   message.packet.sequence = ~std::uint64_t{0};
   message.echo_hold_us = message.ack_bits = ~std::uint32_t{0};
-  message.port_energy = 1e9;
+  message.energy = {1e9, -1e9};
   message.flags = kStateFading;
   message.config_hash = 0xdeadbeef;
   message.packet.user = {Vec3(-1000.0, 1000.0, 0.0), Vec3(100.0, -100.0, 0.0)};

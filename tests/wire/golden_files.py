@@ -24,7 +24,7 @@ def parse(name, text):
         return bytes.fromhex(text)
     if last in ("position", "orientation", "velocity", "angular_velocity"):
         return [float(word) for word in text.split()]
-    return float(text) if last == "port_energy" else int(text, 0)
+    return float(text) if last in ("granted", "holdings") else int(text, 0)
 
 
 def read_index(folder):

@@ -82,8 +82,9 @@ TEST(WireGolden, Accept) {
 
 TEST(WireGolden, Refuse) {
   for (const RefuseMessage& refuse :
-       {RefuseMessage{kBack, RefuseCode::kKey, 1}, RefuseMessage{kBack, RefuseCode::kVersion, 2}}) {
-    const Bytes golden = readGolden(refuse.version == 1 ? "refuse_key.bin" : "refuse_version.bin");
+       {RefuseMessage{kBack, RefuseCode::kKey, 2}, RefuseMessage{kBack, RefuseCode::kVersion, 3}}) {
+    const Bytes golden =
+        readGolden(refuse.version == kWireVersion ? "refuse_key.bin" : "refuse_version.bin");
     EXPECT_EQ(collect([&](ByteSpan out) { return encodeRefuse(refuse, out); }), golden);
     const auto message = decodeRefuse(viewOf(golden));
     ASSERT_TRUE(message);
@@ -122,7 +123,8 @@ void expectState(const Bytes& golden, const ClearHeader& expected_header,
   EXPECT_EQ(message->echo_send_time_us, expected.echo_send_time_us);
   EXPECT_EQ(message->echo_hold_us, expected.echo_hold_us);
   EXPECT_EQ(message->ack_bits, expected.ack_bits);
-  EXPECT_EQ(message->port_energy, expected.port_energy);
+  EXPECT_EQ(message->energy.granted, expected.energy.granted);
+  EXPECT_EQ(message->energy.holdings, expected.energy.holdings);
   EXPECT_EQ(message->flags, expected.flags);
   EXPECT_EQ(message->profile, expected.profile);
   EXPECT_EQ(message->config_hash, expected.config_hash);

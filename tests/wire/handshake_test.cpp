@@ -75,7 +75,7 @@ TEST(WireHandshake, HeadersKeepToTheStandard) {
   bad[1].sender = PeerId{0};
   bad[2].sender = PeerId{65537};
   bad[3].key_epoch = 0;
-  bad[4].version = 2;
+  bad[4].version = kWireVersion + 1;
   bad[5].type = MessageType{6};
   for (const ClearHeader& header : bad) EXPECT_EQ(encode(header), 0U);
 }

@@ -31,10 +31,10 @@ Decoded<StateMessage> decode(const Bytes& bytes, const WireLimits& limits = {}) 
 }
 
 TEST(WireState, SizesAreThoseOfTheStandard) {
-  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 0), 80U);
-  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1), 136U);
-  EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 212U);
-  EXPECT_EQ(kMaxStateSize, 968U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 0), 88U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1), 144U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 220U);
+  EXPECT_EQ(kMaxStateSize, 976U);
   EXPECT_LE(kMaxStateSize, kMaxPayloadSize);
 }
 
@@ -105,7 +105,7 @@ StateMessage drawState(std::mt19937_64& random, WireProfile profile) {
   message.echo_send_time_us = static_cast<std::int64_t>(random() >> 14);
   message.echo_hold_us = static_cast<std::uint32_t>(random());
   message.ack_bits = static_cast<std::uint32_t>(random());
-  message.port_energy = draw(1e9);
+  message.energy = {draw(1e9), draw(1e9)};
   message.flags = static_cast<std::uint16_t>(random() & kStateFlags);
   message.config_hash = static_cast<std::uint32_t>(random());
   message.packet.user = {drawVector(1e3), drawVector(1e2)};
@@ -125,7 +125,8 @@ void expectEqualBlocks(const StateMessage& a, const StateMessage& b) {
   EXPECT_EQ(a.echo_send_time_us, b.echo_send_time_us);
   EXPECT_EQ(a.echo_hold_us, b.echo_hold_us);
   EXPECT_EQ(a.ack_bits, b.ack_bits);
-  EXPECT_EQ(a.port_energy, b.port_energy);
+  EXPECT_EQ(a.energy.granted, b.energy.granted);
+  EXPECT_EQ(a.energy.holdings, b.energy.holdings);
   EXPECT_EQ(a.flags, b.flags);
   EXPECT_EQ(a.profile, b.profile);
   EXPECT_EQ(a.config_hash, b.config_hash);
@@ -169,13 +170,13 @@ TEST_P(WireStateProfiles, WhatGoesInComesOut) {
 TEST_P(WireStateProfiles, OddNumbersAreNumbers) {
   for (const double odd : {-0.0, 5e-324, -1e-310, 1e-40, -1e-45}) {
     StateMessage message = makeState(GetParam());
-    message.port_energy = odd;
+    message.energy.granted = odd;
     message.packet.user.p_W.x() = message.packet.objects[0].state.w_W.z() = odd;
     const auto got = decode(encode(message));
     ASSERT_TRUE(got);
     const double expected =
         GetParam() == WireProfile::kFloat32 ? static_cast<double>(static_cast<float>(odd)) : odd;
-    EXPECT_EQ(got->port_energy, odd);
+    EXPECT_EQ(got->energy.granted, odd);
     EXPECT_EQ(got->packet.user.p_W.x(), expected);
     EXPECT_EQ(got->packet.objects[0].state.w_W.z(), expected);
     EXPECT_EQ(std::signbit(got->packet.user.p_W.x()), std::signbit(odd));
@@ -247,8 +248,10 @@ TEST(WireState, SenderKeepsToTheGate) {
       [](StateMessage& m) { m.packet.time = -1.0; },
       [](StateMessage& m) { m.packet.time = std::nan(""); },
       [](StateMessage& m) { m.packet.time = 1.2e9; },
-      [](StateMessage& m) { m.port_energy = std::nan(""); },
-      [](StateMessage& m) { m.port_energy = -1.1e9; },
+      [](StateMessage& m) { m.energy.granted = std::nan(""); },
+      [](StateMessage& m) { m.energy.holdings = std::nan(""); },
+      [](StateMessage& m) { m.energy.granted = 1.1e9; },
+      [](StateMessage& m) { m.energy.holdings = -1.1e9; },
       [](StateMessage& m) { m.flags = 16; },
       [](StateMessage& m) { m.profile = WireProfile{2}; },
       [](StateMessage& m) { m.packet.object_count = kMaxObjectsPerPacket + 1; },

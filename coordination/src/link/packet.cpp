@@ -18,7 +18,9 @@ bool isSane(const ObjectState& object) noexcept {
 bool isSane(const StatePacket& packet) noexcept {
   if (packet.object_count > packet.objects.size()) return false;
   if (!std::isfinite(packet.time) || !isFinite(packet.user)) return false;
-  if (packet.port_energy && !std::isfinite(*packet.port_energy)) return false;
+  if (packet.energy &&
+      !(std::isfinite(packet.energy->granted) && std::isfinite(packet.energy->holdings)))
+    return false;
   const auto* const first = packet.objects.data();
   return std::all_of(first, first + packet.object_count,
                      [](const ObjectState& object) { return isSane(object); });

@@ -65,7 +65,8 @@ class StateGate {
     if ((message.flags & ~kStateFlags) != 0) return WireRefusal::kFlags;
     for (const std::int64_t time : {message.send_time_us, state_time_us, message.echo_send_time_us})
       if (time < 0 || time > kMaxWireTimeUs) return WireRefusal::kTime;
-    if (!(std::abs(message.port_energy) <= limits_.energy)) return WireRefusal::kEnergy;
+    for (const double energy : {message.energy.granted, message.energy.holdings})
+      if (!(std::abs(energy) <= limits_.energy)) return WireRefusal::kEnergy;
     return WireRefusal::kNone;
   }
 

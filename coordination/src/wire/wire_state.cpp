@@ -7,8 +7,9 @@
 #include "wire/state_gate.h"
 
 //   0 send_time_us i64 | state_time_us i64 | state_sequence u64 | echo_send_time_us i64
-//  32 echo_hold_us u32 | ack_bits u32 | port_energy f64 | flags u16 | profile u8 | objects u8
-//  52 config_hash u32 | DEVICE {p, v} | OBJECT {id u16, zero u16, p, q, v, w} ...
+//  32 echo_hold_us u32 | ack_bits u32 | granted f64 | holdings f64
+//  56 flags u16 | profile u8 | objects u8 | config_hash u32 | DEVICE {p, v} | OBJECT {id u16, zero
+//  u16, p, q, v, w} ...
 namespace tandem {
 namespace {
 
@@ -122,7 +123,8 @@ WireRefusal readState(ByteView payload, const WireLimits& limits, StateMessage& 
   message.echo_send_time_us = reader.readTime();
   message.echo_hold_us = reader.read<std::uint32_t>();
   message.ack_bits = reader.read<std::uint32_t>();
-  message.port_energy = reader.readDouble();
+  message.energy.granted = reader.readDouble();
+  message.energy.holdings = reader.readDouble();
   message.flags = reader.read<std::uint16_t>();
   const auto profile = reader.read<std::uint8_t>();
   packet.object_count = reader.read<std::uint8_t>();
@@ -163,7 +165,8 @@ std::size_t encodeState(const StateMessage& message, ByteSpan out,
   writer.write(message.echo_send_time_us);
   writer.write(message.echo_hold_us);
   writer.write(message.ack_bits);
-  writer.write(message.port_energy);
+  writer.write(message.energy.granted);
+  writer.write(message.energy.holdings);
   writer.write(message.flags);
   writer.write(static_cast<std::uint8_t>(message.profile));
   writer.write(static_cast<std::uint8_t>(packet.object_count));

@@ -17,7 +17,7 @@ enum StateFlag : std::uint16_t {
   kStateIdle = 1,     ///< nothing moves at the sender, which sends at its keep-alive rate
   kStateLeaving = 2,  ///< the sender's user is about to leave
   kStateFading = 4,   ///< the sender fades, or has faded, its coupling to the receiver
-  kStateAccount = 8,  ///< the sender measures energy: `port_energy` is valid
+  kStateAccount = 8,  ///< the sender keeps an account of energy: `energy` is valid
 };
 
 inline constexpr std::uint16_t kStateFlags =
@@ -30,7 +30,7 @@ struct StateMessage {
   std::int64_t echo_send_time_us = 0;  ///< send time of the receiver's newest STATE; 0: none yet
   std::uint32_t echo_hold_us = 0;      ///< time from that one's arrival to `send_time_us`
   std::uint32_t ack_bits = 0;          ///< bit i: the datagram 1 + i before that one arrived
-  double port_energy = 0.0;            ///< energy that the sender's side put in so far [J]
+  EnergyReport energy;                 ///< to the receiver
   std::uint16_t flags = 0;             ///< bits of StateFlag
   WireProfile profile = WireProfile::kFloat64;
   std::uint32_t config_hash = 0;  ///< hash of the sender's configuration
@@ -45,7 +45,7 @@ struct WireLimits {
   double energy = 1e9;            ///< [J]
 };
 
-inline constexpr std::size_t kStateBlockSize = 56;  ///< before the records [bytes]
+inline constexpr std::size_t kStateBlockSize = 64;  ///< before the records [bytes]
 
 /// Size of a payload [bytes].
 [[nodiscard]] constexpr std::size_t computeStateSize(WireProfile profile,

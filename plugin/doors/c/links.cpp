@@ -48,7 +48,8 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
   read.user = {{packet.position[0], packet.position[1], packet.position[2]},
                {packet.velocity[0], packet.velocity[1], packet.velocity[2]}};
   read.is_idle = packet.is_idle != 0;
-  if (!std::isnan(packet.port_energy)) read.port_energy = packet.port_energy;
+  if (!std::isnan(packet.energy_granted))
+    read.energy = {packet.energy_granted, packet.energy_holdings};
   read.object_count = static_cast<std::uint32_t>(packet.object_count);
   for (std::uint32_t i = 0; i < read.object_count; ++i)
     read.objects[i] = {packet.object_ids[i], fromPacket(packet.objects[i])};
@@ -63,7 +64,8 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
   writeVec3(packet.user.p_W, written.position);
   writeVec3(packet.user.v_W, written.velocity);
   written.is_idle = packet.is_idle;
-  written.port_energy = packet.port_energy.value_or(std::nan(""));
+  written.energy_granted = packet.energy ? packet.energy->granted : std::nan("");
+  written.energy_holdings = packet.energy ? packet.energy->holdings : std::nan("");
   written.object_count = packet.object_count;
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     written.object_ids[i] = packet.objects[i].id;

@@ -9,7 +9,7 @@
 namespace tandem::pybullet {
 namespace {
 
-constexpr std::size_t kHead = 12;
+constexpr std::size_t kHead = 13;
 constexpr std::size_t kPerObject = 14;
 
 /// Checks that `value` is a whole number in [0, most].
@@ -34,7 +34,8 @@ std::vector<double> toDoubles(const TandemPacket& packet) {
   };
   append(packet.position, 3);
   append(packet.velocity, 3);
-  doubles.push_back(packet.port_energy);
+  doubles.push_back(packet.energy_granted);
+  doubles.push_back(packet.energy_holdings);
   doubles.push_back(static_cast<double>(packet.object_count));
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     const TandemState& state = packet.objects[i];
@@ -48,7 +49,7 @@ std::vector<double> toDoubles(const TandemPacket& packet) {
 }
 
 TandemPacket toPacket(const std::vector<double>& doubles) {
-  if (doubles.size() < kHead) throw Refusal(kBadCommand, "push: a packet has 12 doubles or more");
+  if (doubles.size() < kHead) throw Refusal(kBadCommand, "push: a packet has 13 doubles or more");
   TandemPacket packet{};
   const double* at = doubles.data();
   packet.sender = static_cast<std::uint32_t>(toWhole(*at++, kMostId, "sender"));
@@ -58,7 +59,8 @@ TandemPacket toPacket(const std::vector<double>& doubles) {
   std::copy_n(at, 3, packet.position);
   std::copy_n(at + 3, 3, packet.velocity);
   at += 6;
-  packet.port_energy = *at++;
+  packet.energy_granted = *at++;
+  packet.energy_holdings = *at++;
   packet.object_count = static_cast<std::size_t>(
       toWhole(*at++, TANDEM_MAX_OBJECTS_PER_PACKET, "the number of objects"));
   if (doubles.size() != kHead + kPerObject * packet.object_count) {

@@ -44,8 +44,10 @@ State = namedtuple("State", "position orientation velocity angular_velocity")
 Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash packets_sent "
                                 "packets_taken has_ended objects proxies links")
 
-#: A state that manual links carry between sites; `objects`: (id, State) pairs.
-Packet = namedtuple("Packet", "sender is_idle sequence time position velocity port_energy objects")
+#: A state that manual links carry between sites; `objects`: (id, State) pairs. The energies [J] are the
+#: sender's part of its ledger with the receiver; NaN: it keeps no account.
+Packet = namedtuple("Packet", "sender is_idle sequence time position velocity energy_granted "
+                              "energy_holdings objects")
 
 #: A remote of a mesh. `address`: "host:port", or None if the peer calls us, which needs a lower number
 #: than ours. `key`: a file.
@@ -94,7 +96,8 @@ class Link:
     def push(self, packet):
         """Delivers a received Packet for the next step."""
         numbers = [packet.sender, packet.is_idle, packet.sequence, packet.time, *packet.position,
-                   *packet.velocity, packet.port_energy, len(packet.objects)]
+                   *packet.velocity, packet.energy_granted, packet.energy_holdings,
+                   len(packet.objects)]
         for number, state in packet.objects:
             numbers.append(number)
             for part in state:
@@ -108,10 +111,10 @@ class Link:
             return None
         sender, is_idle, sequence, time = numbers[:4]
         objects = []
-        for at in range(12, len(numbers), 14):
+        for at in range(13, len(numbers), 14):
             objects.append((int(numbers[at]), _state_of(numbers[at + 1:at + 14])))
         return Packet(int(sender), bool(is_idle), int(sequence), time, tuple(numbers[4:7]),
-                      tuple(numbers[7:10]), numbers[10], objects)
+                      tuple(numbers[7:10]), numbers[10], numbers[11], objects)
 
 
 class Site:

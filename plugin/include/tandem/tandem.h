@@ -208,7 +208,7 @@ typedef struct TandemDevice TandemDevice;
 /* Limits of a device. */
 typedef struct TandemDeviceLimits {
   double max_force; /* [N]; INFINITY: any */
-  double max_slew;  /* fastest change of the force that the hand should feel [N/s]; INFINITY: any */
+  double max_slew;  /* fastest rise of the force that the hand should feel [N/s]; INFINITY: any */
 } TandemDeviceLimits;
 
 /* Creates a device that the caller moves: tandem_device_move() and tandem_device_get_force().
@@ -277,7 +277,8 @@ typedef struct TandemPacket {
   double time;        /* sender's time [s] */
   double position[3]; /* of the sender's haptic interface point */
   double velocity[3];
-  double port_energy; /* energy that the sender put in so far [J]; NAN: no account */
+  double energy_granted;  /* to the receiver so far [J]; NAN: the sender keeps no account */
+  double energy_holdings; /* for the sender's hand, without the receiver's grants [J] */
   size_t object_count;
   uint32_t object_ids[TANDEM_MAX_OBJECTS_PER_PACKET];
   TandemState objects[TANDEM_MAX_OBJECTS_PER_PACKET];
@@ -395,7 +396,7 @@ typedef struct TandemSiteSettings {
   int max_neighbours; /* most host bodies that the island holds at a time */
   int link_loss;      /* gains fade when a remote falls silent; 0: its last state pulls for ever */
   int passivity;      /* keeps an energy account */
-  double max_slew;    /* limit of the device force's change [N/s] */
+  double max_slew;    /* limit of the device force's rise [N/s] */
   double fault_slew;  /* rate at which the force fades after a fault [N/s] */
 } TandemSiteSettings;
 

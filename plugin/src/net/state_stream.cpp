@@ -29,9 +29,9 @@ std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan p
     message.ack_bits = computeAckBits();
   }
   if (packet.is_idle) message.flags |= kStateIdle;
-  if (packet.port_energy) {
+  if (packet.energy) {
     message.flags |= kStateAccount;
-    message.port_energy = *packet.port_energy;
+    message.energy = *packet.energy;
   }
   message.profile = profile_;
   message.config_hash = config_hash_;
@@ -65,7 +65,7 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
       latest_sent_us_ = 0;
       trip_ = RoundTrip();
       offset_ = highest_ + 1;
-      energy_offset_ = energy_;
+      granted_offset_ = granted_;
       playout_.clear();
     }
     is_first_of_keys_ = false;
@@ -74,10 +74,10 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
   packet.sequence += offset_;
   packet.is_idle = (message->flags & kStateIdle) != 0;
   if ((message->flags & kStateAccount) != 0)
-    packet.port_energy = message->port_energy + energy_offset_;
+    packet.energy = {message->energy.granted + granted_offset_, message->energy.holdings};
   if (!has_state_ || packet.sequence >= highest_) {
     highest_ = packet.sequence;
-    energy_ = packet.port_energy.value_or(energy_);
+    if (packet.energy) granted_ = packet.energy->granted;
   }
   has_state_ = true;
   (void)playout_.push(packet, toSeconds(message->send_time_us), now);

@@ -68,14 +68,14 @@ class StateStream {
   std::int64_t newest_sent_us_ = 0;
   double newest_at_ = 0.0;
 
-  // A restarted peer counts its states and its energy from 0.
+  // A restarted peer counts its states and its grants from 0.
   bool is_first_of_keys_ = true;
   bool has_begun_anew_ = false;      ///< with the present keys; drops states under the old ones
   std::int64_t latest_sent_us_ = 0;  ///< latest time stamp by the peer's clock [us]
   std::uint64_t offset_ = 0;
   std::uint64_t highest_ = 0;
   bool has_state_ = false;
-  double energy_ = 0.0, energy_offset_ = 0.0;  ///< of the state with the highest sequence [J]
+  double granted_ = 0.0, granted_offset_ = 0.0;  ///< by the state with the highest sequence [J]
 
   double loss_ = 0.0, loss_since_ = 0.0;
   std::uint64_t loss_first_ = 0, loss_received_ = 0;

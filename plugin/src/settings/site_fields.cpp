@@ -88,7 +88,10 @@ std::vector<SiteField> makeFields() {
       field<&S::passivity, &PassivitySettings::tank>(
           "passivity.tank", "J", "energy that the hand may get before anybody puts in any",
           kPositive, kOwn),
-      field<&S::max_slew>("max_slew", "N/s", "change of the force at the device",
+      field<&S::passivity, &PassivitySettings::power>(
+          "passivity.power", "W", "energy that peers may grant the hand per second", kNotNegative,
+          kOwn),
+      field<&S::max_slew>("max_slew", "N/s", "rise of the force at the device",
                           kPositiveOrInfinite, kOwn),
       field<&S::fault_slew>("fault_slew", "N/s", "after a fault the force fades by this", kPositive,
                             kOwn),

@@ -2,6 +2,7 @@
 
 #include "tandem/coordination/passivity_observer.h"
 
+#include "coordination/src/link/energy_ledger.h"
 #include "site/site_body.h"
 
 namespace tandem {
@@ -9,22 +10,24 @@ namespace tandem {
 class Timeline;
 
 // clang-format off
-/// Accounts for the energy that this site puts into the connection (PassivityObserver):
+/// Accounts for the energy that this site's hand may get (PassivityObserver):
 ///
 ///   the hand             -f . dp of the rendered force over each tick; exact, as the force is held
 ///   weight, host forces  f . dp + t . w dt of the bodies that the island moves
 ///   impulses             J . (v + v') / 2 of the host, and of contact with bodies of Bullet
 ///   neighbours           their kinetic energy when they enter (+) and leave (-) the island
+///   peers                what they grant to this site, and it to them (EnergyLedger)
 ///
 /// A kinematic body, or a body that the host repositions, does unknown work and refills the tank.
 /// Where Bullet moves the bodies their energy is unknown, so no account is kept and packets say so.
+/// Such a peer counts as granting all it may, `power`.
 /// Real-time safe.
 // clang-format on
 class EnergyPort {
  public:
   /// `island_moves`: the island moves the bodies, so the account can be kept.
   EnergyPort(const PassivitySettings& settings, bool island_moves) noexcept
-      : observer_(settings), is_kept_(settings.enabled && island_moves) {}
+      : settings_(settings), observer_(settings), is_kept_(settings.enabled && island_moves) {}
 
   [[nodiscard]] const PassivityObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] bool isKept() const noexcept { return is_kept_; }
@@ -32,7 +35,9 @@ class EnergyPort {
   [[nodiscard]] std::uint64_t limitedCount() const noexcept { return limited_; }
 
   /// Adds the hand's work: it moved by `way_W` [m] while `f_W` [N] was rendered.
-  void countHand(const Vec3& f_W, const Vec3& way_W) noexcept { observer_.addOwn(-f_W.dot(way_W)); }
+  void countHand(const Vec3& f_W, const Vec3& way_W) noexcept {
+    observer_.addHand(-f_W.dot(way_W));
+  }
   /// A force of the world acts on a body: countWorld() has work to do from now on.
   void noteWorldForce() noexcept { world_pushes_ = true; }
   /// Adds the work of the world's forces over the tick that has just run.
@@ -43,16 +48,27 @@ class EnergyPort {
   void countNeighbour(const IslandBody& body, const RigidState& state, double sign) noexcept;
   /// Refills the tank: the host moved something, with unknown work.
   void refill() noexcept { observer_.refill(); }
-  /// Adds energy that a peer reports to have put in [J].
-  void addReported(double energy) noexcept { observer_.addReported(energy); }
 
-  /// The share of `wanted_W` [N] that a hand of velocity `v_W` may get over `duration` [s].
-  [[nodiscard]] Vec3 limit(const Vec3& wanted_W, const Vec3& v_W, double duration) noexcept;
+  /// Takes a peer's report; what it granted becomes available at no more than `power`.
+  void hear(EnergyLedger& ledger, const EnergyReport& report) noexcept {
+    waiting_ = std::min(waiting_ + ledger.hear(report), settings_.most);
+  }
+  /// Grants a peer its part of what is here; `sites` share it. Empty if no account is kept.
+  [[nodiscard]] std::optional<EnergyReport> report(EnergyLedger& ledger, int sites) noexcept;
+  /// Called once a tick: takes what peers granted. `keeps_all`: each peer keeps an account.
+  void receive(double period, bool keeps_all) noexcept;
+
+  /// The share of `wanted_W` [N] that a hand of velocity `v_W` may get over `duration` [s]. Its
+  /// velocity is expected to change by up to `change` [m/s].
+  [[nodiscard]] Vec3 limit(const Vec3& wanted_W, const Vec3& v_W, double change,
+                           double duration) noexcept;
 
  private:
+  PassivitySettings settings_;
   PassivityObserver observer_;
   bool is_kept_;
   bool world_pushes_ = false;
+  double waiting_ = 0.0;  ///< granted by peers, not yet available [J]
   std::uint64_t limited_ = 0;
 };
 

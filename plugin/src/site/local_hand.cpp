@@ -45,9 +45,18 @@ void LocalHand::lead(double duration) noexcept {
 }
 
 void LocalHand::countWork() noexcept {
-  if (!isThere()) return p_before_W_.reset();
+  if (!isThere()) {
+    // The hand is taken to move on, for the fading force: p_before follows it.
+    if (!p_before_W_) return;
+    const Vec3 way_W = period_ * v_known_W_;
+    energy_.countHand(force_W_, way_W);
+    *p_before_W_ += way_W;
+    return;
+  }
   if (p_before_W_) energy_.countHand(force_W_, sample_.hip.p_W - *p_before_W_);
   p_before_W_ = sample_.hip.p_W;
+  v_change_ = (sample_.hip.v_W - v_known_W_).norm();
+  v_known_W_ = sample_.hip.v_W;
 }
 
 const Vec3& LocalHand::computeContactForce() noexcept {
@@ -60,10 +69,13 @@ const Vec3& LocalHand::computeContactForce() noexcept {
 
 void LocalHand::render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept {
   contact_W_ = contact_W;
-  Vec3 allowed_W = guard_.clamp(contact_W_);
-  if (energy_.isKept() && allowed_W != Vec3::Zero() && peers.keepAccounts())
-    allowed_W = energy_.limit(allowed_W, island_.state(hip_).v_W, period_);
-  force_W_ = guard_.follow(allowed_W, fault || fades_);
+  force_W_ = guard_.follow(guard_.clamp(contact_W_), fault || fades_);
+  if (energy_.isKept()) {
+    energy_.receive(period_, peers.keepAccounts());
+    if (force_W_ != Vec3::Zero())
+      force_W_ = energy_.limit(force_W_, v_known_W_, v_change_, period_);
+  }
+  guard_.note(force_W_);
 }
 
 PointState LocalHand::pointAt(double time, double tick_start) noexcept {

@@ -17,8 +17,10 @@ class Peers;
 /// The local user's hand: its device, its haptic interface point (HIP) in the island, its energy
 /// account and the rendered force.
 ///
-///     read -> place the HIP -> energy of the last tick -> contact force -> clamp -> energy -> slew
+///     read -> place the HIP -> energy of the last tick -> contact force -> clamp -> slew -> energy
 ///     -> write
+///
+/// The energy limit comes last: it may take force away, and nothing after it gives any.
 // clang-format on
 class LocalHand {
  public:
@@ -44,8 +46,7 @@ class LocalHand {
 
   /// Contact force on the HIP in the island [N], cached while the island sleeps.
   [[nodiscard]] const Vec3& computeContactForce() noexcept;
-  /// Computes the force of this tick, within the energy that is left where all `peers` keep
-  /// accounts. With a `fault` the force fades.
+  /// Computes the force of this tick, within the energy that is left. With a `fault` it fades.
   void render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept;
   void write() noexcept { device_.write(force_W_); }
   /// Writes zero force at once, without a slew.
@@ -75,6 +76,8 @@ class LocalHand {
   EnergyPort energy_;
   DeviceSample sample_;
   bool is_there_ = false;
+  Vec3 v_known_W_ = Vec3::Zero();   ///< of the latest usable sample
+  double v_change_ = 0.0;           ///< of that velocity since the sample before [m/s]
   std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
   Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
   RestMark contact_rest_;  ///< when the contact force was computed

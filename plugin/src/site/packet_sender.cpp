@@ -76,7 +76,6 @@ void PacketSender::send(double time) noexcept {
   packet.sender = settings_.self;
   packet.sequence = sequence_++;
   packet.is_idle = is_idle_;
-  if (hand_.energy().isKept()) packet.port_energy = hand_.energy().observer().own();
   packet.time = time;
   packet.user = hand_.pointAt(time, timeline_.tickStart());
   const auto state = [&](std::size_t i) -> const RigidState& {

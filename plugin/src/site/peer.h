@@ -6,6 +6,7 @@
 #include "tandem/coordination/link.h"
 #include "tandem/coordination/scheme.h"
 
+#include "coordination/src/link/energy_ledger.h"
 #include "coordination/src/link/link_health.h"
 #include "coordination/src/schemes/remote_user.h"
 #include "site/proxy.h"
@@ -23,12 +24,12 @@ struct Peer {
   // Packets received.
   std::optional<Arrival> pending;  ///< fetched, not yet applied
   StatePacket latest;
-  bool is_heard = false;           ///< `latest` holds a packet
-  std::optional<double> reported;  ///< energy it last reported to have put in [J]
+  bool is_heard = false;  ///< `latest` holds a packet
+  EnergyLedger ledger;
 
   // Its representation here.
   RemoteUser user;
-  UserTrack track;  ///< user state given to the scheme
+  UserTrack track;     ///< user state given to the scheme
   Proxy proxy;
   std::vector<Tie> ties;  ///< by object
 

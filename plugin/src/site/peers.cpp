@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "site/energy_port.h"
 #include "site/moments.h"
@@ -71,7 +70,7 @@ void Peers::takeIn(Peer& peer, const Arrival& arrival, double time) noexcept {
     peer.is_heard = true;
     peer.latest = packet;
     hear(peer, packet, time);
-    hearEnergy(peer, packet);
+    if (packet.energy) energy_.hear(peer.ledger, *packet.energy);
   }
   const bool has_news = hearObjects(peer, packet) || is_latest;
   ++(has_news ? log_.counters.packets_taken : log_.counters.packets_stale);
@@ -84,24 +83,10 @@ void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
   if (health.hear(time, packet.is_idle)) {
     peer.track.jump(packet.user);
     peer.rejoined_by = packet.sequence;
-    peer.reported.reset();
   } else {
     peer.track.hear(packet.user, time, silence);
   }
   scheme_.follow(island_, peer.user, peer.track.at(time, 1.0));
-}
-
-/// Adds the change of the reported energy since the packet before. The first packet after a silence
-/// only sets the reference. If links fail among three sites, one might see what another took but
-/// not what the third gave. Takings then do not count.
-void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
-  const std::optional<double> before = std::exchange(peer.reported, packet.port_energy);
-  if (!before || !packet.port_energy) return;
-  const double more = *packet.port_energy - *before;
-  const auto is_live = [&](const Peer& other) {
-    return &other == &peer || other.health.state() == LinkState::kLive;
-  };
-  if (more > 0.0 || std::all_of(peers_.begin(), peers_.end(), is_live)) energy_.addReported(more);
 }
 
 /// An overtaken packet may still have the newest state of some object. True if it has one.
@@ -126,16 +111,24 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet) noexcept {
   return has_news;
 }
 
+void Peers::send(StatePacket packet, double time) noexcept {
+  const auto is_live = [](const Peer& peer) { return peer.health.state() == LinkState::kLive; };
+  const auto sites = 1 + static_cast<int>(std::count_if(peers_.begin(), peers_.end(), is_live));
+  for (Peer& peer : peers_) {
+    // A peer that may be gone is granted nothing more; its report says so.
+    packet.energy = energy_.report(peer.ledger, is_live(peer) ? sites : 1);
+    peer.link->send(packet, time);
+  }
+}
+
 void Peers::noteSearched() noexcept {
   for (Peer& peer : peers_)
     if (peer.user.body) peer.searched_W = island_.state(*peer.user.body).p_W;
 }
 
 bool Peers::keepAccounts() const noexcept {
-  const auto keeps_none = [](const Peer& peer) {
-    return peer.is_heard && !peer.latest.port_energy;
-  };
-  return !peers_.empty() && std::none_of(peers_.begin(), peers_.end(), keeps_none);
+  const auto keeps_none = [](const Peer& peer) { return peer.is_heard && !peer.latest.energy; };
+  return std::none_of(peers_.begin(), peers_.end(), keeps_none);
 }
 
 }  // namespace tandem

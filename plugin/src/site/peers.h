@@ -49,9 +49,8 @@ class Peers {
   /// Arrival time of the next packet that is due before `until` [s]; `now` is the tick's start.
   [[nodiscard]] double nextArrival(double now, double until) noexcept;
   void takeInUntil(double time, double now) noexcept;
-  void send(const StatePacket& packet, double time) noexcept {
-    for (Peer& peer : peers_) peer.link->send(packet, time);
-  }
+  /// Sends a packet to all peers, each with its own energy report.
+  void send(StatePacket packet, double time) noexcept;
 
   /// Called once a tick. `host_step` shows changes of a proxy in Bullet.
   void followLinks(double now, double period, HostStep& host_step) noexcept;
@@ -59,14 +58,13 @@ class Peers {
   /// Notes that all obstacles around the proxies' present positions are known.
   void noteSearched() noexcept;
 
-  /// True if there are peers and all that were heard keep energy accounts.
+  /// True if all peers that were heard keep energy accounts.
   [[nodiscard]] bool keepAccounts() const noexcept;
 
  private:
   [[nodiscard]] CouplerSettings makeCoupler(const SharedObject& object) const noexcept;
   void takeIn(Peer& peer, const Arrival& arrival, double time) noexcept;
   void hear(Peer& peer, const StatePacket& packet, double time) noexcept;
-  void hearEnergy(Peer& peer, const StatePacket& packet) noexcept;
   bool hearObjects(Peer& peer, const StatePacket& packet) noexcept;
 
   // peer_restraint.cpp

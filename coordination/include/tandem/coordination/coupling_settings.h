@@ -53,9 +53,11 @@ void checkLinkLossSettings(const LinkLossSettings& settings);
 /// Limits of the energy a hand may extract. checkPassivitySettings() checks them.
 struct PassivitySettings {
   bool enabled = true;
-  double tank = 0.02;  ///< energy available at the start [J]; the paper needs 5.7 mJ
-  double band = 0.01;  ///< the force fades below this remaining energy [J], at most `tank`
-  double most = 10.0;  ///< most stored energy that counts [J]; the rest has become heat
+  double tank = 0.02;        ///< energy available at the start [J]; the paper needs 5.7 mJ
+  double band = 0.01;        ///< the force fades below this remaining energy [J], at most `tank`
+  double most = 2.0;         ///< most stored energy that counts [J]; the rest has become heat
+  double power = 10.0;       ///< most that peers may grant [W]; bounds what a lying peer can give
+  double least_mass = 0.05;  ///< least mass that the force moves [kg], device and hand
 };
 
 /// Throws std::invalid_argument, naming the value and what is allowed.

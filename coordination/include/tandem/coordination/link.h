@@ -24,6 +24,13 @@ struct ObjectState {
   RigidState state;
 };
 
+/// The sender's part of the energy ledger with the receiver (EnergyLedger). Both may be negative.
+struct EnergyReport {
+  double granted = 0.0;   ///< energy that the sender granted to the receiver so far [J]
+  double holdings = 0.0;  ///< energy that the sender's hand may still get, without what the
+                          ///< receiver granted to it [J]
+};
+
 /// State that a peer sends to the others `network.rate` times a second: kinematics, never forces.
 /// Each receiver computes its own forces with its own gains. The latest state wins, separately for
 /// the user and each object; nothing is sent again. If the objects exceed one packet, those that
@@ -34,8 +41,7 @@ struct StatePacket {
   double time = 0.0;           ///< sender's time of the state below [s]
   PointState user;             ///< the sender's haptic interface point
   bool is_idle = false;        ///< nothing moves at the sender: packets come at kIdlePacketPeriod
-  std::optional<double> port_energy;  ///< energy the sender's side put in so far [J], see
-                                      ///< PassivityObserver; empty: not measured
+  std::optional<EnergyReport> energy;  ///< empty: the sender keeps no account
   std::uint32_t object_count = 0;
   std::array<ObjectState, kMaxObjectsPerPacket> objects;
 };

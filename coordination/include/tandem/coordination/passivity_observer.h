@@ -8,49 +8,60 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Limits the energy that a hand extracts from its connection to all others. The connection is a
-/// network with one port per hand. A hand may extract the energy that all hands put in, plus a
-/// tank:
+/// Energy that a force would give the hand over a tick if a share s of it were rendered:
+/// s `linear` + s^2 `quadratic` [J]. The second term is the motion that the force itself causes.
+struct TickEnergy {
+  double linear = 0.0;     ///< negative if the hand puts energy in
+  double quadratic = 0.0;  ///< >= 0
+};
+
+/// Limits the energy that a hand extracts from its site. A joule may be extracted by one hand only:
 ///
-///   available = tank + own + sum of reported >= 0
+///   available = tank + hand + max(0, world) + received - granted >= 0
 ///
-/// `own` is the energy this side put in so far: the hand's work -f . dp plus the work of its own
-/// world (weight, the host's forces). Each site reports it with its states. One port alone is not
-/// enough: a user who pushes a passive hand along feeds it energy for as long as the push lasts.
-/// States and their reported energy are equally late, so they match.
+/// `hand` is the hand's work -f . dp so far and `world` that of its site's own world (weight, the
+/// host's forces). What peers grant to each other is deducted before it is sent (EnergyLedger). So
+/// all hands together never extract more than all put in, the worlds gave, and the tanks.
 ///
 /// While available >= band, the force stays whole. Below, it is multiplied by available / band, so
 /// the rest drains ever more slowly and never runs out. A hand that puts energy in feels at least
-/// 2%. Debts are limited to one tank, so an account that others emptied fills again.
+/// 2%, so that an empty account fills again. A world that has taken energy in all counts as zero:
+/// the hand put that energy in, and the account stays a bound without it.
 ///
 /// Plain value without a clock; real-time safe. After Hannaford and Ryu's passivity observer (IEEE
-/// T-RA 18(1), 2002), with two ports and a scaled force in place of a damper.
+/// T-RA 18(1), 2002), with several ports and a scaled force in place of a damper.
 class PassivityObserver {
  public:
   explicit PassivityObserver(const PassivitySettings& settings = {}) noexcept
       : settings_(settings), lowest_(settings.tank) {}
 
-  /// Adds energy that this side put in [J]; negative: it extracted some. Ignores non-finite values.
-  void addOwn(double energy) noexcept {
+  /// Adds energy that the hand put in [J]; negative: it extracted some. Ignores non-finite values.
+  void addHand(double energy) noexcept {
     if (!std::isfinite(energy)) return;
     overdrawn_ += std::max(0.0, -energy - std::max(0.0, available()));
-    own_ += energy;
+    hand_ += energy;
     settle();
   }
-  /// Adds energy that others reported [J].
-  void addReported(double energy) noexcept {
+  /// Adds energy that the site's own world put in [J]; negative: it took some.
+  void addWorld(double energy) noexcept {
     if (!std::isfinite(energy)) return;
-    reported_ += energy;
+    world_ += energy;
     settle();
   }
-  /// Refills the tank, as own energy, after an input of unknown energy.
-  void refill() noexcept { own_ += std::max(0.0, settings_.tank - available()); }
+  /// Adds energy received from peers [J]; negative: granted to them.
+  void addMoved(double energy) noexcept {
+    if (!std::isfinite(energy)) return;
+    moved_ += energy;
+    settle();
+  }
+  /// Refills the tank after an input of unknown energy by the world.
+  void refill() noexcept { refilled_ += std::max(0.0, settings_.tank - available()); }
 
-  /// Energy this side put in so far [J], to be reported.
-  [[nodiscard]] double own() const noexcept { return own_; }
+  /// Energy that this side put in so far, hand and world [J].
+  [[nodiscard]] double own() const noexcept { return hand_ + world_ + refilled_; }
   /// Energy the hand may still extract [J].
   [[nodiscard]] double available() const noexcept {
-    return settings_.tank + own_ + reported_ - forgotten_;
+    return settings_.tank + hand_ + std::max(0.0, world_) + refilled_ + moved_ - forgotten_;
   }
   /// The least energy that was ever available [J].
   [[nodiscard]] double lowest() const noexcept { return lowest_; }
@@ -58,20 +69,19 @@ class PassivityObserver {
   /// Energy extracted while none was available [J]: a hand moves on while its force is held.
   [[nodiscard]] double overdrawn() const noexcept { return overdrawn_; }
 
-  /// Share of the force to render, 0 to 1. The full force would give the hand `energy` over the
-  /// coming tick [J]; negative if the hand puts energy in.
-  [[nodiscard]] double computeShare(double energy) const noexcept;
+  /// Share of the force to render in the coming tick, 0 to 1; `whole` is its energy at share 1.
+  [[nodiscard]] double computeShare(const TickEnergy& whole) const noexcept;
 
  private:
-  /// Limits stored energy and debts, so that a hand muted by what others extracted recovers.
+  /// Limits stored energy: the rest has become heat.
   void settle() noexcept {
     const double now = available();
     lowest_ = std::min(lowest_, now);
-    forgotten_ += now - std::clamp(now, -settings_.tank, settings_.tank + settings_.most);
+    forgotten_ += std::max(0.0, now - settings_.tank - settings_.most);
   }
 
   PassivitySettings settings_;
-  double own_ = 0.0, reported_ = 0.0, forgotten_ = 0.0;
+  double hand_ = 0.0, world_ = 0.0, moved_ = 0.0, refilled_ = 0.0, forgotten_ = 0.0;
   double lowest_, overdrawn_ = 0.0;
 };
 

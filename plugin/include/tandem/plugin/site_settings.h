@@ -67,7 +67,7 @@ struct SiteSettings {
   /// Limit of the energy that the hand gets from the connection. Needs hand-off and an account at
   /// all sites.
   PassivitySettings passivity;
-  double max_slew = 1e4;       ///< limit of the device force's change [N/s]; may be infinite
+  double max_slew = 1e4;       ///< limit of the device force's rise [N/s]; may be infinite
   double fault_slew = 2000.0;  ///< rate at which the force fades after a fault [N/s]
 };
 
