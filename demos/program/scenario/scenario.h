@@ -57,7 +57,7 @@ struct Scenario {
   double device_mass = 0.1;
   double device_damping = 0.5;
   double encoder_resolution = 0.0;
-  double device_max_force = 0.0;  ///< 0: no limit
+  double device_max_force = 60.0;  ///< 0: no limit
 
   std::array<HandScenario, 2> hands;
   Impairments network{0.05};

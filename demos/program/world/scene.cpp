@@ -58,7 +58,8 @@ std::unique_ptr<SimulatedDevice> makeDevice(const Scenario& scenario, const Scen
   settings.start_W = computeStart(scenario, frame, site);
   if (scenario.guide) settings.guide = scenario.axis;
   settings.encoder_resolution = scenario.encoder_resolution;
-  if (scenario.device_max_force > 0.0) settings.max_force = scenario.device_max_force;
+  const double max_force = scenario.device_max_force;
+  settings.max_force = max_force > 0.0 ? max_force : std::numeric_limits<double>::infinity();
   return std::make_unique<SimulatedDevice>(settings, makeHand(scenario, frame, site));
 }
 
