@@ -69,7 +69,8 @@ SiteSettings makeSettings(const BenchScene& scene, int host_rate, Variant varian
   settings.proxy = {scene.tools.front().mass, 0.0, scene.tools.front().radius};
   settings.scheme = &scheme;
   settings.injection = variant == Variant::kImpulse ? Injection::kImpulse : Injection::kHandoff;
-  settings.max_slew = std::numeric_limits<double>::infinity();  // tests the law, not the guard
+  // Tests the law, not the guards.
+  settings.max_slew = settings.max_peer_speed = std::numeric_limits<double>::infinity();
   settings.tick_source = variant == Variant::kLate ? TickSource::kCaller : TickSource::kHostStep;
   return settings;
 }

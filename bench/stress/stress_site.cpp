@@ -138,6 +138,7 @@ void StressSite::makeDevice() {
     return;
   }
   SimulatedDeviceSettings settings;
+  settings.max_force = std::numeric_limits<double>::infinity();
   settings.mass = user_.device_mass;
   settings.damping = user_.device_damping;
   settings.start_W = user_.path.start_W;
@@ -165,6 +166,7 @@ SiteSettings StressSite::makeSettings() const {
   // Tests the laws without the guards.
   settings.passivity.enabled = false;
   settings.max_slew = std::numeric_limits<double>::infinity();
+  settings.max_peer_speed = std::numeric_limits<double>::infinity();
   settings.guide = case_.guide;
   return settings;
 }

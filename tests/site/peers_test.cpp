@@ -156,6 +156,34 @@ TEST(Peers, TiesOfALostPeerActAgainOnceTheyAreRenewed) {
   EXPECT_EQ(talk.share(1), talk.share(0));
 }
 
+// A reset of the peer's world, or a lie: the target moves there smoothly instead of jumping.
+TEST(Peers, SmoothAStateThatJumped) {
+  Conversation talk;
+  const auto arrive = [&](std::uint64_t sequence, double x) {
+    const double time = 0.008 * static_cast<double>(sequence);
+    StatePacket packet = talk.makePacket(sequence);
+    packet.time = time;
+    packet.user.p_W = Vec3(x, 1, 0);
+    Conversation::addObject(packet, 0, Vec3(1.0 + x, 0, 0), Vec3(1e6, 0, 0));
+    talk.arrive(packet, time);
+  };
+  arrive(0, 0.0);
+  arrive(1, 500.0);
+  EXPECT_EQ(talk.rig.log.counters.peer_jumps, 2u);
+  double x = talk.target(0).p_W.x();
+  EXPECT_LT(x, 1.5);
+  for (int tick = 9; tick < 2000; ++tick) {
+    if (tick % 8 == 0) arrive(static_cast<std::uint64_t>(tick / 8), 500.0);
+    talk.follow(tick * kPeriod);
+    const RigidState& target = talk.target(0);
+    ASSERT_LE(target.p_W.x() - x, 2.0 * kMostLeadSpeed * kPeriod);
+    ASSERT_LE(target.v_W.norm(), 2.0 * kMostLeadSpeed + 1e-9);
+    x = target.p_W.x();
+  }
+  EXPECT_EQ(talk.rig.log.counters.peer_jumps, 2u);
+  EXPECT_GT(x, 10.0);
+}
+
 TEST(Peers, TakeWhatAPeerGrantsOnce) {
   Conversation talk;
   EnergyPort& energy = talk.rig.hand.energy();

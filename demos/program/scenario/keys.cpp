@@ -178,6 +178,7 @@ Keys makeNetworkKeys() {
                   " ([architecture](architecture.md), section 9)"),
       siteKey("guard.tank", "passivity.tank", kPositive),
       siteKey("guard.power", "passivity.power", kNotNegative),
+      siteKey("guard.peer_speed", "max_peer_speed", kPositive),
       siteKey("guard.max_slew", "max_slew", kPositive),
       siteKey("rates.haptic", "haptic_rate", {10.0, 1e5, false, "10 to 100000 Hz"}),
       own(numberKey({"rates.host", "Bullet worlds; need not divide the haptic rate", "Hz"},

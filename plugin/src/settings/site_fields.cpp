@@ -91,8 +91,11 @@ std::vector<SiteField> makeFields() {
       field<&S::passivity, &PassivitySettings::power>(
           "passivity.power", "W", "energy that peers may grant the hand per second", kNotNegative,
           kOwn),
-      field<&S::max_slew>("max_slew", "N/s", "rise of the force at the device",
-                          kPositiveOrInfinite, kOwn),
+      field<&S::max_slew>("max_slew", "N/s", "rise of the force at the device", kPositiveOrInfinite,
+                          kOwn),
+      field<&S::max_peer_speed>("max_peer_speed", "m/s",
+                                "a peer's state that moved faster is approached smoothly",
+                                kPositiveOrInfinite, kOwn),
       field<&S::fault_slew>("fault_slew", "N/s", "after a fault the force fades by this", kPositive,
                             kOwn),
   };

@@ -4,6 +4,8 @@
 
 #include "tandem/coordination/types.h"
 
+#include "site/motion_limit.h"
+
 namespace tandem {
 
 // clang-format off
@@ -12,7 +14,7 @@ namespace tandem {
 /// would be stretched, with energy from nowhere. With a detour it is not: copies meet at walking
 /// pace.
 ///
-///   speed = min(max(0.25 m/s, d0 / 2 s), d / 0.1 s)
+///   speed = min(max(0.25 m/s, d0 / 2 s), d / 0.1 s), at most kMostLeadSpeed
 ///
 /// d0 is the distance at the start and d the present one. The rotation follows the same law, with
 /// 2.5 rad/s. Plain value without a clock.
@@ -24,7 +26,7 @@ class Detour {
     const Eigen::AngleAxisd turn((ours.q_WB * theirs.q_WB.conjugate()).normalized());
     angle_ = turn.angle();  // at most pi
     axis_W_ = turn.axis();
-    top_speed_ = std::max(kSpeed, offset_W_.norm() / kLongest);
+    top_speed_ = std::clamp(offset_W_.norm() / kLongest, kSpeed, kMostLeadSpeed);
     top_rate_ = std::max(kRate, angle_ / kLongest);
     settle();
   }

@@ -9,6 +9,7 @@
 #include "coordination/src/link/energy_ledger.h"
 #include "coordination/src/link/link_health.h"
 #include "coordination/src/schemes/remote_user.h"
+#include "site/motion_limit.h"
 #include "site/proxy.h"
 #include "site/tie.h"
 #include "site/user_track.h"
@@ -30,6 +31,7 @@ struct Peer {
   // Its representation here.
   RemoteUser user;
   UserTrack track;     ///< user state given to the scheme
+  MotionLimit motion;  ///< of the user
   Proxy proxy;
   std::vector<Tie> ties;  ///< by object
 

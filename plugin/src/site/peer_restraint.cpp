@@ -8,9 +8,18 @@
 namespace tandem {
 
 void Peers::followLinks(double now, double period, HostStep& host_step) noexcept {
-  if (!settings_.link_loss.enabled) return;
-  for (Peer& peer : peers_)
-    if (peer.is_restrained || !peer.health.staysLive(now)) followLink(peer, now, period, host_step);
+  const bool may_fade = settings_.link_loss.enabled;
+  for (Peer& peer : peers_) {
+    if (!peer.is_restrained && !(may_fade && !peer.health.staysLive(now))) continue;
+    may_fade ? followLink(peer, now, period, host_step) : followJump(peer, now, period);
+  }
+}
+
+/// Leads a peer that always counts as live to where its states jumped.
+void Peers::followJump(Peer& peer, double now, double period) noexcept {
+  if (peer.is_detouring) followDetours(peer, period);
+  scheme_.follow(island_, peer.user, peer.track.at(now, 1.0));
+  peer.is_restrained = peer.is_detouring || peer.track.isMakingUp(now);
 }
 
 void Peers::followLink(Peer& peer, double now, double period, HostStep& host_step) noexcept {

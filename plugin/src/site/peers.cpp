@@ -72,25 +72,35 @@ void Peers::takeIn(Peer& peer, const Arrival& arrival, double time) noexcept {
     hear(peer, packet, time);
     if (packet.energy) energy_.hear(peer.ledger, *packet.energy);
   }
-  const bool has_news = hearObjects(peer, packet) || is_latest;
+  const bool has_news = hearObjects(peer, packet, time) || is_latest;
   ++(has_news ? log_.counters.packets_taken : log_.counters.packets_stale);
 }
 
 /// Applies a user state that is newer than all before.
 void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
   LinkHealth& health = peer.health;
+  const PointState user{packet.user.p_W, shortenTo(packet.user.v_W, settings_.max_peer_speed)};
+  const bool jumped =
+      peer.motion.isJump(user.p_W, user.v_W, packet.time, time, settings_.max_peer_speed);
   const double silence = health.isOverdue(time) ? health.computeAge(time) : 0.0;
   if (health.hear(time, packet.is_idle)) {
-    peer.track.jump(packet.user);
+    peer.track.jump(user);
     peer.rejoined_by = packet.sequence;
   } else {
-    peer.track.hear(packet.user, time, silence);
+    if (jumped) noteJump(peer);
+    // A ghost touches nothing, so it may jump.
+    peer.track.hear(user, time, silence, jumped && !health.isProxyOut());
   }
   scheme_.follow(island_, peer.user, peer.track.at(time, 1.0));
 }
 
+void Peers::noteJump(Peer& peer) noexcept {
+  ++log_.counters.peer_jumps;
+  peer.is_restrained = true;  // so that ticks lead its targets
+}
+
 /// An overtaken packet may still have the newest state of some object. True if it has one.
-bool Peers::hearObjects(Peer& peer, const StatePacket& packet) noexcept {
+bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept {
   bool has_news = false;
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     const ObjectState& copy = packet.objects[i];
@@ -100,11 +110,16 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet) noexcept {
     const bool was_renewed = peer.isRenewed(tie);
     tie.sequence = packet.sequence;
     has_news = true;
+    const bool jumped = tie.motion.isJump(copy.state.p_W, copy.state.v_W, packet.time, time,
+                                          settings_.max_peer_speed);
     if (!was_renewed && peer.isRenewed(tie)) {
       tie.detour.start(island_.state(bodies_.objects[copy.id].body.index), copy.state);
-      peer.is_detouring |= !tie.detour.isOver();
+    } else if (jumped) {
+      noteJump(peer);
+      tie.detour.start(tie.computeTarget(), copy.state);
     }
-    tie.theirs = copy.state;
+    peer.is_detouring |= !tie.detour.isOver();
+    tie.theirs = limitMotion(copy.state, settings_.max_peer_speed);
     tie.velocity_share = 1.0;
     island_.setTarget(tie.coupler, tie.computeTarget());
   }

@@ -65,10 +65,12 @@ class Peers {
   [[nodiscard]] CouplerSettings makeCoupler(const SharedObject& object) const noexcept;
   void takeIn(Peer& peer, const Arrival& arrival, double time) noexcept;
   void hear(Peer& peer, const StatePacket& packet, double time) noexcept;
-  bool hearObjects(Peer& peer, const StatePacket& packet) noexcept;
+  void noteJump(Peer& peer) noexcept;
+  bool hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept;
 
   // peer_restraint.cpp
   void followLink(Peer& peer, double now, double period, HostStep& host_step) noexcept;
+  void followJump(Peer& peer, double now, double period) noexcept;
   void countLinks() noexcept;
   [[nodiscard]] bool mayComeIn(const Peer& peer, const HostStep& host_step) const noexcept;
   [[nodiscard]] bool doCopiesAgree(const Peer& peer) const noexcept;

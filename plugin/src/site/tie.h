@@ -5,6 +5,7 @@
 
 #include "coordination/src/island/island.h"
 #include "site/detour.h"
+#include "site/motion_limit.h"
 
 namespace tandem {
 
@@ -15,6 +16,7 @@ struct Tie {
   Detour detour;                          ///< of the coupler's target, after a silence
   std::optional<std::uint64_t> sequence;  ///< packet of that state
   double velocity_share = 1.0;            ///< of the target's velocity; silence lowers it
+  MotionLimit motion;                     ///< of the peer's copy
 
   /// The coupler's target.
   [[nodiscard]] RigidState computeTarget() const noexcept {

@@ -4,6 +4,8 @@
 
 #include "tandem/coordination/types.h"
 
+#include "site/motion_limit.h"
+
 namespace tandem {
 
 /// Position that a remote user counts as having: the latest received state. During a silence this
@@ -18,9 +20,14 @@ class UserTrack {
   }
 
   /// Takes a state received at `time` after a silence of this length [s]; 0 if it was in time.
-  void hear(const PointState& user, double time, double silence) noexcept {
+  /// A state that jumped counts as one after a silence of a second for each metre, at most two
+  /// seconds.
+  void hear(const PointState& user, double time, double silence, bool jumped = false) noexcept {
+    const Vec3 behind_W = at(time, 1.0).p_W - user.p_W;
+    const double way = behind_W.norm();
+    if (jumped) silence = std::max({silence, std::min(way, 2.0), way / kMostLeadSpeed});
     if (silence > 0.0) {
-      missed_W_ = at(time, 1.0).p_W - user.p_W;
+      missed_W_ = behind_W;
       missed_since_ = time;
       missed_for_ = silence;
     }

@@ -40,6 +40,7 @@ struct SiteCounters {
   std::uint64_t packets_taken = 0;
   std::uint64_t packets_stale = 0;    ///< dropped: nothing newer than what was known
   std::uint64_t packets_refused = 0;  ///< dropped: invalid
+  std::uint64_t peer_jumps = 0;       ///< states of peers too far from the ones before: smoothed
   std::uint64_t host_steps = 0;
   std::uint64_t host_steps_skipped = 0;  ///< host steps without work, because all bodies slept
   std::uint64_t searches = 0;            ///< searches of the host's world for surroundings

@@ -67,8 +67,10 @@ struct SiteSettings {
   /// Limit of the energy that the hand gets from the connection. Needs hand-off and an account at
   /// all sites.
   PassivitySettings passivity;
-  double max_slew = 1e4;       ///< limit of the device force's rise [N/s]; may be infinite
-  double fault_slew = 2000.0;  ///< rate at which the force fades after a fault [N/s]
+  double max_slew = 1e4;         ///< limit of the device force's rise [N/s]; may be infinite
+  double max_peer_speed = 20.0;  ///< a peer's state that moved faster counts as a jump and is led
+                                 ///< to smoothly [m/s]; may be infinite
+  double fault_slew = 2000.0;    ///< rate at which the force fades after a fault [N/s]
 };
 
 /// Throws std::invalid_argument with the value's name and the allowed range.
