@@ -12,6 +12,7 @@ constexpr std::array kJitter{0.0, 0.005, 0.02, 0.05};                // [s]
 constexpr std::array kReorder{0.0, 0.01, 0.05};
 constexpr std::array kDuplicate{0.0, 0.05, 0.25};
 constexpr std::array kCorrupt{0.0, 0.001, 0.05, 0.2};
+constexpr std::array kSlew{1e4, 2e3, 1e3};  // [N/s]
 constexpr std::array kSchemes{"virtual_coupling", "kinematic_proxy", "remote_dynamic_proxy"};
 
 struct Outage {
@@ -41,6 +42,8 @@ enum Factor : std::size_t {
   kGuideFactor,
   kPlayoutFactor,
   kThinningFactor,
+  kSlewFactor,
+  kHandsFactor,
 };
 
 template <typename Values>
@@ -50,7 +53,9 @@ auto pick(const Values& values, int level) {
 
 }  // namespace
 
-std::vector<int> ConditionMatrix::levelCounts() { return {7, 7, 4, 3, 3, 4, 8, 3, 3, 2, 2, 2}; }
+std::vector<int> ConditionMatrix::levelCounts() {
+  return {7, 7, 4, 3, 3, 4, 8, 3, 3, 2, 2, 2, 3, 2};
+}
 
 const ConditionMatrix& ConditionMatrix::instance() {
   static const ConditionMatrix matrix;
@@ -80,6 +85,8 @@ Condition ConditionMatrix::at(std::size_t cell) const {
   c.is_guided = row[kGuideFactor] == 0;
   c.has_playout = row[kPlayoutFactor] == 0;
   c.thins_when_idle = row[kThinningFactor] == 0;
+  c.max_slew = pick(kSlew, row[kSlewFactor]);
+  c.hands_shake = row[kHandsFactor] == 1;
   return c;
 }
 
@@ -98,13 +105,15 @@ const char* nameOf(Task task) {
 std::string describe(const Condition& c) {
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(),
-                "%s %s%s%s%s, loss %g %%, delay %g ms, jitter %g ms, reorder %g %%, duplicate %g "
+                "%s %s%s%s%s%s, slew %g N/s, loss %g %%, delay %g ms, jitter %g ms, reorder %g %%, "
+                "duplicate %g "
                 "%%, corrupt %g %%, outage %g ms%s",
                 c.scheme.c_str(), nameOf(c.task), c.is_guided ? ", guide" : "",
                 c.has_playout ? ", playout" : "", c.thins_when_idle ? ", thinning" : "",
-                100.0 * c.network.loss, 1e3 * c.network.delay, 1e3 * c.network.jitter,
-                100.0 * c.network.reorder, 100.0 * c.network.duplicate, 100.0 * c.corrupt,
-                1e3 * c.outage, c.outage > 0.0 && c.cut == Cut::kHoldsBack ? " held back" : "");
+                c.hands_shake ? ", sine hands" : "", c.max_slew, 100.0 * c.network.loss,
+                1e3 * c.network.delay, 1e3 * c.network.jitter, 100.0 * c.network.reorder,
+                100.0 * c.network.duplicate, 100.0 * c.corrupt, 1e3 * c.outage,
+                c.outage > 0.0 && c.cut == Cut::kHoldsBack ? " held back" : "");
   return text.data();
 }
 

@@ -29,6 +29,8 @@ struct Condition {
   Cut cut = Cut::kDrops;
   std::string scheme;
   Task task = Task::kCooperation;
+  double max_slew = 1e4;     ///< of both sites [N/s]
+  bool hands_shake = false;  ///< both hands push by sines at once; else one makes strokes
   bool is_guided = true, has_playout = true, thins_when_idle = true;
 
   /// True if states come out in the order of sending, with few late. Without playout one that

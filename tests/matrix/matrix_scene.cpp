@@ -26,7 +26,7 @@ class LaterHand final : public Hand {
   LaterHand(std::unique_ptr<Hand> hand, const double& begin)
       : hand_(std::move(hand)), begin_(begin) {}
   [[nodiscard]] Vec3 computeForce(double t, const PointState& handle) const noexcept override {
-    return hand_->computeForce(t - begin_, handle);
+    return hand_->computeForce(std::max(t - begin_, 0.0), handle);
   }
 
  private:
@@ -66,6 +66,11 @@ Vec3 MatrixScene::startOf(std::size_t i) const {
 }
 
 std::unique_ptr<Hand> MatrixScene::makeHand(std::size_t i) const {
+  if (c_.hands_shake) {
+    // Towards each other, never in step.
+    const Vec3 f_W(i == 0 ? 3.0 : -3.0, 0, 0);
+    return std::make_unique<LaterHand>(makeSineHand(f_W, i == 0 ? 1.3 : 1.9, 0.0), begin_);
+  }
   if (i == 0)
     return std::make_unique<LaterHand>(makeMinimumJerkHand(makeStrokes(startOf(0), 8), 150.0, 3.0),
                                        begin_);
@@ -79,8 +84,8 @@ void MatrixScene::makeUser(std::size_t i) {
   device.start_W = startOf(i);
   device.max_force = kMaxForce;
   if (c_.is_guided) device.guide = Vec3::UnitX();
-  user.device = std::make_unique<SimulatedDevice>(device, makeHand(i));
-  user.p_W = device.start_W;
+  user.handle = std::make_unique<SimulatedDevice>(device, makeHand(i));
+  user.device = std::make_unique<MeteredDevice>(*user.handle);
 
   net::PeerSession::Common common;
   common.configuration = makeConfiguration({{"scheme", c_.scheme}, {"object.mass", "0.2"}});
@@ -104,6 +109,7 @@ void MatrixScene::makeUser(std::size_t i) {
   settings.tick_source = TickSource::kCaller;
   settings.host_step = kTicksPerHostStep * kPeriod;
   settings.thins_when_idle = c_.thins_when_idle;
+  settings.max_slew = c_.max_slew;
   settings.scheme = &findScheme(c_.scheme);
   settings.link_loss.start_live = false;
   settings.link_loss.ramp_in = kRampIn;
@@ -159,7 +165,8 @@ void MatrixScene::step() {
   });
   for (User& user : users_) user.mesh->advance(now_ + user.clock_offset);
   for (std::size_t i = 0; i < 2; ++i) tickUser(i);
-  report_.least_energy = std::min(report_.least_energy, energy_);
+  report_.least_energy =
+      std::min(report_.least_energy, users_[0].device->putIn() + users_[1].device->putIn());
   if (++ticks_ % kTicksPerHostStep != 0) return;
   for (User& user : users_) user.rig.step(kTicksPerHostStep * kPeriod);
 }
@@ -168,16 +175,12 @@ void MatrixScene::tickUser(std::size_t i) {
   User& user = users_[i];
   SiteReport& report = user.report;
   user.site->tick(now_ + user.clock_offset);
-  // Since the last tick the device has moved under the force of that tick.
-  const Vec3 p_W = user.device->handle().p_W;
-  energy_ -= user.force_W.dot(p_W - user.p_W);
   const Vec3& force_W = user.site->force();
   report.largest_force = std::max(report.largest_force, force_W.norm());
-  report.largest_force_step = std::max(report.largest_force_step, (force_W - user.force_W).norm());
+  report.largest_rise = std::max(report.largest_rise, force_W.norm() - user.force_W.norm());
   report.is_finite &= force_W.allFinite() && isFinite(user.site->hip());
   if (user.site->objectCount() > 0) report.is_finite &= isFinite(user.site->object(0));
   user.force_W = force_W;
-  user.p_W = p_W;
   watchLink(user);
 }
 

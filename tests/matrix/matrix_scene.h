@@ -13,6 +13,7 @@
 #include "matrix/link_watch.h"
 #include "matrix/matrix_network.h"
 #include "net/peer_group.h"
+#include "support/metered_device.h"
 
 /// \file
 /// One cell of the condition matrix: two sites with real meshes on a bad network, in virtual time.
@@ -20,8 +21,8 @@ namespace tandem::test {
 
 /// Measurements of one site.
 struct SiteReport {
-  double largest_force = 0.0;       ///< [N]
-  double largest_force_step = 0.0;  ///< largest force change from tick to tick [N]
+  double largest_force = 0.0;   ///< [N]
+  double largest_rise = 0.0;    ///< largest rise of the force from tick to tick [N]
   double largest_excess = 0.0;  ///< largest age of a state at arrival, beyond delay and wait [s]
   double first_new = -1.0;      ///< time from the outage's end to the first new state [s]
   double recovered = -1.0;      ///< time from there until live or rejoining [s]; -1: never
@@ -61,11 +62,12 @@ class MatrixScene {
   struct User {
     double clock_offset = 0.0;  ///< own clock minus scene time [s]
     BulletRig rig;
-    std::unique_ptr<SimulatedDevice> device;
+    std::unique_ptr<SimulatedDevice> handle;
+    std::unique_ptr<MeteredDevice> device;
     std::unique_ptr<net::PeerGroup> mesh;
     std::unique_ptr<LinkWatch> link;
     std::unique_ptr<Site> site;
-    Vec3 force_W = Vec3::Zero(), p_W = Vec3::Zero();  ///< force of the last tick; position then
+    Vec3 force_W = Vec3::Zero();  ///< force of the last tick
     SiteReport report;
   };
 
@@ -90,7 +92,6 @@ class MatrixScene {
   double now_ = 0.0;
   double begin_ = 1e9;  ///< start of the first stroke; unknown before both are live [s]
   double outage_end_ = 1e9, end_ = 1e9;
-  double energy_ = 0.0;
   CellReport report_;
 };
 

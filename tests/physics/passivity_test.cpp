@@ -55,15 +55,21 @@ TEST_P(GuardsOfTheExperiments, InterveneNowhereInAMinute) {
 
 INSTANTIATE_TEST_SUITE_P(
     Rows, GuardsOfTheExperiments,
-    ::testing::Values(Row{"experiment1.toml", "virtual_coupling", {}},
-                      Row{"experiment1.toml", "kinematic_proxy", {}},
-                      Row{"experiment1.toml", "remote_dynamic_proxy", {}},
-                      Row{"experiment2.toml", "kinematic_proxy", {}},
-                      Row{"experiment2.toml", "kinematic_proxy", {"network.delay=0.2"}},
-                      Row{"experiment2.toml", "kinematic_proxy", {"contact.stiffness=4000"}},
-                      Row{"experiment2.toml", "remote_dynamic_proxy", {}},
-                      Row{"experiment2.toml", "remote_dynamic_proxy", {"network.delay=0.2"}},
-                      Row{"experiment2.toml", "remote_dynamic_proxy", {"contact.stiffness=4000"}}));
+    ::testing::Values(
+        Row{"experiment1.toml", "virtual_coupling", {}},
+        Row{"experiment1.toml", "kinematic_proxy", {}},
+        Row{"experiment1.toml", "remote_dynamic_proxy", {}},
+        Row{"experiment2.toml", "kinematic_proxy", {}},
+        Row{"experiment2.toml", "kinematic_proxy", {"network.delay=0.2"}},
+        Row{"experiment2.toml", "kinematic_proxy", {"contact.stiffness=4000"}},
+        Row{"experiment2.toml", "remote_dynamic_proxy", {}},
+        Row{"experiment2.toml", "remote_dynamic_proxy", {"network.delay=0.2"}},
+        Row{"experiment2.toml", "remote_dynamic_proxy", {"contact.stiffness=4000"}},
+        // Devices without friction, and with much.
+        Row{"experiment1.toml", "kinematic_proxy", {"device.damping=0"}},
+        Row{"experiment2.toml", "kinematic_proxy", {"network.delay=0.2", "device.damping=0"}},
+        Row{"experiment2.toml", "kinematic_proxy", {"contact.stiffness=4000", "device.damping=2"}},
+        Row{"experiment2.toml", "remote_dynamic_proxy", {"device.damping=2"}}));
 
 /// A passive hand, and a remote user who shakes at it and reports the energy that the test gives.
 struct ShakenHand {
