@@ -222,6 +222,52 @@ TEST(Mesh, RestartedPeerGoesOnWhereItEnded) {
   }
 }
 
+// It knows where the initiator is, and asks to be called.
+TEST(Mesh, ResponderThatRestartsElsewhereIsFound) {
+  for (const double delay : {0.002, 0.05, 0.3}) {
+    SCOPED_TRACE(delay);
+    VirtualSites sites(2, {delay, 0.0, 0.0, 0.0, 0.0});
+    ASSERT_TRUE(sites.goLive(20 * delay + 1.0));
+    sites.run(2.0);
+    sites.stop(2);
+    sites.run(3.0);
+    const Address elsewhere = VirtualNet::addressOf(5);
+    sites.at(2).port->address = elsewhere;
+    sites.start(2);
+    EXPECT_TRUE(sites.goLive(2.0 + 20 * delay));
+    EXPECT_EQ(sites.status(1, 2).address, elsewhere);
+    sites.forgetGiven();
+    sites.run(1.0);
+    EXPECT_GT(sites.at(1).given[2].size(), 100u);
+    EXPECT_GT(sites.at(2).given[1].size(), 100u);
+  }
+}
+
+// Nobody needs to be called: what was recorded of such a question has no answer.
+TEST(Mesh, AskingForACallChangesNoLiveSession) {
+  VirtualSites sites(2);
+  std::vector<std::uint8_t> knock;
+  sites.net.tap = [&](const auto& bytes, const auto& from, const auto&) {
+    if (bytes[3] == static_cast<std::uint8_t>(MessageType::kHello) &&
+        from == VirtualNet::addressOf(2))
+      knock = bytes;
+  };
+  ASSERT_TRUE(sites.goLive(1.0));
+  ASSERT_FALSE(knock.empty());
+  const std::uint16_t epoch = sites.status(1, 2).key_epoch;
+  std::size_t answers = 0;
+  sites.net.tap = [&](const auto&, const auto&, const auto& to) {
+    if (to == VirtualNet::addressOf(9)) ++answers;
+  };
+  for (int i = 0; i < 1000; ++i) {
+    sites.net.carry(knock, VirtualNet::addressOf(9), VirtualNet::addressOf(1));
+    sites.step();
+  }
+  EXPECT_EQ(answers, 0u);
+  EXPECT_EQ(sites.status(1, 2).key_epoch, epoch);
+  EXPECT_TRUE(sites.areLive());
+}
+
 TEST(Mesh, KeysAreRenewedWithoutAGap) {
   VirtualSites sites(2);
   ASSERT_TRUE(sites.goLive(1.0));

@@ -60,7 +60,7 @@ def read_clear(kind, sender, datagram):
     if kind == "REFUSE":
         require(1 <= code <= 5, "code")
     else:
-        require((sender < receiver) == (kind in ("HELLO", "OPEN")), "role")
+        require(kind == "HELLO" or (sender < receiver) == (kind == "OPEN"), "role")
         require(code == 0, "zero")
     require(zero == 0, "zero")
     fields = {"receiver": receiver, "nonce": nonce}

@@ -24,13 +24,12 @@ TEST(WireHandshake, EveryAnswerIsShorter) {
   EXPECT_LT(kRefuseSize, kOpenSize);
 }
 
-TEST(WireHandshake, OnlyTheLowerIdBegins) {
-  EXPECT_FALSE(collect([](ByteSpan out) { return encodeHello({kThere, {}}, out); }).empty());
-  EXPECT_TRUE(collect([](ByteSpan out) { return encodeHello({kBack, {}}, out); }).empty());
+TEST(WireHandshake, EachAnswerHasItsSide) {
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeCookie({kThere, {}, {}}, out); }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeOpen({kBack, 1, {}, {}}, out); }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeAccept({kThere, 1, 1, {}}, out); }).empty());
   for (const HandshakeRoute& route : {kThere, kBack}) {
+    EXPECT_FALSE(collect([&](ByteSpan out) { return encodeHello({route, {}}, out); }).empty());
     const RefuseMessage refuse{route, RefuseCode::kBusy, 1};
     EXPECT_FALSE(collect([&](ByteSpan out) { return encodeRefuse(refuse, out); }).empty());
   }

@@ -36,8 +36,10 @@ constexpr std::size_t sizeOf(MessageType type) noexcept {
   }
 }
 
-bool isInitiators(MessageType type) noexcept {
-  return type == MessageType::kHello || type == MessageType::kOpen;
+/// HELLO goes both ways, REFUSE too.
+bool isOfRole(MessageType type, bool is_initiator) noexcept {
+  if (type == MessageType::kHello) return true;
+  return is_initiator == (type == MessageType::kOpen);
 }
 
 /// Checks the route and the code, in the order of section 4.
@@ -51,7 +53,7 @@ WireRefusal findFault(const Envelope& envelope) noexcept {
                        envelope.code <= static_cast<std::uint8_t>(RefuseCode::kBusy);
     return known ? WireRefusal::kNone : WireRefusal::kCode;
   }
-  if ((sender < receiver) != isInitiators(type)) return WireRefusal::kRole;
+  if (!isOfRole(type, sender < receiver)) return WireRefusal::kRole;
   return envelope.code == 0 ? WireRefusal::kNone : WireRefusal::kZero;
 }
 

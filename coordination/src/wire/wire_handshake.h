@@ -29,7 +29,8 @@ struct HandshakeRoute {
   std::uint64_t nonce = 0;  ///< the initiator's random number, repeated in every answer
 };
 
-/// Initiator: asks to begin. The longest of all, so that no answer amplifies it.
+/// Initiator: asks to begin. Responder: asks for such a call, at the address it comes from. The
+/// longest of all, so that no answer amplifies it.
 struct HelloMessage {
   HandshakeRoute route;
   HandshakeTag tag{};  ///< over all bytes before it, under the pair's key

@@ -33,13 +33,18 @@ void Caller::advance(double now, const Address& to, const std::optional<Address>
                      Outlet& outlet) noexcept {
   if (stage_ == Stage::kOpen && now - opened_at_ > kOpenFor) start(epoch_, now);
   if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
+  callAt(to, outlet);
+  if (also && *also != to) callAt(*also, outlet);
+}
+
+void Caller::callAt(const Address& to, Outlet& outlet) const noexcept {
+  if (stage_ == Stage::kIdle) return;
   std::array<std::uint8_t, kHelloSize> datagram;
   const ByteSpan out{datagram.data(), datagram.size()};
   const std::size_t size = stage_ == Stage::kHello
                                ? writeHello({pair_.self, pair_.peer, nonce_}, key_, out)
                                : encodeOpen(open_, out);
   outlet.send({datagram.data(), size}, to);
-  if (also && *also != to) outlet.send({datagram.data(), size}, *also);
 }
 
 bool Caller::isAnswer(const HandshakeRoute& route) const noexcept {

@@ -24,6 +24,9 @@ class Caller {
   void advance(double now, const Address& to, const std::optional<Address>& also,
                Outlet& outlet) noexcept;
 
+  /// Sends the unanswered message to one more address.
+  void callAt(const Address& to, Outlet& outlet) const noexcept;
+
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
   /// Returns the new keys. Returns nothing, with the reason in `outcome`, if this does not answer
   /// our OPEN. Takes locked memory.

@@ -155,6 +155,10 @@ Outcome PeerGroup::handleHello(ByteView datagram, const Address& from, double no
     return Refusal::kKey;
   }
   if (!limitsOf(*session, from).hellos.take(now)) return Refusal::kTooMany;
+  if (session->pair().isInitiator()) {
+    session->onKnock(from, outlet_);
+    return {};
+  }
   std::array<std::uint8_t, kCookieSize> bytes;
   const std::size_t size = writeCookie({self_, hello->route.sender, hello->route.nonce},
                                        cookies_.make(makeSubject(hello->route), now),

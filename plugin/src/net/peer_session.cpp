@@ -4,12 +4,12 @@
 #include <array>
 
 #include "net/random.h"
+#include "net/tagged_datagrams.h"
 
 namespace tandem::net {
 namespace {
 
 constexpr double kSilence = 1.0;       ///< a silent peer is called again after this [s]
-constexpr double kGone = 5.0;          ///< a silent peer counts as gone after this [s]
 constexpr double kPreviousKeys = 2.0;  ///< replaced keys still open datagrams for this long [s]
 constexpr double kAgreePeriod = 0.25;  // [s]
 constexpr double kByePeriod = 0.01;    // [s]
@@ -43,7 +43,10 @@ void PeerSession::advance(double now, Outlet& outlet) noexcept {
     sayBye(now, outlet);
     return;
   }
-  callIfNeeded(now, outlet);
+  if (pair_.isInitiator())
+    callIfNeeded(now, outlet);
+  else
+    knockIfNeeded(now, outlet);
   tellConfiguration(now, outlet);
   checkPaths(now, outlet);
 }
@@ -71,7 +74,7 @@ void PeerSession::forgetKeys() noexcept {
 }
 
 void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
-  if (!pair_.isInitiator() || !paths_.inUse()) return;
+  if (!paths_.inUse()) return;
   // Nothing can come under new keys before a round trip is over.
   const double silence = has_heard_present_ ? kSilence : kSilence + caller_.took();
   const bool is_needed =
@@ -84,6 +87,26 @@ void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
   if (!is_needed) caller_.stop();
   // A peer at a new address may have restarted at its configured one: call both.
   caller_.advance(now, *paths_.inUse(), paths_.configured(), outlet);
+}
+
+/// The initiator may not know where this site is now.
+void PeerSession::knockIfNeeded(double now, Outlet& outlet) noexcept {
+  if (!paths_.inUse()) return;
+  if (keys_ && now - heard_at_ <= kSilence) {
+    knock_nonce_ = 0;
+    return;
+  }
+  if (knock_nonce_ == 0) {
+    knock_nonce_ = drawNumber<std::uint64_t>();
+    knocks_.start(now);
+  }
+  if (!knocks_.isDue(now)) return;
+  Room room;
+  const std::size_t size =
+      writeHello({pair_.self, pair_.peer, knock_nonce_}, key_, room.datagram());
+  outlet.send({room.bytes.data(), size}, *paths_.inUse());
+  if (paths_.configured() && paths_.configured() != paths_.inUse())
+    outlet.send({room.bytes.data(), size}, *paths_.configured());
 }
 
 void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
@@ -285,77 +308,4 @@ bool PeerSession::sendSealedTo(const Address& to, MessageType type, std::size_t 
   return size > 0;
 }
 
-PeerStatus PeerSession::status(double now) const {
-  PeerStatus status;
-  status.peer = pair_.peer;
-  if (left_)
-    status.phase = PeerPhase::kLeft;
-  else if (!keys_ || now - heard_at_ > kGone)
-    status.phase = PeerPhase::kCalling;
-  else if (agreement_.isEqual())
-    status.phase = PeerPhase::kLive;
-  else
-    status.phase = agreement_.difference() ? PeerPhase::kDifferent : PeerPhase::kAgreeing;
-  status.address = paths_.inUse();
-  status.address_changes = paths_.moves();
-  status.silence = keys_ ? now - heard_at_ : 0.0;
-  status.round_trip = stream_.trip().trip();
-  status.clock_offset = stream_.trip().offset();
-  const Playout& playout = stream_.playout();
-  status.wait = playout.wait();
-  status.jitter = playout.jitter();
-  status.loss = stream_.loss();
-  status.key_epoch = keys_ ? keys_->epoch() : std::uint16_t{0};
-  status.states_sent = states_sent_;
-  status.states_unsent = states_unsent_;
-  status.states_given = playout.counts().given;
-  status.states_stale = playout.counts().stale;
-  status.states_too_late = playout.counts().too_late;
-  if (const auto& refused = caller_.refused(); refused && !keys_) {
-    status.refused = refused->code;
-    status.refused_version = refused->version;
-  }
-  status.is_called_with_another_key = is_called_with_another_key_ && !keys_;
-  status.left = left_;
-  if (keys_ || left_ == ByeReason::kConfigurationsDiffer)
-    status.difference = agreement_.difference();
-  return status;
-}
-
 }  // namespace tandem::net
-
-namespace tandem {
-
-const char* name(PeerPhase phase) noexcept {
-  switch (phase) {
-    case PeerPhase::kCalling:
-      return "calling";
-    case PeerPhase::kAgreeing:
-      return "agreeing";
-    case PeerPhase::kDifferent:
-      return "different";
-    case PeerPhase::kLive:
-      return "live";
-    case PeerPhase::kLeft:
-      return "left";
-  }
-  return "";
-}
-
-const char* explain(RefuseCode code) noexcept {
-  switch (code) {
-    case RefuseCode::kVersion:
-      return "it speaks another version; install the same release on both sides";
-    case RefuseCode::kUnknownPeer:
-      return "it does not expect this site; compare the ids on both sides";
-    case RefuseCode::kCookie:
-      return "our datagrams reach it too late";
-    case RefuseCode::kKey:
-      return "it has another key; give both sides the same key file";
-    case RefuseCode::kBusy:
-      return "it is busy";
-  }
-  return "it says no reason";
-}
-
-}  // namespace tandem

@@ -42,6 +42,8 @@ class PeerSession {
   void advance(double now, Outlet& outlet) noexcept;
 
   // Handlers of received datagrams, by type. They may change the bytes.
+  /// A responder asks to be called at this address.
+  void onKnock(const Address& from, Outlet& outlet) noexcept { caller_.callAt(from, outlet); }
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
   [[nodiscard]] Outcome onAccept(ByteView datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
@@ -82,6 +84,7 @@ class PeerSession {
   void checkPaths(double now, Outlet& outlet) noexcept;
   void answerChallenge(PathToken token, const Address& from, Outlet& outlet) noexcept;
   void callIfNeeded(double now, Outlet& outlet) noexcept;
+  void knockIfNeeded(double now, Outlet& outlet) noexcept;
   void tellConfiguration(double now, Outlet& outlet) noexcept;
   void sayBye(double now, Outlet& outlet) noexcept;
   void dropOldKeys(double now) noexcept;
@@ -91,6 +94,8 @@ class PeerSession {
   Paths paths_;
   SecretKey key_;
   Caller caller_;
+  Retry knocks_;
+  std::uint64_t knock_nonce_ = 0;  ///< of a responder that nobody calls; else 0
   Answerer answerer_;
   Agreement agreement_;
   StateStream stream_;
