@@ -10,7 +10,7 @@ namespace {
 /// Least share for a hand that puts energy in; with none an empty tank would stay empty.
 constexpr double kLeastShare = 0.02;
 
-/// Most of the remaining energy that one tick may take. The rest covers motion that is not expected.
+/// Most of the remaining energy that one tick may take; the rest is for unexpected motion.
 constexpr double kMostPerTick = 0.8;
 
 /// Energy that is never given [J]: sums of small numbers must not round beyond the tank.
