@@ -41,19 +41,19 @@ std::optional<EnergyReport> EnergyPort::report(EnergyLedger& ledger, int sites) 
   return ledger.report(observer_.available());
 }
 
-void EnergyPort::receive(double period, bool keeps_all) noexcept {
-  const double most = settings_.power * period;
+void EnergyPort::credit(double most, bool keeps_all) noexcept {
   const double received = keeps_all ? std::min(waiting_, most) : most;
-  if (received == 0.0) return;
   waiting_ = std::max(0.0, waiting_ - received);
   observer_.addMoved(received);
 }
 
-Vec3 EnergyPort::limit(const Vec3& wanted_W, const Vec3& v_W, double change,
+/// With the impulse J = f T and the least mass m, the hand gets J . v + J^2 / (2 m), and up to
+/// |J| |dv| / 2 <= J^2 / (4 m) + m dv^2 / 4 by the change dv of its velocity.
+Vec3 EnergyPort::limit(const Vec3& wanted_W, const Vec3& v_W, const Vec3& change_W,
                        double duration) noexcept {
-  const double impulse = duration * wanted_W.norm();
-  const TickEnergy whole{duration * wanted_W.dot(v_W) + 0.5 * impulse * change,
-                         0.5 * impulse * impulse / settings_.least_mass};
+  const double m = settings_.least_mass;
+  const TickEnergy whole{duration * wanted_W.dot(v_W) + 0.25 * m * change_W.squaredNorm(),
+                         0.75 * duration * duration / m * wanted_W.squaredNorm()};
   const double share = observer_.computeShare(whole);
   if (share == 1.0) return wanted_W;
   ++limited_;

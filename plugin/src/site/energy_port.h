@@ -56,14 +56,18 @@ class EnergyPort {
   /// Grants a peer its part of what is here; `sites` share it. Empty if no account is kept.
   [[nodiscard]] std::optional<EnergyReport> report(EnergyLedger& ledger, int sites) noexcept;
   /// Called once a tick: takes what peers granted. `keeps_all`: each peer keeps an account.
-  void receive(double period, bool keeps_all) noexcept;
+  void receive(double period, bool keeps_all) noexcept {
+    if (waiting_ > 0.0 || !keeps_all) credit(settings_.power * period, keeps_all);
+  }
 
   /// The share of `wanted_W` [N] that a hand of velocity `v_W` may get over `duration` [s]. Its
-  /// velocity is expected to change by up to `change` [m/s].
-  [[nodiscard]] Vec3 limit(const Vec3& wanted_W, const Vec3& v_W, double change,
+  /// velocity is expected to change by as much as `change_W` [m/s], in any direction.
+  [[nodiscard]] Vec3 limit(const Vec3& wanted_W, const Vec3& v_W, const Vec3& change_W,
                            double duration) noexcept;
 
  private:
+  void credit(double most, bool keeps_all) noexcept;
+
   PassivitySettings settings_;
   PassivityObserver observer_;
   bool is_kept_;

@@ -53,9 +53,10 @@ void LocalHand::countWork() noexcept {
     *p_before_W_ += way_W;
     return;
   }
-  if (p_before_W_) energy_.countHand(force_W_, sample_.hip.p_W - *p_before_W_);
+  if (p_before_W_ && force_W_ != Vec3::Zero())
+    energy_.countHand(force_W_, sample_.hip.p_W - *p_before_W_);
   p_before_W_ = sample_.hip.p_W;
-  v_change_ = (sample_.hip.v_W - v_known_W_).norm();
+  v_before_W_ = v_known_W_;
   v_known_W_ = sample_.hip.v_W;
 }
 
@@ -69,12 +70,11 @@ const Vec3& LocalHand::computeContactForce() noexcept {
 
 void LocalHand::render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept {
   contact_W_ = contact_W;
+  if (energy_.isKept()) energy_.receive(period_, peers.keepAccounts());
+  if (contact_W_ == Vec3::Zero() && force_W_ == Vec3::Zero()) return;
   force_W_ = guard_.follow(guard_.clamp(contact_W_), fault || fades_);
-  if (energy_.isKept()) {
-    energy_.receive(period_, peers.keepAccounts());
-    if (force_W_ != Vec3::Zero())
-      force_W_ = energy_.limit(force_W_, v_known_W_, v_change_, period_);
-  }
+  if (energy_.isKept())
+    force_W_ = energy_.limit(force_W_, v_known_W_, v_known_W_ - v_before_W_, period_);
   guard_.note(force_W_);
 }
 

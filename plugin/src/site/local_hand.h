@@ -77,7 +77,7 @@ class LocalHand {
   DeviceSample sample_;
   bool is_there_ = false;
   Vec3 v_known_W_ = Vec3::Zero();   ///< of the latest usable sample
-  double v_change_ = 0.0;           ///< of that velocity since the sample before [m/s]
+  Vec3 v_before_W_ = Vec3::Zero();  ///< of the usable sample before it
   std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
   Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
   RestMark contact_rest_;  ///< when the contact force was computed

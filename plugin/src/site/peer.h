@@ -27,6 +27,7 @@ struct Peer {
   StatePacket latest;
   bool is_heard = false;  ///< `latest` holds a packet
   EnergyLedger ledger;
+  bool keeps_account = true;  ///< as of its newest packet
 
   // Its representation here.
   RemoteUser user;

@@ -70,7 +70,7 @@ void Peers::takeIn(Peer& peer, const Arrival& arrival, double time) noexcept {
     peer.is_heard = true;
     peer.latest = packet;
     hear(peer, packet, time);
-    if (packet.energy) energy_.hear(peer.ledger, *packet.energy);
+    hearEnergy(peer, packet);
   }
   const bool has_news = hearObjects(peer, packet, time) || is_latest;
   ++(has_news ? log_.counters.packets_taken : log_.counters.packets_stale);
@@ -92,6 +92,14 @@ void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
     peer.track.hear(user, time, silence, jumped && !health.isProxyOut());
   }
   scheme_.follow(island_, peer.user, peer.track.at(time, 1.0));
+}
+
+void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
+  if (packet.energy) energy_.hear(peer.ledger, *packet.energy);
+  if (peer.keeps_account == packet.energy.has_value()) return;
+  peer.keeps_account = packet.energy.has_value();
+  keep_accounts_ = std::all_of(peers_.begin(), peers_.end(),
+                               [](const Peer& other) { return other.keeps_account; });
 }
 
 void Peers::noteJump(Peer& peer) noexcept {
@@ -139,11 +147,6 @@ void Peers::send(StatePacket packet, double time) noexcept {
 void Peers::noteSearched() noexcept {
   for (Peer& peer : peers_)
     if (peer.user.body) peer.searched_W = island_.state(*peer.user.body).p_W;
-}
-
-bool Peers::keepAccounts() const noexcept {
-  const auto keeps_none = [](const Peer& peer) { return peer.is_heard && !peer.latest.energy; };
-  return std::none_of(peers_.begin(), peers_.end(), keeps_none);
 }
 
 }  // namespace tandem

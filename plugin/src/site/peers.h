@@ -59,12 +59,13 @@ class Peers {
   void noteSearched() noexcept;
 
   /// True if all peers that were heard keep energy accounts.
-  [[nodiscard]] bool keepAccounts() const noexcept;
+  [[nodiscard]] bool keepAccounts() const noexcept { return keep_accounts_; }
 
  private:
   [[nodiscard]] CouplerSettings makeCoupler(const SharedObject& object) const noexcept;
   void takeIn(Peer& peer, const Arrival& arrival, double time) noexcept;
   void hear(Peer& peer, const StatePacket& packet, double time) noexcept;
+  void hearEnergy(Peer& peer, const StatePacket& packet) noexcept;
   void noteJump(Peer& peer) noexcept;
   bool hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept;
 
@@ -87,6 +88,7 @@ class Peers {
   EnergyPort& energy_;
   SiteLog& log_;
   std::vector<Peer> peers_;
+  bool keep_accounts_ = true;
 };
 
 template <typename Made>
