@@ -15,7 +15,7 @@ class btDiscreteDynamicsWorld;
 class btRigidBody;
 
 namespace tandem {
-class Site;
+class [[gnu::visibility("default")]] Site;  // as where it is defined
 }
 
 namespace tandem::c_door {

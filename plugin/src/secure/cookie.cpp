@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <sodium.h>
+
 #include "coordination/src/wire/little_endian.h"
 
 namespace tandem::secure {
