@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/byte_transport.h"
+#include "tandem/falcon/emulated_falcon_port.h"
 #include "tandem/falcon/falcon_device.h"
 #include "tandem/falcon/monotonic_clock.h"
 
