@@ -55,7 +55,7 @@ struct Rig {
         ++packet.sequence;
         next_packet = now + packet_period;
       }
-      EXPECT_EQ(site->tick(now), kTickOk);
+      EXPECT_EQ(site->tick(now) & ~allowed, kTickOk);
       if (++ticks % kTicksPerStep == 0) host.step(kHostStep);
     }
   }
@@ -78,6 +78,7 @@ struct Rig {
   StatePacket packet;
   double packet_period = kPacket, next_packet = 0.0;
   bool is_heard = true;
+  std::uint32_t allowed = kTickOk;  ///< status bits that may come
   std::uint64_t ticks = 0;
 };
 
@@ -336,6 +337,8 @@ TEST_P(NativeLinkLoss, FadesLosesAndComesBack) {
     SiteSettings settings = ofScheme(scheme);
     settings.contact_model = GetParam();
     Rig rig(settings, Vec3::Zero());
+    // Point-to-point joints throw the cube for a moment while their gains fall (docs/native.md).
+    if (GetParam() == ContactModel::kPointToPoint) rig.allowed = kOutOfRange;
     rig.run(0.2);
     rig.packet.objects[0].state.p_W.y() = 0.01;
     rig.run(0.02);

@@ -160,5 +160,26 @@ TEST(PacketSender, CarriesAtMostEightObjectsAndForgetsNone) {
   checkTurns(12, 1, 20);
 }
 
+// One body that is thrown out of the range of packets must not silence the others.
+TEST(PacketSender, WithholdsOnlyWhatIsOutOfRangeAndSaysSo) {
+  SendingSite site(3);
+  site.letObjectsGo();
+  RigidState far = site.rig.island.state(site.rig.index(1));
+  far.p_W.x() = 1001.0;  // beyond +-1000 m
+  site.rig.island.setState(site.rig.index(1), far);
+  RigidState fast = site.rig.island.state(site.rig.index(2));
+  fast.v_W.y() = 101.0;  // beyond +-100 m/s
+  site.rig.island.setState(site.rig.index(2), fast);
+  site.run(20);
+  ASSERT_FALSE(site.link.sent.empty());
+  for (const StatePacket& packet : site.link.sent) {
+    ASSERT_EQ(packet.object_count, 1u);
+    EXPECT_EQ(packet.objects[0].id, 0u);
+  }
+  EXPECT_EQ(site.rig.log.endTick() & kOutOfRange, kOutOfRange);
+  EXPECT_EQ(site.rig.log.counters.states_withheld, 2 * site.link.sent.size());
+  EXPECT_FALSE(site.rig.log.hasFault());
+}
+
 }  // namespace
 }  // namespace tandem

@@ -13,6 +13,7 @@ static_assert(TANDEM_STATUS_PACKET_REFUSED == static_cast<int>(kPacketRefused));
 static_assert(TANDEM_STATUS_HOST_STEP_WRONG == static_cast<int>(kHostStepWrong));
 static_assert(TANDEM_STATUS_STATE_NOT_FINITE == static_cast<int>(kStateNotFinite));
 static_assert(TANDEM_STATUS_WORLD_GONE == static_cast<int>(kWorldGone));
+static_assert(TANDEM_STATUS_OUT_OF_RANGE == static_cast<int>(kOutOfRange));
 
 static_assert(TANDEM_LINK_WAITING == static_cast<int>(LinkState::kWaiting));
 static_assert(TANDEM_LINK_LIVE == static_cast<int>(LinkState::kLive));

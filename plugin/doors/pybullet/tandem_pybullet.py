@@ -58,7 +58,7 @@ PeerStatus = namedtuple("PeerStatus", "phase silence round_trip loss")
 LINK_STATES = ("waiting", "live", "stale", "fading", "lost", "rejoining")
 PHASES = ("calling", "agreeing", "different", "live", "left")
 STATUS_BITS = ("device_invalid", "body_missing", "packet_refused", "host_step_wrong",
-               "state_not_finite", "world_gone")
+               "state_not_finite", "world_gone", "out_of_range")
 
 
 class TandemError(RuntimeError):

@@ -428,7 +428,8 @@ typedef enum TandemStatus {
   TANDEM_STATUS_PACKET_REFUSED = 1 << 2,   /* a packet was invalid: check the sender */
   TANDEM_STATUS_HOST_STEP_WRONG = 1 << 3,  /* impulse injection needs steps of a haptic period */
   TANDEM_STATUS_STATE_NOT_FINITE = 1 << 4, /* lower gains or inner_step; no force from now on */
-  TANDEM_STATUS_WORLD_GONE = 1 << 5        /* the world was destroyed: destroy the site */
+  TANDEM_STATUS_WORLD_GONE = 1 << 5,       /* the world was destroyed: destroy the site */
+  TANDEM_STATUS_OUT_OF_RANGE = 1 << 6      /* a body is too far or fast for packets: not sent */
 } TandemStatus;
 
 /* Advances one haptic period from `now` [s]; the first call starts the clock. Only with

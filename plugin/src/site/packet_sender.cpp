@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coordination/src/wire/state_gate.h"
+
 namespace tandem {
 namespace {
 
@@ -71,18 +73,38 @@ bool PacketSender::isStill() const noexcept {
   return true;
 }
 
+/// A receiver would refuse the whole packet for one state that is out of range.
+bool PacketSender::maySend(const RigidState& state) noexcept {
+  if (wire::StateGate(WireLimits{}).check(state) == WireRefusal::kNone) return true;
+  noteWithheld();
+  return false;
+}
+
+/// The user, or where it was last in range.
+PointState PacketSender::limitUser(const PointState& user) noexcept {
+  if (wire::StateGate(WireLimits{}).check(user) == WireRefusal::kNone) return user;
+  noteWithheld();
+  return {sent_user_.p_W, Vec3::Zero()};
+}
+
+void PacketSender::noteWithheld() noexcept {
+  log_.raise(kOutOfRange);
+  ++log_.counters.states_withheld;
+}
+
 void PacketSender::send(double time) noexcept {
   StatePacket packet;
   packet.sender = settings_.self;
   packet.sequence = sequence_++;
   packet.is_idle = is_idle_;
   packet.time = time;
-  packet.user = hand_.pointAt(time, timeline_.tickStart());
+  packet.user = sent_user_ = limitUser(hand_.pointAt(time, timeline_.tickStart()));
   const auto state = [&](std::size_t i) -> const RigidState& {
     return island_.state(bodies_.objects[i].body.index);
   };
   for (const std::size_t i :
        turns_.choose([&](std::size_t i) { return !isSame(sent_[i], state(i)); })) {
+    if (!maySend(state(i))) continue;
     sent_[i] = state(i);
     packet.objects[packet.object_count++] = {bodies_.objects[i].id, sent_[i]};
   }

@@ -38,6 +38,9 @@ class PacketSender {
  private:
   [[nodiscard]] bool isStill() const noexcept;
   void send(double time) noexcept;
+  [[nodiscard]] bool maySend(const RigidState& state) noexcept;
+  [[nodiscard]] PointState limitUser(const PointState& user) noexcept;
+  void noteWithheld() noexcept;
 
   const SiteSettings& settings_;
   const Island& island_;
@@ -53,6 +56,7 @@ class PacketSender {
   double busy_until_ = 0.0;  ///< last time of motion or touch [s]
   PacketTurns turns_;
   std::vector<RigidState> sent_;  ///< by object, as last sent
+  PointState sent_user_;          ///< as last sent
 };
 
 }  // namespace tandem

@@ -31,13 +31,15 @@ enum TickStatus : std::uint32_t {
   kPacketRefused = 1u << 2,  ///< a packet was invalid (NaN, no unit quaternion): check the sender
   kHostStepWrong = 1u << 3,  ///< impulse injection without host steps at the haptic rate: hand off
   kStateNotFinite = 1u << 4,  ///< the island diverged, no force any more: lower gains or inner_step
-  kWorldGone = 1u << 5,  ///< the world is gone, the force fades: destroy a site before its world
+  kWorldGone = 1u << 5,   ///< the world is gone, the force fades: destroy a site before its world
+  kOutOfRange = 1u << 6,  ///< a body is too far or fast for packets: move the world to its origin
 };
 
 /// Counters since the start.
 struct SiteCounters {
   std::uint64_t packets_sent = 0;
   std::uint64_t packets_taken = 0;
+  std::uint64_t states_withheld = 0;  ///< of own bodies, not sent: out of the range of packets
   std::uint64_t packets_stale = 0;    ///< dropped: nothing newer than what was known
   std::uint64_t packets_refused = 0;  ///< dropped: invalid
   std::uint64_t peer_jumps = 0;       ///< states of peers too far from the ones before: smoothed
