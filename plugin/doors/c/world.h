@@ -14,9 +14,12 @@
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
+// Shown, as where it is defined.
+#pragma GCC visibility push(default)
 namespace tandem {
-class [[gnu::visibility("default")]] Site;  // as where it is defined
+class Site;
 }
+#pragma GCC visibility pop
 
 namespace tandem::c_door {
 
