@@ -33,6 +33,7 @@ struct PulledBall {
     settings.obstacle_contact = kContact;
     settings.tolerance = tolerance;
     island.emplace(settings);
+    island->setGentleStarts(false);  // the ball is put into shapes
     IslandBody body;
     body.shape = Sphere{kRadius};
     body.mass = kMass;

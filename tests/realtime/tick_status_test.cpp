@@ -53,6 +53,7 @@ struct Rig {
   void put(const StatePacket& packet) { link.arrivals.push_back({packet, now()}); }
   /// Puts the device this deep into the cube, along x, for one tick; the cube follows slowly.
   std::uint32_t press(double depth) {
+    if (ticks == 0) tick();  // a hand that starts in the cube would be let in gently
     device.sample.hip.p_W = Vec3(-kTouch + depth, 0, 0);
     return tick();
   }
@@ -209,6 +210,7 @@ TEST(TickStatus, ForceLimitOfTheDeviceKeepsTheDirection) {
   settings.max_slew = std::numeric_limits<double>::infinity();
   Rig free(settings), limited(settings, 3.0), strong(settings, 1000.0);
   for (Rig* rig : {&free, &limited, &strong}) {
+    EXPECT_EQ(rig->tick(), kTickOk);
     rig->device.sample.hip.p_W = on_the_edge;
     EXPECT_EQ(rig->tick(), kTickOk);
   }

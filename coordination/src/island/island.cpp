@@ -1,10 +1,12 @@
 #include "island/island.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bad_value.h"
 #include "island/island_catch_up.h"
 #include "island/island_model.h"
+#include "island/jumps.h"
 #include "island/rest.h"
 #include "island/slot_motion.h"
 #include "island/spatial_motion.h"
@@ -13,6 +15,9 @@
 
 namespace tandem {
 namespace {
+
+/// Most contacts that were let in and still push with less than their overlap.
+constexpr std::size_t kMostRemembered = 64;
 
 void checkNotNegative(const char* name, double value) {
   if (!(value >= 0.0) || !std::isfinite(value)) throwBadValue(name, value, "a finite number >= 0");
@@ -42,7 +47,7 @@ void checkBody(const IslandBody& body, bool is_guided) {
   for (int axis = 0; axis < 3; ++axis) checkNotNegative("body inertia", body.inertia_B[axis]);
 }
 
-bool isSame(const RigidState& a, const RigidState& b) noexcept {
+inline bool isSame(const RigidState& a, const RigidState& b) noexcept {
   return a.p_W == b.p_W && a.v_W == b.v_W && a.w_W == b.w_W && a.q_WB.coeffs() == b.q_WB.coeffs();
 }
 
@@ -61,6 +66,16 @@ struct Island::Impl {
   bool asleep = false;
   std::uint64_t obstacles_hash = 0;  ///< hash when the island fell asleep
 
+  /// Gives contacts with what has jumped their allowances.
+  void letJumpsIn() noexcept {
+    tandem::letJumpsIn(model, states);
+    if (slot) slot->recall(model);
+  }
+  void endJumps(double dt) noexcept {
+    tandem::endJumps(model, dt, states);
+    if (slot) slot->recall(model);
+  }
+
   void disturb(BodyIndex body) noexcept {
     asleep = false;
     model.bodies[body].disturbed = true;
@@ -78,8 +93,14 @@ struct Island::Impl {
     }
   }
 
+  void noteJumps() noexcept { model.has_jumps = model.gentle_starts; }
+  [[nodiscard]] bool isLettingIn() const noexcept {
+    return model.has_jumps || !model.memory.isEmpty();
+  }
+
   /// Falls asleep if the forces allow it.
   void tryToSleep() noexcept {
+    if (!model.memory.isEmpty()) return;
     computeContactWrenches();
     for (const BodyIndex b : model.present) {
       if (spatial->wasHeld(b)) return;
@@ -116,13 +137,15 @@ struct Island::Impl {
 
   /// Contact wrenches of a free island at this instant, written to `wrenches`.
   void computeContactWrenches() noexcept {
+    if (model.has_jumps) letJumpsIn();
     if (!model.is_listed) model.listPresent();
     for (const BodyIndex b : model.present) {
       states[b] = model.bodies[b].state;
       wrenches[b] = {};
     }
-    forEachTouch(model, [&](const Touch& touch) {
+    forEachTouch(model, [&](Touch touch) {
       if (!couldMeet(model, touch, states, 0.0)) return;
+      recall(model, touch, 0.5 * model.settings.haptic_period);
       const auto add = [&](const Touch& one) {
         const TouchState state = computeTouchState(model, one, states);
         const double push = computePush(one, state);
@@ -136,6 +159,7 @@ struct Island::Impl {
   }
 
   [[nodiscard]] Wrench contactWrench(BodyIndex body) noexcept {
+    if (slot && model.has_jumps) letJumpsIn();
     if (slot) return {*model.settings.guide * slot->computeContactForce(model, body), Vec3::Zero()};
     wrenches[body] = {};
     computeContactWrenches();
@@ -197,6 +221,13 @@ void Island::addContact(BodyIndex sphere, BodyIndex other, const CouplerGains& g
   impl_->prepared = false;
 }
 
+void Island::setGentleStarts(bool are_gentle) noexcept {
+  impl_->model.gentle_starts = are_gentle;
+  if (are_gentle) return;
+  impl_->model.has_jumps = false;
+  impl_->model.memory.clear();
+}
+
 void Island::setContactFinder(ContactFinder* finder) {
   impl_->model.finder = finder;
   wake();
@@ -216,6 +247,8 @@ void Island::prepare() {
   impl.wrenches.resize(impl.model.bodies.size());
   impl.states.resize(impl.model.bodies.size());
   for (ModelBody& body : impl.model.bodies) body.is_asleep = false;
+  impl.model.memory.makeRoom(kMostRemembered);
+  impl.noteJumps();
   impl.model.reserveLists();
   impl.model.listPresent();
   impl.catch_up.prepare(impl.model);
@@ -223,10 +256,16 @@ void Island::prepare() {
 }
 
 void Island::setState(BodyIndex body, const RigidState& state) noexcept {
-  RigidState& now = impl_->model.bodies[body].state;
-  if (isSame(now, state)) return;
-  now = state;
+  ModelBody& b = impl_->model.bodies[body];
+  if (isSame(b.state, state)) return;
+  if (mayJump(b, state) && impl_->prepared) [[unlikely]]
+    notePlacing(impl_->model, body, state, impl_->states);
+  b.state = state;
   impl_->disturb(body);
+}
+
+void Island::noteArrival(BodyIndex body) noexcept {
+  if (impl_->prepared) noteJump(impl_->model, body, impl_->states);
 }
 
 void Island::setTarget(CouplerIndex coupler, const RigidState& target) noexcept {
@@ -295,9 +334,14 @@ void Island::fill(BodyIndex slot, const IslandBody& body) noexcept {
   TANDEM_ASSERT(impl_->prepared && impl_->model.bodies[slot].is_slot);
   TANDEM_ASSERT((body.motion != Motion::kDynamic || body.mass > 0.0) && isFinite(body.start));
   ModelBody& filled = impl_->model.bodies[slot];
+  if (filled.is_active && mayJump(filled, body.start))
+    notePlacing(impl_->model, slot, body.start, impl_->states);
+  const bool has_jumped = !filled.is_active || filled.has_jumped;
   filled = ModelBody::make(body, false);
   filled.settings.feels_obstacles = false;
   filled.is_slot = true;
+  filled.has_jumped = has_jumped;
+  if (has_jumped) impl_->noteJumps();
   impl_->model.is_listed = false;
   impl_->disturb(slot);
   impl_->spatial->refill(impl_->model, slot);
@@ -309,6 +353,7 @@ void Island::clear(BodyIndex slot) noexcept {
   cleared.is_slot = true;
   cleared.is_active = false;
   impl_->model.bodies[slot] = cleared;
+  impl_->model.memory.forget(slot);
   wake();
   // After an added body, prepare() comes next and rebuilds everything.
   if (impl_->prepared) impl_->spatial->refill(impl_->model, slot);
@@ -316,6 +361,13 @@ void Island::clear(BodyIndex slot) noexcept {
 
 void Island::setObstacles(const std::vector<Obstacle>& obstacles) noexcept {
   impl_->model.obstacles = &obstacles;
+  const bool has_changed = std::any_of(
+      obstacles.begin(), obstacles.end(),
+      [](const Obstacle& obstacle) { return obstacle.change != ObstacleChange::kNone; });
+  if (has_changed) {
+    impl_->model.has_arrivals = true;
+    impl_->noteJumps();
+  }
   // The same vector may have new contents.
   if (impl_->asleep && computeHash(&obstacles) != impl_->obstacles_hash) wake();
 }
@@ -329,6 +381,10 @@ void Island::wake() noexcept {
   impl_->model.is_listed = false;
 }
 
+void Island::passTime(double dt) noexcept {
+  if (impl_->isLettingIn()) impl_->endJumps(dt);
+}
+
 void Island::advance(double dt) noexcept {
   Impl& impl = *impl_;
   TANDEM_ASSERT(impl.prepared);
@@ -339,6 +395,8 @@ void Island::advance(double dt) noexcept {
     return;
   }
   ++impl.revision;
+  const bool is_letting_in = impl.isLettingIn();
+  if (impl.model.has_jumps) impl.letJumpsIn();
   if (impl.slot) {
     impl.slot->advance(impl.model, dt);
   } else {
@@ -346,6 +404,7 @@ void Island::advance(double dt) noexcept {
     impl.counters.asleep_bodies += static_cast<std::uint64_t>(impl.model.asleep_count);
     if (!impl.asleep) impl.letSomeSleep();
   }
+  if (is_letting_in) impl.endJumps(dt);
 }
 
 void Island::catchUp(const std::vector<BodyIndex>& slots, const std::vector<RigidState>& from,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,11 +46,23 @@ struct CouplerSettings {
   CouplerGains angular;
 };
 
+/// Whether an obstacle was in the list before.
+enum class ObstacleChange : std::uint8_t {
+  kNone,   ///< at the same place
+  kMoved,  ///< elsewhere
+  kNew,    ///< no
+};
+
 /// A fixed object that spheres with `feels_obstacles` touch.
 struct Obstacle {
   Shape shape;
   Vec3 p_WB = Vec3::Zero();
   Quat q_WB = Quat::Identity();
+  std::uint64_t id = 0;  ///< the same in each list; 0: its place in the list tells
+  ObstacleChange change = ObstacleChange::kNone;
+  /// If it moved: its pose in the list before.
+  Vec3 p_before_WB = Vec3::Zero();
+  Quat q_before_WB = Quat::Identity();
 };
 
 /// Deviation of a body from its known path.
@@ -109,6 +122,8 @@ class Island {
   /// an obstacle (IslandSettings::obstacle_contact), and it receives the reaction force and torque.
   /// Not in a guided island.
   BodyIndex addSlot();
+  /// False: contacts that begin deep push at once, as their springs say. Default true.
+  void setGentleStarts(bool are_gentle) noexcept;
   /// Sets the finder of rigid contacts; null: there are none. It must outlive the island.
   void setContactFinder(ContactFinder* finder);
   /// Builds the exact maps of everything added.
@@ -117,7 +132,12 @@ class Island {
 
   /// @name In the tick: real-time safe.
   /// @{
+  /// A move that the velocities do not explain is a jump: contacts that it begins, or makes deeper,
+  /// are let in gently (TouchMemory). The same holds for bodies and obstacles that come. A
+  /// prescribed body never jumps.
   void setState(BodyIndex body, const RigidState& state) noexcept;
+  /// A prescribed body jumps with its next state: a device is back.
+  void noteArrival(BodyIndex body) noexcept;
   void setTarget(CouplerIndex coupler, const RigidState& target) noexcept;
   /// External force and torque about the centre of mass, in W, until set again [N, N m].
   void setExternalWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
@@ -148,6 +168,8 @@ class Island {
   void wake() noexcept;
   /// Moves everything by `dt` [s], 0 < dt <= haptic_period.
   void advance(double dt) noexcept;
+  /// Lets `dt` [s] pass for an owner that moves the bodies itself.
+  void passTime(double dt) noexcept;
   /// Moves the slots through the past `duration` [s], for bodies that enter with a state older than
   /// the island's. They touch each other, fixed surfaces and all other bodies. The other bodies
   /// move steadily from `from` to `to` and deviate where a slot pushes them. `asides` has their

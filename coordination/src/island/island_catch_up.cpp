@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/turn.h"
+#include "island/jumps.h"
 
 namespace tandem {
 namespace {
@@ -19,6 +20,7 @@ Aside computeSteady(const RigidState& from, const RigidState& to, double duratio
 
 void IslandCatchUp::prepare(const IslandModel& model) {
   bodies_ = model.bodies;
+  states_.resize(bodies_.size());
   slots_.reserve(model.slots.size());
 }
 
@@ -38,6 +40,8 @@ void IslandCatchUp::run(IslandModel& model, SpatialMotion& motion, IslandCounter
     sendAlong(model, b, steady, from[b], asides[b]);
     motion.refill(model, b);
   });
+  if (model.has_jumps) letJumpsIn(model, states_);
+  for (const BodyIndex slot : slots) model.bodies[slot].has_jumped = false;
   const double steps = std::ceil(duration / model.settings.haptic_period * (1.0 - 1e-9));
   for (double i = 0; i < steps; ++i) motion.advance(model, duration / steps, counters);
   forEachOther(
@@ -72,6 +76,7 @@ void IslandCatchUp::sendAlong(IslandModel& model, BodyIndex b, const Aside& stea
                               const RigidState& from, const Aside& aside) noexcept {
   ModelBody& body = model.bodies[b];
   bodies_[b] = body;
+  body.has_jumped = false;
   body.settings.damping = body.settings.angular_damping = body.extra_damping = 0.0;
   body.f_external_W.setZero();
   body.t_external_W.setZero();

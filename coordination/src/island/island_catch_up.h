@@ -34,6 +34,7 @@ class IslandCatchUp {
   std::vector<IslandContact> contacts_;
   std::vector<BodyIndex> slots_;
   const std::vector<Obstacle>* obstacles_ = nullptr;
+  States states_;
 };
 
 }  // namespace tandem

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "island/island.h"
+#include "island/touch_memory.h"
 
 /// \file
 /// Data shared by the island's laws of motion. Private to coordination.
@@ -26,6 +27,7 @@ struct ModelBody {
   bool is_ghost = false;       ///< stays where it is set, and touches nothing
   double contact_share = 1.0;  ///< share of its contacts' gains
   double extra_damping = 0.0;  ///< added to its own damping [N s/m]
+  bool has_jumped = true;  ///< since the last advance it came, or was set where no motion led it
 
   /// Makes a body at its start state without external forces. Expects checked settings. A guided
   /// body does not rotate.
@@ -66,6 +68,10 @@ struct IslandModel {
   std::vector<BodyIndex> slots;
   const std::vector<Obstacle>* obstacles = nullptr;
   ContactFinder* finder = nullptr;
+  TouchMemory memory;
+  bool gentle_starts = true;  ///< contacts that begin deep are let in
+  bool has_jumps = false;     ///< since the last advance some body or obstacle came or jumped
+  bool has_arrivals = false;  ///< some obstacle came or moved, and no contact knows it yet
 
   std::vector<BodyIndex> present;               ///< active and awake bodies, in order
   std::vector<IslandContact> present_contacts;  ///< contacts between two present bodies

@@ -17,7 +17,7 @@ double computeGap(const IslandModel& model, const States& states, BodyIndex sphe
   const double between_balls =
       way - model.bodies[sphere].bounding_radius - model.bodies[other].bounding_radius;
   if (between_balls > of_interest) return between_balls;
-  return computeTouchState(model, Touch{sphere, other, nullptr, {}, false}, states).geometry.gap;
+  return computeTouchState(model, Touch{sphere, other, nullptr, {}}, states).geometry.gap;
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
     contact.clearance =
         std::abs(other - sphere) - computeExtent(a, towards) - computeExtent(b, -towards);
     if (std::abs(contact.clearance) < kPlacementRounding) contact.clearance = 0.0;
+    contact.full_clearance = contact.clearance;
     contacts_.push_back(contact);
   }
   if (contacts_.size() > kMaxContacts)
@@ -132,6 +133,12 @@ void SlotMotion::refit(const IslandModel& model) noexcept {
   }
 }
 
+void SlotMotion::recall(const IslandModel& model) noexcept {
+  for (Contact& contact : contacts_)
+    contact.clearance =
+        contact.full_clearance + model.memory.allowance({contact.sphere, contact.other, 0});
+}
+
 void SlotMotion::tieSeries(const IslandModel& model, unsigned mode) noexcept {
   series_.clearMatrices();
   for (std::size_t i = 0; i < movers_.size(); ++i)
@@ -160,7 +167,8 @@ double SlotMotion::computeOverlap(const IslandModel& model, BodyIndex body) cons
     if (contact.sphere != body && contact.other != body) continue;
     const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;
     if (model.bodies[partner].is_ghost) continue;
-    deepest = std::max(deepest, overlap(model, contact).depth);
+    deepest = std::max(deepest,
+                       overlap(model, contact).depth + contact.clearance - contact.full_clearance);
   }
   return deepest;
 }

@@ -26,6 +26,9 @@ class SlotMotion {
   /// Updates for changed shares, ghosts and extra damping. Real-time safe.
   void refit(const IslandModel& model) noexcept;
 
+  /// Takes over the allowances in the model's memory. Real-time safe.
+  void recall(const IslandModel& model) noexcept;
+
   /// Real-time safe.
   void advance(IslandModel& model, double dt) noexcept;
 
@@ -40,8 +43,9 @@ class SlotMotion {
     BodyIndex sphere, other;
     CouplerGains gains;    ///< gains times the share
     double side = 1.0;     ///< +1: the sphere pushes `other` along +guide
-    double clearance = 0;  ///< gap at zero displacements [m]
+    double clearance = 0;  ///< gap at zero displacements, and the allowance [m]
     CouplerGains full_gains;
+    double full_clearance = 0;  ///< without the allowance [m]
   };
   struct Overlap {
     double depth, rate;

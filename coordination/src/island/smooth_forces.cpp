@@ -114,7 +114,8 @@ int SmoothForces::findFrame(const IslandModel& model, BodyIndex b) noexcept {
 void SmoothForces::addContact(const IslandModel& model, const Touch& touch) noexcept {
   Contact contact;
   contact.sphere = findFrame(model, touch.sphere);
-  contact.radius = std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius;
+  contact.radius =
+      std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius - touch.allowance;
   contact.gains = touch.gains;
   double mobility = model.bodies[touch.sphere].mobility;
   if (!touch.obstacle) mobility += model.bodies[touch.other].mobility;

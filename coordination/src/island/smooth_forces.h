@@ -33,7 +33,7 @@ class SmoothForces {
   /// A touch and its last measured values.
   struct Contact {
     int sphere = 0, other = 0;  ///< frames
-    double radius = 0.0;        ///< of the sphere [m]
+    double radius = 0.0;        ///< of the sphere, less the allowance [m]
     const Shape* shape = nullptr;
     int piece = -1;  ///< triangle of a mesh
     CouplerGains gains;

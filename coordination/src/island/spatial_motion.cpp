@@ -134,11 +134,11 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
     }
     touches_.clear();
     forEachTouch(model, [&](const Touch& touch) {
-      if (!isWholeMesh(touch)) return addTouch(touch);
+      if (!isWholeMesh(touch)) return addTouch(model, touch);
       const double allowance = allowance_[touch.sphere] + way;
       if (couldMeet(model, touch, states_, allowance))
         forEachPiece(model, touch, states_, allowance,
-                     [&](const Touch& piece, double) { addTouch(piece); });
+                     [&](const Touch& piece, double) { addTouch(model, piece); });
     });
     smooth_.choose(model, together_, alone_, touches_);
     advanceTogether(model, dt, counters);
@@ -195,16 +195,18 @@ void SpatialMotion::findTouches(const IslandModel& model, IslandCounters& counte
     ++counters.contact_searches;
     if (isWholeMesh(touch)) {
       forEachPiece(model, touch, states_, allowance, [&](const Touch& piece, double gap) {
-        if (gap < allowance) addTouch(piece);
+        if (gap < allowance) addTouch(model, piece);
       });
     } else if (computeTouchState(model, touch, states_).geometry.gap < allowance) {
-      addTouch(touch);
+      addTouch(model, touch);
     }
   });
 }
 
-void SpatialMotion::addTouch(const Touch& touch) noexcept {
-  if (touches_.size() < touches_.capacity()) touches_.push_back(touch);
+void SpatialMotion::addTouch(const IslandModel& model, const Touch& touch) noexcept {
+  if (touches_.size() == touches_.capacity()) return;
+  touches_.push_back(touch);
+  recall(model, touches_.back());
 }
 
 bool SpatialMotion::needsTurning(const IslandModel& model, BodyIndex b) const noexcept {

@@ -63,7 +63,7 @@ class SpatialMotion {
   void prepareAlone(const IslandModel& model, BodyIndex b) noexcept;
   void findLoners(IslandModel& model, double dt, IslandCounters& counters) noexcept;
   void findTouches(const IslandModel& model, IslandCounters& counters) noexcept;
-  void addTouch(const Touch& touch) noexcept;
+  void addTouch(const IslandModel& model, const Touch& touch) noexcept;
   [[nodiscard]] bool needsTurning(const IslandModel& model, BodyIndex b) const noexcept;
   void advanceAlone(const IslandModel& model, double dt) noexcept;
   void turnAlone(const ModelBody& body, double dt, RigidState& state) const noexcept;

@@ -16,6 +16,16 @@ SphereContact findPieceContact(const Vec3& p_W, double radius, const Obstacle& m
 
 }  // namespace
 
+TouchKey keyOf(const IslandModel& model, const Touch& touch) noexcept {
+  if (!touch.obstacle) return {touch.sphere, touch.other, 0};
+  const auto place = static_cast<std::uint64_t>(touch.obstacle - model.obstacles->data());
+  return {touch.sphere, touch.other, touch.obstacle->id != 0 ? touch.obstacle->id : place + 1};
+}
+
+void addMemory(const IslandModel& model, Touch& touch, double ahead) noexcept {
+  touch.allowance = model.memory.allowance(keyOf(model, touch), ahead);
+}
+
 bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
                double reach) noexcept {
   const Vec3& p_W = touch.obstacle ? touch.obstacle->p_WB : states[touch.other].p_W;
@@ -47,7 +57,7 @@ TouchState computeTouchState(const IslandModel& model, const Touch& touch,
 }
 
 double computePush(const Touch& touch, const TouchState& state) noexcept {
-  return computeContactForce(touch.gains, state.overlap(), state.overlap_rate);
+  return computeContactForce(touch.gains, state.overlap() - touch.allowance, state.overlap_rate);
 }
 
 void addPush(const IslandModel& model, const Touch& touch, const TouchState& state, double push,
@@ -64,7 +74,7 @@ void addPush(const IslandModel& model, const Touch& touch, const TouchState& sta
 double computeOverlap(const IslandModel& model, const States& states, BodyIndex body) noexcept {
   double gap = 0.0;
   const auto look = [&](BodyIndex sphere, BodyIndex other, const Obstacle* obstacle) {
-    const Touch touch{sphere, other, obstacle, {}, false};
+    const Touch touch{sphere, other, obstacle, {}};
     if (!couldMeet(model, touch, states, 0.0)) return;
     if (isWholeMesh(touch)) {
       forEachPiece(model, touch, states, 0.0,

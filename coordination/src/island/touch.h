@@ -14,9 +14,12 @@ struct Touch {
   BodyIndex other = 0;                 ///< the sphere itself with an obstacle
   const Obstacle* obstacle = nullptr;  ///< null: `other` is a body
   CouplerGains gains;
-  bool pushes = false;  ///< pushes over the present step
-  int piece = -1;       ///< triangle of a mesh obstacle; -1: the whole mesh
+  int piece = -1;          ///< triangle of a mesh obstacle; -1: the whole mesh
+  double allowance = 0.0;  ///< overlap that does not push yet [m]: TouchMemory
 };
+
+/// Key of the touch in the model's memory.
+[[nodiscard]] TouchKey keyOf(const IslandModel& model, const Touch& touch) noexcept;
 
 /// State of a touch at one instant; for a whole mesh, at its nearest point.
 struct TouchState {
@@ -51,6 +54,13 @@ void addPush(const IslandModel& model, const Touch& touch, const TouchState& sta
 [[nodiscard]] double computeOverlap(const IslandModel& model, const States& states,
                                     BodyIndex body) noexcept;
 
+/// Adds what the model remembers of the contact, if anything: rare. The allowance is that of the
+/// middle of the coming advance, or `ahead` of it [s].
+[[gnu::cold]] void addMemory(const IslandModel& model, Touch& touch, double ahead) noexcept;
+inline void recall(const IslandModel& model, Touch& touch, double ahead = 0.0) noexcept {
+  if (!model.memory.isEmpty()) addMemory(model, touch, ahead);
+}
+
 /// True for a mesh obstacle that forEachPiece() must split first.
 [[nodiscard]] inline bool isWholeMesh(const Touch& touch) noexcept {
   return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
@@ -79,16 +89,16 @@ template <typename Visit>
 void forEachTouch(const IslandModel& model, Visit visit) {
   for (const IslandContact& pair : model.present_contacts)
     visit(Touch{pair.sphere, pair.other, nullptr,
-                computeShare(pair.gains, model.contactShare(pair.sphere, pair.other)), false});
+                computeShare(pair.gains, model.contactShare(pair.sphere, pair.other))});
   for (const BodyIndex b : model.present) {
     if (!model.bodies[b].settings.feels_obstacles || model.bodies[b].is_ghost) continue;
     const CouplerGains gains =
         computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
     for (BodyIndex slot : model.slots)
       if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres)
-        visit(Touch{b, slot, nullptr, gains, false});
+        visit(Touch{b, slot, nullptr, gains});
     if (!model.obstacles) continue;
-    for (const Obstacle& obstacle : *model.obstacles) visit(Touch{b, b, &obstacle, gains, false});
+    for (const Obstacle& obstacle : *model.obstacles) visit(Touch{b, b, &obstacle, gains});
   }
 }
 

@@ -39,6 +39,7 @@ void ImpulseStep::advance(double now, double end) noexcept {
     site_.island.computeWrench(body.index, wrench.f_W, wrench.t_W);
   });
   site_.sender.sendIfDue(now, false);
+  site_.island.passTime(end - now);
   site_.timeline.passTo(end);
 }
 
