@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 
@@ -17,6 +18,12 @@ bool isObstacle(const btCollisionObject& object) {
   return (type == btCollisionObject::CO_COLLISION_OBJECT ||
           type == btCollisionObject::CO_RIGID_BODY) &&
          object.isStaticObject() && !object.isKinematicObject() && object.hasContactResponse();
+}
+
+/// Number of one shape of an object. The address only tells objects apart.
+std::uint64_t makeId(const btCollisionObject& object, int part) {
+  return (std::uint64_t{reinterpret_cast<std::uintptr_t>(&object)} << 16) +
+         static_cast<std::uint64_t>(part);
 }
 
 class Collector final : public btBroadphaseAabbCallback {
@@ -57,22 +64,47 @@ void sortAsAdded(std::vector<btCollisionObject*>& objects) {
 
 void appendObstacles(const btCollisionObject& object, const btCollisionShape& shape,
                      const btTransform& pose, const std::vector<Region>& regions,
-                     KnownShapes& known, std::vector<Obstacle>& obstacles) {
+                     KnownShapes& known, int& part, std::vector<Obstacle>& obstacles) {
   if (shape.isCompound()) {
     const auto& compound = static_cast<const btCompoundShape&>(shape);
     for (int i = 0; i < compound.getNumChildShapes(); ++i) {
       appendObstacles(object, *compound.getChildShape(i), pose * compound.getChildTransform(i),
-                      regions, known, obstacles);
+                      regions, known, part, obstacles);
     }
     return;
   }
+  ++part;
   const Region bounds = computeRegion(shape, pose);
   const bool is_near = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
     return mayReach(shape, pose, bounds, region);
   });
   if (!is_near) return;
-  if (const std::optional<Shape> own = known.find(object, shape))
-    obstacles.push_back({*own, fromBullet(pose.getOrigin()), fromBullet(pose.getRotation())});
+  const std::optional<Shape> own = known.find(object, shape);
+  if (!own) return;
+  Obstacle obstacle{*own, fromBullet(pose.getOrigin()), fromBullet(pose.getRotation())};
+  obstacle.id = makeId(object, part);
+  obstacles.push_back(std::move(obstacle));
+}
+
+void noteChanges(const std::vector<Obstacle>& before, std::vector<Obstacle>& now) {
+  // Most often both lists have the same order.
+  auto next = before.begin();
+  for (Obstacle& obstacle : now) {
+    const auto is_it = [&](const Obstacle& other) { return other.id == obstacle.id; };
+    auto known = std::find_if(next, before.end(), is_it);
+    if (known == before.end()) known = std::find_if(before.begin(), before.end(), is_it);
+    const bool has_grown = known != before.end() && computeBoundingRadius(known->shape) !=
+                                                        computeBoundingRadius(obstacle.shape);
+    if (known == before.end() || has_grown) {
+      obstacle.change = ObstacleChange::kNew;
+      continue;
+    }
+    next = std::next(known);
+    if (known->p_WB == obstacle.p_WB && known->q_WB.coeffs() == obstacle.q_WB.coeffs()) continue;
+    obstacle.change = ObstacleChange::kMoved;
+    obstacle.p_before_WB = known->p_WB;
+    obstacle.q_before_WB = known->q_WB;
+  }
 }
 
 }  // namespace tandem

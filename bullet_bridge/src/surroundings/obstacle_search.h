@@ -20,9 +20,13 @@ void findStaticObjects(btCollisionWorld& world, const Region& region,
 void sortAsAdded(std::vector<btCollisionObject*>& objects);
 
 /// Adds the parts of a shape that reach into one of the regions and that the island supports, also
-/// inside compounds. `shape` belongs to `object` and is at `pose`. Other shapes are skipped.
+/// inside compounds. `shape` belongs to `object` and is at `pose`; `part` counts its shapes. Other
+/// shapes are skipped.
 void appendObstacles(const btCollisionObject& object, const btCollisionShape& shape,
                      const btTransform& pose, const std::vector<Region>& regions,
-                     KnownShapes& known, std::vector<Obstacle>& obstacles);
+                     KnownShapes& known, int& part, std::vector<Obstacle>& obstacles);
+
+/// Tells which obstacles were not in the list `before`, or elsewhere.
+void noteChanges(const std::vector<Obstacle>& before, std::vector<Obstacle>& now);
 
 }  // namespace tandem

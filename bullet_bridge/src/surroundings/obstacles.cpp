@@ -151,7 +151,11 @@ bool Obstacles::search(const std::vector<RigidState>& states, double margin,
 
 void Obstacles::commit() noexcept {
   impl_->search.commit();
-  if (impl_->has_next) impl_->near_spheres.swap(impl_->next_near_spheres);
+  if (impl_->has_next) {
+    impl_->near_spheres.swap(impl_->next_near_spheres);
+  } else {
+    for (Obstacle& obstacle : impl_->near_spheres) obstacle.change = ObstacleChange::kNone;
+  }
   impl_->has_next = false;
 }
 
@@ -272,9 +276,11 @@ void Obstacles::Impl::findForSpheres(const std::vector<RigidState>& states, btSc
   sortAsAdded(found);
   next_near_spheres.clear();
   for (const btCollisionObject* object : found) {
+    int part = 0;
     appendObstacles(*object, *object->getCollisionShape(), object->getWorldTransform(), regions,
-                    known_shapes, next_near_spheres);
+                    known_shapes, part, next_near_spheres);
   }
+  noteChanges(near_spheres, next_near_spheres);
   has_next = true;
 }
 

@@ -75,8 +75,8 @@ class Obstacles final : public ContactFinder {
     return has_changed;
   }
 
-  /// Obstacles near the spheres, of shapes that convertShape() or convertMesh() supports, also as
-  /// children of compounds.
+  /// Obstacles near the spheres, which tell what changed in the last commit(), of shapes that
+  /// convertShape() or convertMesh() supports, also as children of compounds.
   [[nodiscard]] const std::vector<Obstacle>& nearSpheres() const noexcept;
 
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,

@@ -28,6 +28,9 @@ LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island&
 
 void LocalHand::place() noexcept {
   RigidState state = island_.state(hip_);
+  // The hand went on while the device was away.
+  if (isThere() && !was_there_) island_.noteArrival(hip_);
+  was_there_ = isThere();
   if (isThere()) {
     state.p_W = sample_.hip.p_W;
     state.v_W = sample_.hip.v_W;

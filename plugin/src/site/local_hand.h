@@ -75,7 +75,7 @@ class LocalHand {
   ForceGuard guard_;
   EnergyPort energy_;
   DeviceSample sample_;
-  bool is_there_ = false;
+  bool is_there_ = false, was_there_ = true;
   Vec3 v_known_W_ = Vec3::Zero();   ///< of the latest usable sample
   Vec3 v_before_W_ = Vec3::Zero();  ///< of the usable sample before it
   std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
