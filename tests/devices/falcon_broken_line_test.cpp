@@ -77,6 +77,15 @@ class FalconAtALineThatBreaks : public ::testing::Test {
   [[nodiscard]] bool waitUntilPushed() {
     return waitUntil([](const FalconStatus& s) { return s.force_D[1] > 7.99; });
   }
+  /// Breaks the line of a device that pushes: so many of `failing` fail, and no new line opens.
+  void expectRestAfterBreak(std::atomic<int>& failing, int count, double most_change) {
+    start(2000.0);
+    ASSERT_TRUE(waitUntilPushed());
+    breaks_.may_open = false;
+    failing = count;
+    EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
+    expectRest(most_change);
+  }
   void expectRest(double most_change) {
     device_.reset();
     EXPECT_GT(emulator_.felt().most_force, 7.9);
@@ -91,31 +100,16 @@ class FalconAtALineThatBreaks : public ::testing::Test {
 };
 
 TEST_F(FalconAtALineThatBreaks, ReadsThatFailLeaveNoForceBehind) {
-  start(2000.0);
-  ASSERT_TRUE(waitUntilPushed());
-  breaks_.may_open = false;
-  breaks_.reads = 1000000;
-  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
-  expectRest(2.0);
+  expectRestAfterBreak(breaks_.reads, 1000000, 2.0);
 }
 
 TEST_F(FalconAtALineThatBreaks, AWriteThatFailsOnceLeavesNoForceBehind) {
-  start(2000.0);
-  ASSERT_TRUE(waitUntilPushed());
-  breaks_.may_open = false;
-  breaks_.writes = 1;
-  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
-  expectRest(2.0);
+  expectRestAfterBreak(breaks_.writes, 1, 2.0);
 }
 
 // If only one frame gets through, it carries zero force, even if that is a single step.
 TEST_F(FalconAtALineThatBreaks, TheLastFrameOfABadLineIsOneWithoutForce) {
-  start(2000.0);
-  ASSERT_TRUE(waitUntilPushed());
-  breaks_.may_open = false;
-  breaks_.writes = 2;
-  EXPECT_TRUE(waitUntil([](const FalconStatus& s) { return s.state == FalconState::kClosed; }));
-  expectRest(8.0);
+  expectRestAfterBreak(breaks_.writes, 2, 8.0);
 }
 
 TEST_F(FalconAtALineThatBreaks, ItComesBack) {

@@ -71,8 +71,9 @@ class FalconOverTty : public ::testing::Test {
   }
   void expectLimits() {
     visit([](FalconEmulator& emulator) {
-      EXPECT_LT(emulator.felt().most_force, 8.0 * 1.01);
-      EXPECT_LT(emulator.felt().most_change, 2.0 * 1.02);
+      // The margins cover a grip that moves while a command is on its way, on a busy machine.
+      EXPECT_LT(emulator.felt().most_force, 8.0 * 1.06);
+      EXPECT_LT(emulator.felt().most_change, 2.0 * 1.1);
       EXPECT_EQ(emulator.strange(), 0U);
     });
   }

@@ -102,6 +102,31 @@ TEST(FalconForce, NeverWrapsWhateverIsAskedFor) {
   }
 }
 
+// Legs that are nearly stretched turn a small torque into any force. The force of a pose a
+// millisecond old was 2700 N at a grip that 8 N had pushed to the end of the legs.
+TEST(FalconForce, AGripAtTheEndOfItsLegsFeelsNoMoreThanTheLimit) {
+  constexpr std::uint64_t kSeed = 83;
+  SCOPED_TRACE(kSeed);
+  test::Random random(kSeed);
+  for (int run = 0; run < 100; ++run) {
+    const Vec3 f_D = 1e3 * random.direction();
+    FalconRig free(test::readyDevice());
+    ASSERT_TRUE(free.runUntil(FalconState::kReady, 1.0));
+    press(free, f_D, 1.5);
+    ASSERT_LT(free.emulator.felt().most_force, 8.0 * 1.05) << f_D;
+    ASSERT_LT(free.emulator.felt().most_rise, 2.0 * 1.1) << f_D;
+
+    // A hand takes the grip there and back, at up to 1 m/s.
+    const Vec3 end = 0.09 * random.direction();
+    auto hand = makeMinimumJerkHand(
+        {{0.6, Vec3::Zero()}, {0.8, end}, {1.0, Vec3::Zero()}, {1.2, end}}, 2000.0, 15.0);
+    FalconRig led(test::readyDevice(), {}, std::move(hand));
+    ASSERT_TRUE(led.runUntil(FalconState::kReady, 1.0));
+    press(led, f_D, 1.4);
+    ASSERT_LT(led.emulator.felt().most_force, 8.0 * 1.1) << f_D << '\n' << end;
+  }
+}
+
 TEST(FalconForce, ComesInAfterHomingAndShowsItsLights) {
   constexpr double kStart = 5.0;  // start of the hand, after booting [s]
   const Vec3 f_D(4.0, 0.0, 0.0);

@@ -4,12 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "novint/falcon_edge.h"
+
 namespace tandem {
 namespace {
 
 constexpr int kRestFrames = 5;     // frames without force before the line is closed or kept quiet
 constexpr double kHeldUp = 0.005;  // a host this late has not been listening [s]
 constexpr double kForceShown = 0.05;  // smallest force that the light indicates [N]
+// While a command is on its way and acts, the grip moves: it may feel this much of max_force.
+constexpr double kMostFelt = 1.1;
+constexpr double kLeastWay = 0.001;  // way of a grip that seemed to rest [m]
+constexpr double kActs = 0.002;      // age of a command when the next one replaces it [s]
 
 std::array<double, 3> toArray(const Vec3& a) noexcept { return {a.x(), a.y(), a.z()}; }
 
@@ -300,10 +306,15 @@ void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
   command.homes = true;
   const auto& pose = tracker_.pose();
   const auto torques = pose ? computeTorques(*pose, f_D) : std::nullopt;
-  if (torques)
-    command.motors = makeMotorCommands(*torques, settings_.motors_per_torque);
-  else
+  const double share = torques ? findEdgeShare(*torques, now) : 0.0;
+  if (share > 0.0) {
+    command.motors = makeMotorCommands(share * *torques, settings_.motors_per_torque);
+    f_D *= share;
+    gate_.lower(share);
+  } else {
     f_D.setZero();
+    gate_.lower(0.0);
+  }
   command.lights = chooseLights(f_D);
   step.send(encodeCommand(command).data(), kFalconFrameSize);
   ++status_.frames;
@@ -312,6 +323,13 @@ void FalconDriver::sendFrame(LineStep& step, double now) noexcept {
   awaits_reply_ = true;
   if (!silent_since_) silent_since_ = now;
   sent_at_ = now;
+}
+
+/// Near the edge of the legs' reach a torque that is right here is a large force a little further.
+double FalconDriver::findEdgeShare(const Vec3& torques, double now) const noexcept {
+  const double way = kLeastWay + tracker_.velocity().norm() * (now - tracker_.seenAt() + kActs);
+  return computeEdgeShare(kinematics_, *tracker_.pose(), torques, way,
+                          kMostFelt * settings_.force.max_force);
 }
 
 std::uint8_t FalconDriver::chooseLights(const Vec3& f_D) const noexcept {

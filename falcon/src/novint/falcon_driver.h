@@ -71,11 +71,13 @@ class FalconDriver {
   void updateState(bool has_position, double now) noexcept;
   void publish(bool is_valid) noexcept;
   void sendFrame(LineStep& step, double now) noexcept;
+  [[nodiscard]] double findEdgeShare(const Vec3& torques, double now) const noexcept;
   [[nodiscard]] std::uint8_t chooseLights(const Vec3& f_D) const noexcept;
 
   FalconSettings settings_;
   FalconBoot boot_;
   FalconTracker tracker_;
+  FalconKinematics kinematics_;
   FalconForceGate gate_;
   FalconFrameReader frames_;
   FalconStatus status_;

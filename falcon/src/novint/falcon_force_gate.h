@@ -21,6 +21,8 @@ class FalconForceGate {
   /// for at most 1 ms.
   Vec3 advance(const Vec3& wanted, double age, bool is_open, double now) noexcept;
 
+  /// Only this share (0 to 1) of the force was sent: the next one rises from there.
+  void lower(double share) noexcept { force_ *= share; }
   /// Restarts the ramp after a position that jumped.
   void restart(double now) noexcept { opened_at_ = now; }
   [[nodiscard]] const Vec3& force() const noexcept { return force_; }

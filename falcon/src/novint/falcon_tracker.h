@@ -33,6 +33,8 @@ class FalconTracker {
   /// Last accepted pose.
   [[nodiscard]] const std::optional<FalconPose>& pose() const noexcept { return pose_; }
   [[nodiscard]] const Vec3& velocity() const noexcept { return v_D_; }  ///< [m/s]
+  /// Time of the last accepted pose [s].
+  [[nodiscard]] double seenAt() const noexcept { return at_; }
   [[nodiscard]] std::uint64_t jumps() const noexcept { return jumps_; }
 
  private:

@@ -45,10 +45,10 @@ struct GuardStatus {
 ///   not finite: cut  ->  no longer than max_force  ->  ramp  ->  rises no faster than max_slew
 ///
 /// A force may fall at once, so that the guard never renders one whose cause has gone. The first
-/// three stages keep the direction of the force. A cut (GuardCut) takes the force to
-/// zero; the ramp restarts when the cut ends. The force is zero within 100 ms of any fault if
-/// read() is called at least every 10 ms. Usually it is zero within 4 ms of detection. If the loop
-/// stops calling, the device's own watchdog must act.
+/// three stages keep the direction of the force. A cut (GuardCut) takes the force to zero; the ramp
+/// restarts when the cut ends. The force is zero within 100 ms of any fault if read() is called at
+/// least every 10 ms. Usually it is zero within 4 ms of detection. If the loop stops calling, the
+/// device's own watchdog must act.
 ///
 /// The slew limit uses the time that read() is told, not the number of calls. A change may be at
 /// most max_slew times the time since the last change. A write counts at most 2 ms of it, so a late

@@ -59,8 +59,9 @@ struct SimulatedDeviceSettings {
   Vec3 start_W = Vec3::Zero();      ///< rest position of the handle at t = 0 [m]
   std::optional<Vec3> guide;        ///< unit vector of a slot that limits the handle to this line
   double encoder_resolution = 0.0;  ///< step of the position reading [m]; 0: exact
-  double max_force = 60.0;          ///< saturation of the motors, direction kept [N], >= 0; may be
-                            ///< infinite. The paper's rows need 48 N at most, within a minute.
+  /// Saturation of the motors, direction kept [N], >= 0; may be infinite. The paper's rows need at
+  /// most 48 N, within a minute.
+  double max_force = 60.0;
 };
 
 /// Device of eqs (1), (2): m_h x'' + b_dev x' = F_hand + f_W, where f_W is the force of the last
