@@ -1,8 +1,8 @@
 // tandem_flood PORT RATE SECONDS: sends RATE forged datagrams a second to 127.0.0.1:PORT and prints
 // how many it sent. For scripts/soak.sh.
 //
-// Kinds take turns: a STATE as if replayed, of an unknown session; HELLO; OPEN with a wrong cookie,
-// the most expensive for a site; invalid bytes.
+// Kinds take turns: a STATE as if replayed, of an unknown session; HELLO and OPEN with a
+// wrong tag; invalid bytes.
 
 #include <array>
 #include <chrono>

@@ -8,10 +8,9 @@ namespace tandem {
 namespace {
 
 using net::Refusal;
+using test::Bytes;
 using test::VirtualNet;
 using test::VirtualSites;
-
-using Bytes = std::vector<std::uint8_t>;
 
 void expectSame(const PeerStatus& before, const PeerStatus& after) {
   EXPECT_EQ(before.phase, after.phase);

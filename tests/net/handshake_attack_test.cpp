@@ -1,29 +1,25 @@
 // A listener on the way who does not have the key answers, copies and replays what belongs to the
 // handshake. A session begins and renews its keys within the time that it takes without.
 
-#include <deque>
-
 #include <gtest/gtest.h>
 
-#include "net/virtual_net.h"
+#include "net/attack.h"
 
 namespace tandem {
 namespace {
 
 using net::Refusal;
+using test::Bytes;
+using test::kStranger;
+using test::typeOf;
 using test::VirtualNet;
 using test::VirtualSites;
 
-using Bytes = std::vector<std::uint8_t>;
-
-MessageType typeOf(const Bytes& bytes) { return static_cast<MessageType>(bytes[3]); }
-
-const Address kStranger = VirtualNet::addressOf(9);
-
 /// Overhears a network and sends datagrams of its own, from any address.
-class Listener {
+class Listener : public test::Injector {
  public:
-  explicit Listener(VirtualNet& net, std::uint64_t seed = 20090405) : net_(net), random_(seed) {}
+  explicit Listener(VirtualNet& net, std::uint64_t seed = 20090405)
+      : Injector(net), random_(seed) {}
 
   /// A COOKIE as an answer to this HELLO, with random bytes where only the responder knows better.
   Bytes forgeCookie(const Bytes& hello) {
@@ -37,40 +33,16 @@ class Listener {
     return bytes;
   }
 
-  /// Sends before the overheard datagram goes on, so that it arrives first.
-  void send(const Bytes& bytes, const Address& from, const Address& to) {
-    is_own_ = true;
-    net_.carry(bytes, from, to);
-    is_own_ = false;
-  }
-  [[nodiscard]] bool isOwn() const { return is_own_; }
-
  private:
-  VirtualNet& net_;
   test::Random random_;
-  bool is_own_ = false;
 };
-
-double longestGap(const std::vector<Arrival>& given) {
-  double longest = 0.0;
-  for (std::size_t i = 1; i < given.size(); ++i)
-    longest = std::max(longest, given[i].time - given[i - 1].time);
-  return longest;
-}
 
 /// Runs for this long and expects that states went both ways without a gap.
 void expectNoGap(VirtualSites& sites, double seconds) {
-  sites.forgetGiven();
-  sites.run(seconds);
-  for (const int id : {1, 2}) {
-    const auto& given = sites.at(id).given[static_cast<std::size_t>(3 - id)];
-    ASSERT_FALSE(given.empty());
-    EXPECT_LT(longestGap(given), 0.02);
-    EXPECT_GT(given.back().time, sites.clock() - 0.02);
-  }
+  EXPECT_LT(test::longestGapOver(sites, seconds), 0.02);
 }
 
-// One forged COOKIE before each true one ended a session at the age of its keys, 180 s.
+// A forged COOKIE before each true one ended a session at the age of its keys, 180 s.
 TEST(HandshakeAttack, AForgedCookieForEachHelloChangesNothing) {
   VirtualSites sites(2);
   Listener listener(sites.net);
@@ -173,6 +145,66 @@ TEST(HandshakeAttack, FloodOfForgedHellosDelaysNobody) {
     if (sites.areLive()) break;
   }
   EXPECT_TRUE(sites.areLive());
+}
+
+// Recorded HELLOs are as authentic as new ones. Twenty in the peer's name before each used up the
+// answers of that moment, and the session ended at the age of its keys.
+TEST(HandshakeAttack, RecordedHellosDoNotDelayNewKeys) {
+  VirtualSites sites(2);
+  Listener listener(sites.net);
+  std::vector<Bytes> recorded;
+  sites.net.tap = [&](const Bytes& bytes, const Address& from, const Address& to) {
+    if (listener.isOwn() || typeOf(bytes) != MessageType::kHello) return;
+    for (int i = 0; i < 20 && !recorded.empty(); ++i)
+      listener.send(recorded[static_cast<std::size_t>(i) % recorded.size()], from, to);
+    if (sites.clock() < 1.0) recorded.push_back(bytes);
+  };
+  // Some are of earlier programs at both sites.
+  for (int i = 0; i < 3; ++i) {
+    sites.start(1);
+    sites.start(2);
+    const double begun = sites.clock();
+    ASSERT_TRUE(sites.goLive(1.0));
+    EXPECT_LT(sites.clock() - begun, 4 * 2 * sites.net.conditions.delay + 0.01);
+  }
+  EXPECT_GE(recorded.size(), 3u);
+  expectNoGap(sites, 400.0);
+}
+
+// A clock that was set back makes HELLOs look recorded. They are answered all the same.
+TEST(HandshakeAttack, ASiteWhoseClockWasSetBackJoins) {
+  for (const int restarted : {1, 2}) {
+    SCOPED_TRACE(restarted);
+    VirtualSites sites(2);
+    sites.clock_ahead = 1e6;
+    sites.start(1);
+    sites.start(2);
+    ASSERT_TRUE(sites.goLive(1.0));
+    sites.clock_ahead = 0.0;
+    sites.stop(restarted);
+    sites.run(2.0);
+    sites.start(restarted);
+    EXPECT_TRUE(sites.goLive(3.0));
+    expectNoGap(sites, 300.0);
+  }
+}
+
+// A listener has the cookie as soon as it is sent. OPENs of its own with it used up the answers of
+// that moment.
+TEST(HandshakeAttack, ForgedOpensWithTheRightCookieDelayNobody) {
+  VirtualSites sites(2);
+  Listener listener(sites.net);
+  sites.net.tap = [&](const Bytes& bytes, const Address& from, const Address& to) {
+    if (listener.isOwn() || typeOf(bytes) != MessageType::kOpen) return;
+    for (std::uint8_t i = 1; i <= 20; ++i) {
+      Bytes forged = bytes;
+      forged[60] ^= i;
+      listener.send(forged, from, to);
+    }
+  };
+  ASSERT_TRUE(sites.goLive(1.0));
+  EXPECT_LT(sites.clock(), 4 * 2 * sites.net.conditions.delay + 0.01);
+  expectNoGap(sites, 400.0);
 }
 
 // A forged REFUSE that speaks of a wrong cookie, after each OPEN.

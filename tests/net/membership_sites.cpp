@@ -58,6 +58,7 @@ StatePacket MembershipSites::makeState(std::size_t site, const Start& how, std::
   packet.sequence = number;
   packet.user.p_W = Vec3(static_cast<double>(number % 512), static_cast<double>(site), 0.0);
   packet.user.v_W = Vec3(how.key, how.configuration, static_cast<double>(number * 7 % 64));
+  packet.energy = EnergyReport{static_cast<double>(number), packet.user.p_W.x()};
   return packet;
 }
 
@@ -68,6 +69,7 @@ void MembershipSites::start(std::size_t site, const Start& how) {
     if (i != site)
       peers.push_back({idOf(i), addressOf(i), makeKey(static_cast<std::uint8_t>(how.key + 1))});
   net::PeerSession::Common common;
+  common.first_nonce = net::drawFirstNonce(now_);
   common.configuration = makeConfiguration({{"object.mass", std::to_string(how.configuration)}});
   self.mesh = std::make_unique<net::PeerGroup>(idOf(site), std::move(peers), common, *self.port);
   self.how = how;
@@ -76,6 +78,7 @@ void MembershipSites::start(std::size_t site, const Start& how) {
   self.states = 0;
   self.newest = {};
   self.given = {};
+  self.granted = {};
   self.is_given_since_mended = {};
 }
 
@@ -128,6 +131,10 @@ void MembershipSites::takeGiven(std::size_t site, std::size_t peer) {
                           v.z() == std::fmod(p.x() * 7.0, 64.0) && packet.sender == idOf(peer) &&
                           p.y() == static_cast<double>(peer);
     require(is_whole, "a state that nobody sent");
+    const bool has_energy = packet.energy && packet.energy->holdings == p.x();
+    require(has_energy, "an account that nobody sent");
+    require(packet.energy->granted >= self.granted[id], "granted energy that fell");
+    self.granted[id] = packet.energy->granted;
     require(v.x() == self.how.key, "a state under another key");
     require(v.y() == self.how.configuration, "a state of another configuration");
     require(arrival->time >= clock, "a state of the past");

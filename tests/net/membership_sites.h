@@ -94,6 +94,7 @@ class MembershipSites {
     std::uint64_t states = 0;
     std::array<std::optional<std::uint64_t>, 4> newest;  ///< newest state received, by peer id
     std::array<std::uint64_t, 4> given{};
+    std::array<double, 4> granted{};  ///< by each peer, by its newest state [J]
     std::array<bool, 4> is_given_since_mended{};
   };
 

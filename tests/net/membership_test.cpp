@@ -46,5 +46,13 @@ TEST(Membership, AChangedCookieIsRefused) {
       "");
 }
 
+// Datagrams that lay for 8.75 s make a round trip of as much, and then a site moves. The check of
+// its address waited for one and a half of these.
+TEST(Membership, ASiteThatMovesAfterALongRoundTripIsFound) {
+  EXPECT_EQ(play({0, 13, 16, 11, 1, 4, 9, 0, 2, 13, 4,   9, 1,  0, 10, 9,  11, 0, 3,
+                  3, 3,  0,  3,  1, 1, 1, 1, 1, 14, 255, 0, 14, 3, 0,  14, 4,  1}),
+            "");
+}
+
 }  // namespace
 }  // namespace tandem

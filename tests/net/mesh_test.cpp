@@ -190,6 +190,7 @@ TEST(Mesh, StrangersGetLessThanTheySend) {
     OpenMessage open;
     open.route = {PeerId{1}, PeerId{2}, 5};
     open.key_epoch = 1;
+    net::tagOpen(open, test::makeKey(0x42));
     std::vector<std::uint8_t> bytes(kOpenSize);
     (void)encodeOpen(open, {bytes.data(), bytes.size()});
     throwAt(bytes, now);

@@ -1,33 +1,30 @@
 // Datagrams of a peer come from elsewhere: as a NAT changes a port, or as a listener's copies,
 // which arrive first. The session follows the former and not the latter.
 
-#include <functional>
-
 #include <gtest/gtest.h>
 
-#include "net/virtual_net.h"
+#include "net/attack.h"
 
 namespace tandem {
 namespace {
 
+using test::Bytes;
+using test::kStranger;
+using test::longestGapOver;
 using test::VirtualNet;
 using test::VirtualSites;
-
-using Bytes = std::vector<std::uint8_t>;
-
-const Address kStranger = VirtualNet::addressOf(9);
 
 /// Copies what it overhears and sends the copies first, from its own address.
 class Copier {
  public:
-  explicit Copier(VirtualSites& sites) : net_(sites.net) {
-    net_.tap = [this](const Bytes& bytes, const Address& from, const Address& to) {
-      if (is_own_ || !is_on) return;
+  explicit Copier(VirtualSites& sites) : copies_(sites.net) {
+    sites.net.tap = [this](const Bytes& bytes, const Address& from, const Address& to) {
+      if (copies_.isOwn() || !is_on) return;
       if (to.ip == kStranger.ip) {
         ++caught;
-        if (is_handing_on) send(bytes, kStranger, from == a_ ? b_ : a_);
+        if (is_handing_on) copies_.send(bytes, kStranger, from == a_ ? b_ : a_);
       } else if (is_copying) {
-        send(bytes, kStranger, to);
+        copies_.send(bytes, kStranger, to);
       }
     };
   }
@@ -38,31 +35,9 @@ class Copier {
   std::uint64_t caught = 0;    ///< datagrams that were sent to it
 
  private:
-  void send(const Bytes& bytes, const Address& from, const Address& to) {
-    is_own_ = true;
-    net_.carry(bytes, from, to);
-    is_own_ = false;
-  }
-
-  VirtualNet& net_;
+  test::Injector copies_;
   Address a_ = VirtualNet::addressOf(1), b_ = VirtualNet::addressOf(2);
-  bool is_own_ = false;
 };
-
-double longestGap(const std::vector<Arrival>& given, double until) {
-  double longest = given.empty() ? 1e9 : until - given.back().time;
-  for (std::size_t i = 1; i < given.size(); ++i)
-    longest = std::max(longest, given[i].time - given[i - 1].time);
-  return longest;
-}
-
-/// The longest time without a state, at either site, over so many seconds.
-double longestGapOver(VirtualSites& sites, double seconds) {
-  sites.forgetGiven();
-  sites.run(seconds);
-  return std::max(longestGap(sites.at(1).given[2], sites.clock()),
-                  longestGap(sites.at(2).given[1], sites.clock()));
-}
 
 // A site took 380 of 1186 states while its peer followed the copies.
 TEST(PathAttack, CopiesThatArriveFirstMoveNoAddress) {
@@ -91,7 +66,7 @@ TEST(PathAttack, CopiesFromTheFirstDatagramOnMoveNoAddress) {
   }
 }
 
-// One that hands on challenges and answers is a way like any other, but the old way still answers.
+// A listener that hands on challenges and answers is a way. The old way still answers.
 TEST(PathAttack, AWayAroundIsNotTakenWhileTheOldOneAnswers) {
   VirtualSites sites(2);
   ASSERT_TRUE(sites.goLive(1.0));
@@ -165,15 +140,13 @@ TEST(PathAttack, AVictimOfCopiesGetsLittle) {
   ASSERT_TRUE(sites.goLive(1.0));
   sites.run(1.0);
   std::size_t copied = 0, sent = 0;
-  bool is_own = false;
+  test::Injector injector(sites.net);
   sites.net.tap = [&](const Bytes& bytes, const Address&, const Address& to) {
     if (to == kStranger) sent += bytes.size();
-    if (is_own || copied > 0 || bytes[3] != static_cast<std::uint8_t>(MessageType::kState)) return;
+    if (injector.isOwn() || copied > 0 || test::typeOf(bytes) != MessageType::kState) return;
     if (to != VirtualNet::addressOf(1)) return;
     copied = bytes.size();
-    is_own = true;
-    sites.net.carry(bytes, kStranger, to);
-    is_own = false;
+    injector.send(bytes, kStranger, to);
     sites.net.is_down = true;  // no answer from anywhere ends the check
   };
   sites.run(5.0);

@@ -13,6 +13,8 @@
 
 namespace tandem::test {
 
+using Bytes = std::vector<std::uint8_t>;
+
 /// Amount of work of a test: the number in this environment variable, or else `usual`.
 inline std::uint64_t readCount(const char* variable, std::uint64_t usual) {
   const char* text = std::getenv(variable);
@@ -32,7 +34,7 @@ class VirtualNet {
     double due = 0.0;
     std::uint64_t number = 0;
     Address from, to;
-    std::vector<std::uint8_t> bytes;
+    Bytes bytes;
   };
 
   explicit VirtualNet(const NetConditions& usual = {}, std::uint64_t seed = 1)
@@ -63,7 +65,7 @@ class VirtualNet {
     VirtualNet& owner_;
   };
 
-  void carry(std::vector<std::uint8_t> bytes, const Address& from, const Address& to) {
+  void carry(Bytes bytes, const Address& from, const Address& to) {
     if (tap) tap(bytes, from, to);
     if (is_down || random_.uniform(0, 1) < conditions.loss) return;
     const int copies = random_.uniform(0, 1) < conditions.duplicate ? 2 : 1;
@@ -94,7 +96,7 @@ class VirtualNet {
   NetConditions conditions;
   double now = 0.0;
   bool is_down = false;
-  std::function<void(const std::vector<std::uint8_t>&, const Address&, const Address&)> tap;
+  std::function<void(const Bytes&, const Address&, const Address&)> tap;
 
  private:
   static bool comesLater(const Datagram& a, const Datagram& b) {
@@ -151,6 +153,7 @@ class VirtualSites {
              knows_addresses ? std::optional(VirtualNet::addressOf(other.id)) : std::nullopt,
              makeKey(key)});
     net::PeerSession::Common common;
+    common.first_nonce = net::drawFirstNonce(clock() + clock_ahead);
     common.configuration = configuration;
     site.mesh = std::make_unique<net::PeerGroup>(PeerId{static_cast<std::uint32_t>(id)},
                                                  std::move(peers), common, *site.port);
@@ -207,6 +210,7 @@ class VirtualSites {
   }
 
   VirtualNet net;
+  double clock_ahead = 0.0;  ///< of the wall clock of programs that start now [s]
 
  private:
   void act(Site& site) {

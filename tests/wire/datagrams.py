@@ -9,7 +9,7 @@ MAX_TIME = 2**50
 TYPES = {1: "HELLO", 2: "COOKIE", 3: "OPEN", 4: "ACCEPT", 5: "REFUSE",
          16: "STATE", 17: "AGREE", 18: "AGREE_ACK", 19: "BYE", 20: "PATH_CHALLENGE", 21: "PATH_RESPONSE"}
 NUMBERS = {name: number for number, name in TYPES.items()}
-CLEAR_SIZES = {"HELLO": 256, "COOKIE": 64, "OPEN": 104, "ACCEPT": 88, "REFUSE": 32}
+CLEAR_SIZES = {"HELLO": 256, "COOKIE": 64, "OPEN": 120, "ACCEPT": 88, "REFUSE": 32}
 
 HEADER = struct.Struct("<HBBIHHQ")
 ROUTE = struct.Struct("<HBBQ")
@@ -70,7 +70,7 @@ def read_clear(kind, sender, datagram):
     elif kind == "COOKIE":
         fields.update(cookie=body[:16], tag=body[16:])
     elif kind == "OPEN":
-        fields.update(cookie=body[:16], noise=body[16:])
+        fields.update(cookie=body[:16], noise=body[16:72], tag=body[72:])
     elif kind == "ACCEPT":
         fields["noise"] = body
     else:

@@ -12,7 +12,7 @@ from datagrams import HEADER, NUMBERS, VERSION, Refused, read_datagram
 
 TEXT_FIELDS = ("key", "value")
 BYTE_FIELDS = ("cookie", "noise", "tag", "key_bytes")
-TAGGED = {"HELLO": 32, "COOKIE": 48}  # bytes before the tag
+TAGGED = {"HELLO": 32, "COOKIE": 48, "OPEN": 104}  # bytes before the tag
 
 
 def parse(name, text):
@@ -38,7 +38,7 @@ def read_index(folder):
 
 
 def tag_of(key, covered):
-    """Section 4: the tag of HELLO and COOKIE."""
+    """Section 4: the tag of HELLO, COOKIE and OPEN."""
     return hashlib.blake2b(covered, key=key, digest_size=16).digest()
 
 

@@ -58,7 +58,8 @@ TEST(WireGolden, Cookie) {
 }
 
 TEST(WireGolden, Open) {
-  const OpenMessage open{kThere, 3, makeCounting<16>(0xa0), makeCounting<56>(0)};
+  const OpenMessage open{kThere, 3, makeCounting<16>(0xa0), makeCounting<56>(0),
+                         readTag("open.bin", kOpenTagOffset)};
   EXPECT_EQ(collect([&](ByteSpan out) { return encodeOpen(open, out); }), readGolden("open.bin"));
   const auto message = decodeOpen(viewOf(readGolden("open.bin")));
   ASSERT_TRUE(message);
@@ -66,6 +67,7 @@ TEST(WireGolden, Open) {
   EXPECT_EQ(message->key_epoch, 3);
   EXPECT_EQ(message->cookie, open.cookie);
   EXPECT_EQ(message->noise, open.noise);
+  EXPECT_EQ(message->tag, open.tag);
 }
 
 TEST(WireGolden, Accept) {

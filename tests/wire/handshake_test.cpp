@@ -26,7 +26,9 @@ TEST(WireHandshake, EveryAnswerIsShorter) {
 
 TEST(WireHandshake, EachAnswerHasItsSide) {
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeCookie({kThere, {}, {}}, out); }).empty());
-  EXPECT_TRUE(collect([](ByteSpan out) { return encodeOpen({kBack, 1, {}, {}}, out); }).empty());
+  EXPECT_TRUE(collect([](ByteSpan out) {
+                return encodeOpen({kBack, 1, {}, {}, {}}, out);
+              }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeAccept({kThere, 1, 1, {}}, out); }).empty());
   for (const HandshakeRoute& route : {kThere, kBack}) {
     EXPECT_FALSE(collect([&](ByteSpan out) { return encodeHello({route, {}}, out); }).empty());
@@ -41,7 +43,9 @@ TEST(WireHandshake, SendersKeepToTheStandard) {
     EXPECT_TRUE(collect([&](ByteSpan out) { return encodeHello(from, out); }).empty()) << bad;
     EXPECT_TRUE(collect([&](ByteSpan out) { return encodeHello(to, out); }).empty()) << bad;
   }
-  EXPECT_TRUE(collect([](ByteSpan out) { return encodeOpen({kThere, 0, {}, {}}, out); }).empty());
+  EXPECT_TRUE(collect([](ByteSpan out) {
+                return encodeOpen({kThere, 0, {}, {}, {}}, out);
+              }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeAccept({kBack, 0, 1, {}}, out); }).empty());
   EXPECT_TRUE(collect([](ByteSpan out) { return encodeAccept({kBack, 1, 0, {}}, out); }).empty());
   for (const RefuseCode code : {RefuseCode{0}, RefuseCode{6}}) {
@@ -55,7 +59,7 @@ TEST(WireHandshake, WritesNothingWithoutRoom) {
   const auto shortBy1 = [&bytes](std::size_t size) { return ByteSpan{bytes.data(), size - 1}; };
   EXPECT_EQ(encodeHello({kThere, {}}, shortBy1(kHelloSize)), 0U);
   EXPECT_EQ(encodeCookie({kBack, {}, {}}, shortBy1(kCookieSize)), 0U);
-  EXPECT_EQ(encodeOpen({kThere, 1, {}, {}}, shortBy1(kOpenSize)), 0U);
+  EXPECT_EQ(encodeOpen({kThere, 1, {}, {}, {}}, shortBy1(kOpenSize)), 0U);
   EXPECT_EQ(encodeAccept({kBack, 1, 1, {}}, shortBy1(kAcceptSize)), 0U);
   EXPECT_EQ(encodeRefuse({kBack, RefuseCode::kKey, 1}, shortBy1(kRefuseSize)), 0U);
   EXPECT_EQ(encodeHeader({}, shortBy1(kHeaderSize)), 0U);

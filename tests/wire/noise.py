@@ -29,7 +29,7 @@ def x25519(scalar, point):
 
 
 def tag_of(key, covered):
-    """Of HELLO and COOKIE."""
+    """The tag of HELLO, COOKIE and OPEN, over the bytes before it."""
     return hashlib.blake2b(covered, key=key, digest_size=16).digest()
 
 

@@ -3,7 +3,8 @@
 
 It takes over the other site's configuration, and its user holds still.
 
-    peer.py --site 1|2 --bind PORT --peer PORT --key FILE [--run SECONDS] [--countdown SECONDS] [--leave]
+    peer.py --site 1|2 --bind PORT --peer PORT --key FILE [--host ADDRESS] [--run SECONDS] [--countdown SECONDS]
+            [--leave]
 
 --countdown: what site 1 counts down, whatever the standard allows. --leave: it leaves in the middle of the countdown.
 The last line says when the start was, and what came after it.
@@ -32,7 +33,7 @@ def micro(seconds):
 
 
 class Keys:
-    """What a handshake gives (sections 4 and 5)."""
+    """The result of a handshake: numbers and keys of a session (sections 4 and 5)."""
 
     def __init__(self, own, peer, epoch, mine, theirs, send, receive):
         self.own, self.peer, self.epoch, self.mine, self.theirs = own, peer, epoch, mine, theirs
@@ -73,8 +74,8 @@ class Peer:
         self.own, self.peer = options.site, 3 - options.site
         self.psk = bytes.fromhex(open(options.key, encoding="ascii").read().split("\n")[1])
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind(("127.0.0.1", options.bind))
-        self.to = ("127.0.0.1", options.peer)
+        self.socket.bind((options.host, options.bind))
+        self.to = (options.host, options.peer)
         self.keys, self.items, self.parts, self.is_agreed = None, {}, 0, False
         self.echo, self.newest, self.states = (0, 0.0), 0, 0
         self.round_trip, self.agreed_at, self.start = None, None, None
@@ -85,7 +86,7 @@ class Peer:
         header = {"version": VERSION, "session": 0, "sender": self.own, "key_epoch": 0, "sequence": 0,
                   "receiver": self.peer}
         datagram = write_datagram(kind, {**header, **fields})
-        covered = {"HELLO": 32, "COOKIE": 48}.get(kind)
+        covered = {"HELLO": 32, "COOKIE": 48, "OPEN": 104}.get(kind)
         if not covered:
             return datagram
         return datagram[:covered] + tag_of(self.psk, datagram[:covered]) + bytes(CLEAR_SIZES[kind] - covered - 16)
@@ -107,7 +108,8 @@ class Peer:
                 sys.exit(f"breaks the standard: {refused}")
 
     def call(self):
-        nonce, mine, epoch = secrets.randbits(64), 1 + secrets.randbits(31), 1 + secrets.randbits(15)
+        nonce = int(1000 * time.time()) << 20 | secrets.randbits(20)
+        mine, epoch = 1 + secrets.randbits(31), 1 + secrets.randbits(15)
         answer, cookie = self.ask(self.clear("HELLO", {"nonce": nonce}), "COOKIE")
         if cookie["nonce"] != nonce or cookie["tag"] != tag_of(self.psk, answer[:48]):
             sys.exit("another tag of COOKIE")
@@ -126,7 +128,7 @@ class Peer:
             kind, fields = read_datagram(datagram)
             if kind == "HELLO" and fields["tag"] == tag_of(self.psk, datagram[:32]):
                 self.socket.sendto(self.clear("COOKIE", {"nonce": fields["nonce"], "cookie": cookie}), source)
-            if kind == "OPEN" and fields["cookie"] == cookie:
+            if kind == "OPEN" and fields["tag"] == tag_of(self.psk, datagram[:104]) and fields["cookie"] == cookie:
                 break
         noise = Handshake(self.psk, self.peer, self.own, VERSION, cookie)
         theirs, epoch, _, _ = struct.unpack("<IHBB", noise.read(fields["noise"]))
@@ -246,6 +248,7 @@ def main():
     for name in ("--site", "--bind", "--peer"):
         parser.add_argument(name, type=int, required=True)
     parser.add_argument("--key", required=True)
+    parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--run", type=float, default=1.0)
     parser.add_argument("--countdown", type=float)
     parser.add_argument("--leave", action="store_true")

@@ -14,6 +14,8 @@ from pathlib import Path
 PEER = Path(__file__).with_name("peer.py")
 TANDEM, SCENARIO = sys.argv.pop(1), sys.argv.pop(1)
 PORT = 17950
+# A loopback address that no other process uses: tests may run twice at a time.
+HOST = "127.%d.%d.%d" % (1 + (os.getpid() >> 16), os.getpid() >> 8 & 255, os.getpid() & 255)
 
 
 class PeerTest(unittest.TestCase):
@@ -30,12 +32,12 @@ class PeerTest(unittest.TestCase):
         global PORT
         PORT += 2
         ours = subprocess.Popen([sys.executable, "-B", PEER, "--site", str(site), "--bind", str(PORT), "--peer",
-                                 str(PORT + 1), "--key", self.key, *more], text=True, stdout=subprocess.PIPE)
+                                 str(PORT + 1), "--key", self.key, "--host", HOST, *more], text=True, stdout=subprocess.PIPE)
         theirs = subprocess.run([TANDEM, "peer", "--scenario", SCENARIO, "--set", "experiment.duration=0.5", "--site",
-                                 str(3 - site), "--bind", f"127.0.0.1:{PORT + 1}", "--peer", f"127.0.0.1:{PORT}",
-                                 "--key", self.key, "--wait", "30"], text=True, capture_output=True, timeout=60)
+                                 str(3 - site), "--bind", f"{HOST}:{PORT + 1}", "--peer", f"{HOST}:{PORT}",
+                                 "--key", self.key, "--wait", "30"], text=True, capture_output=True, timeout=180)
         try:
-            output, _ = ours.communicate(timeout=10)
+            output, _ = ours.communicate(timeout=60)
         except subprocess.TimeoutExpired:
             ours.kill()
             raise

@@ -2,6 +2,7 @@
 """The datagrams of Tandem, written from coordination/STANDARD.md alone and sharing no code with the library.
 
     standard.py check FOLDER    golden files against index.txt and refused.txt; ends with 1 if one differs
+    standard.py seeds FOLDER    seeds of a fuzzer; ends with 1 if one is refused or a message is missing
     standard.py read FILE       a recorded run (section 11), a line per datagram; ends with 1 at a break
     standard.py write FOLDER    writes the golden files anew from index.txt
 """
@@ -9,7 +10,7 @@
 import sys
 from pathlib import Path
 
-from datagrams import Refused, read_datagram, records_of
+from datagrams import NUMBERS, Refused, read_datagram, records_of
 from golden_files import differences, make_golden, read_index
 
 
@@ -17,6 +18,19 @@ def check(folder):
     found = list(differences(folder))
     print("\n".join(found) or f"{folder}: all golden files as the standard has them")
     return 1 if found else 0
+
+
+def seeds(folder):
+    missing, broken = set(NUMBERS), 0
+    for file in sorted(folder.iterdir()):
+        try:
+            missing.discard(read_datagram(file.read_bytes())[0])
+        except Refused as refused:
+            print(f"{file}: refused: {refused}")
+            broken = 1
+    if missing:
+        print(f"{folder}: no seed for {', '.join(sorted(missing))}")
+    return 1 if missing or broken else 0
 
 
 def write(folder):
@@ -45,7 +59,7 @@ def show(value):
 
 
 def main(arguments):
-    commands = {"check": check, "read": read, "write": write}
+    commands = {"check": check, "read": read, "seeds": seeds, "write": write}
     if len(arguments) != 2 or arguments[0] not in commands:
         print(__doc__, file=sys.stderr)
         return 2

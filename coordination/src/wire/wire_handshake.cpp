@@ -133,6 +133,7 @@ std::size_t encodeOpen(const OpenMessage& message, ByteSpan out) noexcept {
   wire::ByteWriter writer = makeBodyWriter(out);
   writer.writeBytes(message.cookie);
   writer.writeBytes(message.noise);
+  writer.writeBytes(message.tag);
   return kOpenSize;
 }
 
@@ -183,6 +184,7 @@ Decoded<OpenMessage> decodeOpen(ByteView datagram) noexcept {
   wire::ByteReader reader = makeBodyReader(datagram);
   reader.readInto(message->cookie);
   reader.readInto(message->noise);
+  reader.readInto(message->tag);
   return message;
 }
 

@@ -14,7 +14,7 @@ namespace tandem {
 
 inline constexpr std::size_t kHelloSize = 256;  ///< [bytes]; these sizes include the header
 inline constexpr std::size_t kCookieSize = 64;
-inline constexpr std::size_t kOpenSize = 104;
+inline constexpr std::size_t kOpenSize = 120;
 inline constexpr std::size_t kAcceptSize = 88;
 inline constexpr std::size_t kRefuseSize = 32;
 
@@ -26,7 +26,7 @@ using NoiseMessage = std::array<std::uint8_t, 56>;  ///< key 32, sealed terms 8,
 struct HandshakeRoute {
   PeerId sender{};
   PeerId receiver{};
-  std::uint64_t nonce = 0;  ///< the initiator's random number, repeated in every answer
+  std::uint64_t nonce = 0;  ///< of HELLO: rises with each handshake; every answer repeats it
 };
 
 /// Initiator: asks to begin. Responder: asks for such a call, at the address it comes from. The
@@ -50,6 +50,7 @@ struct OpenMessage {
   std::uint16_t key_epoch = 0;
   CookieBytes cookie{};
   NoiseMessage noise{};
+  HandshakeTag tag{};  ///< as in HELLO
 };
 
 /// Responder: Noise message 2.
@@ -68,9 +69,10 @@ struct RefuseMessage {
   std::uint8_t version = kWireVersion;  ///< version that the sender speaks
 };
 
-/// HELLO and COOKIE carry their tags behind these many bytes.
+/// HELLO, COOKIE and OPEN carry their tags behind these many bytes.
 inline constexpr std::size_t kHelloTagOffset = 32;
 inline constexpr std::size_t kCookieTagOffset = 48;
+inline constexpr std::size_t kOpenTagOffset = 104;
 
 /// Each encoder writes one whole datagram and returns its size. It returns 0, with nothing written,
 /// if there is no room or the message is outside the standard.

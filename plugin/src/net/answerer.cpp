@@ -10,11 +10,12 @@ namespace tandem::net {
 std::optional<SessionKeys> Answerer::onOpen(const OpenMessage& message, const Address& from,
                                             double now, Outlet& outlet, Outcome& outcome) noexcept {
   std::optional<SessionKeys> keys;
-  if (isOld(message)) {
+  const Seen seen = find(message);
+  if (seen == Seen::kEarlier) {
     outcome = Refusal::kReplayed;
     return std::nullopt;
   }
-  if (!isNewest(message)) {
+  if (seen == Seen::kNever) {
     try {
       keys = answer(message, now, outcome);
     } catch (const std::exception&) {
@@ -29,17 +30,14 @@ std::optional<SessionKeys> Answerer::onOpen(const OpenMessage& message, const Ad
   return keys;
 }
 
-bool Answerer::isNewest(const OpenMessage& message) const noexcept {
-  if (!has_newest_) return false;
-  const Answered& newest = answered_[(answers_ - 1) % kRemembered];
-  return newest.nonce == message.route.nonce && newest.noise == message.noise;
-}
-
-bool Answerer::isOld(const OpenMessage& message) const noexcept {
-  if (isNewest(message)) return false;
+Answerer::Seen Answerer::find(const OpenMessage& message) const noexcept {
+  if (has_newest_) {
+    const Answered& newest = answered_[(answers_ - 1) % kRemembered];
+    if (newest.nonce == message.route.nonce && newest.noise == message.noise) return Seen::kLast;
+  }
   for (std::size_t i = 0; i < std::min(answers_, kRemembered); ++i)
-    if (answered_[i].noise == message.noise) return true;
-  return false;
+    if (answered_[i].noise == message.noise) return Seen::kEarlier;
+  return Seen::kNever;
 }
 
 std::optional<SessionKeys> Answerer::answer(const OpenMessage& message, double now,

@@ -15,9 +15,13 @@ class Answerer {
  public:
   Answerer(const Pair& pair, const SecretKey& key) noexcept : pair_(pair), key_(key) {}
 
+  /// An OPEN of which this is a copy was answered last, or earlier, as in a replay.
+  enum class Seen { kNever, kLast, kEarlier };
+  [[nodiscard]] Seen find(const OpenMessage& message) const noexcept;
+
   /// Answers OPEN with ACCEPT and returns the new keys, which come into use when a datagram opens
-  /// under them. A repeated OPEN gets the same answer and no keys. An OPEN that fails leaves no
-  /// state. An older OPEN, as in a replay, gets no answer. Takes locked memory.
+  /// under them. The last one, repeated, gets the same answer and no keys. An OPEN that fails
+  /// leaves no state. An earlier one gets no answer. Takes locked memory.
   [[nodiscard]] std::optional<SessionKeys> onOpen(const OpenMessage& message, const Address& from,
                                                   double now, Outlet& outlet,
                                                   Outcome& outcome) noexcept;
@@ -37,9 +41,6 @@ class Answerer {
     NoiseMessage noise{};
   };
   static constexpr std::size_t kRemembered = 32;
-
-  [[nodiscard]] bool isNewest(const OpenMessage& message) const noexcept;
-  [[nodiscard]] bool isOld(const OpenMessage& message) const noexcept;
 
   std::array<Answered, kRemembered> answered_{};
   std::size_t answers_ = 0;

@@ -19,7 +19,7 @@ constexpr double kMostTook = 5.0;  // upper limit of took() [s]
 void Caller::start(std::uint16_t epoch, double now) noexcept {
   stage_ = Stage::kHello;
   epoch_ = epoch;
-  nonce_ = drawNumber<std::uint64_t>();
+  nonce_ = nonces_.next();
   noise_.reset();
   retry_.start(now);
 }
@@ -78,6 +78,7 @@ Outcome Caller::writeOpen(const CookieBytes& cookie) noexcept {
     open_.key_epoch = epoch_;
     open_.cookie = cookie;
     if (!noise_->writeMessage(terms, open_.noise)) return Refusal::kOutOfTurn;
+    tagOpen(open_, key_);
   } catch (const std::exception&) {
     noise_.reset();
     return Refusal::kTooMany;  // no memory to lock: HELLO is sent again

@@ -5,6 +5,7 @@
 #include "tandem/plugin/udp_socket.h"
 
 #include "coordination/src/wire/wire_handshake.h"
+#include "net/handshake_nonces.h"
 #include "net/retry.h"
 #include "net/session_keys.h"
 
@@ -13,7 +14,9 @@ namespace tandem::net {
 /// The initiator's half of a handshake: HELLO until a cookie comes, OPEN until the peer accepts.
 class Caller {
  public:
-  Caller(const Pair& pair, const SecretKey& key) noexcept : pair_(pair), key_(key) {}
+  /// `first_nonce` is above the nonces of all earlier programs at this site.
+  Caller(const Pair& pair, const SecretKey& key, std::uint64_t first_nonce) noexcept
+      : pair_(pair), key_(key), nonces_(first_nonce) {}
 
   /// Starts a handshake for this key epoch.
   void start(std::uint16_t epoch, double now) noexcept;
@@ -52,6 +55,7 @@ class Caller {
   Stage stage_ = Stage::kIdle;
   Retry retry_;
   double opened_at_ = 0.0, took_ = 0.0;
+  HandshakeNonces nonces_;
   std::uint64_t nonce_ = 0;
   std::uint16_t epoch_ = 0;
   std::uint32_t session_ = 0;  ///< our session number

@@ -14,6 +14,8 @@ constexpr double kFirstWait = 0.025, kLastWait = 0.4;  // [s]
 constexpr double kGrace = 0.05;
 /// Used while no round trip was measured [s].
 constexpr double kUnknownTrip = 0.2;
+/// A longer one was measured while the network stood still [s].
+constexpr double kLongestTrip = 5.0;
 /// Copies start a check at most this often [s].
 constexpr double kRest = 1.0;
 
@@ -67,7 +69,7 @@ void Paths::onResponse(PathToken token) noexcept {
 Paths::Challenges Paths::advance(double now, double round_trip) noexcept {
   Challenges due;
   if (!is_checking_) return due;
-  const double trip = round_trip > 0.0 ? round_trip : kUnknownTrip;
+  const double trip = round_trip > 0.0 ? std::min(round_trip, kLongestTrip) : kUnknownTrip;
   const Path* used = in_use_ ? find(*in_use_) : nullptr;
   if (used && used->has_answered) {
     finish(now);

@@ -9,8 +9,9 @@
 namespace tandem::net {
 namespace {
 
-constexpr double kHellosPerSecond = 200.0;  ///< each costs a hash and a datagram of 48 bytes
-constexpr double kOpensPerSecond = 50.0;    ///< each costs two X25519 operations
+constexpr double kHellosPerSecond = 200.0;    ///< each costs a hash and a datagram of 64 bytes
+constexpr double kOldHellosPerSecond = 10.0;  ///< of a peer whose clock was set back, or recorded
+constexpr double kOpensPerSecond = 50.0;      ///< each costs two X25519 operations
 constexpr double kRefusalsPerSecond = 5.0;
 // Burst limits, so that the work does not all fall into one tick.
 constexpr double kAtOnce = 10.0;
@@ -67,6 +68,7 @@ PeerGroup::PeerGroup(PeerId self, std::vector<Peer> peers, const PeerSession::Co
       outlet_(outlet),
       known_{{kHellosPerSecond, kAtOnce}, {kOpensPerSecond, kOpensAtOnce}},
       strange_(known_),
+      old_hellos_(kOldHellosPerSecond, kAtOnce),
       refusals_(kRefusalsPerSecond, kRefusalsPerSecond) {
   checkIds(self, peers);
   for (Peer& peer : peers) {
@@ -154,7 +156,7 @@ Outcome PeerGroup::handleHello(ByteView datagram, const Address& from, double no
     refuse(hello->route, RefuseCode::kKey, from, now);
     return Refusal::kKey;
   }
-  if (!limitsOf(*session, from).hellos.take(now)) return Refusal::kTooMany;
+  if (!takeHello(*session, hello->route.nonce, from, now)) return Refusal::kTooMany;
   if (session->pair().isInitiator()) {
     session->onKnock(from, outlet_);
     return {};
@@ -167,22 +169,52 @@ Outcome PeerGroup::handleHello(ByteView datagram, const Address& from, double no
   return {};
 }
 
+/// Recorded HELLOs must not use up the answers of the newest, nor copies those of its first.
+bool PeerGroup::takeHello(PeerSession& session, std::uint64_t nonce, const Address& from,
+                          double now) noexcept {
+  switch (session.noteHello(nonce)) {
+    case NewestHello::Age::kNew:
+      return true;
+    case NewestHello::Age::kRepeated:
+      return limitsOf(session, from).hellos.take(now);
+    default:
+      return old_hellos_.take(now);
+  }
+}
+
 Outcome PeerGroup::handleOpen(ByteView datagram, const Address& from, double now) noexcept {
   const auto open = decodeOpen(datagram);
   if (!open) return open.refusal();
   PeerSession* session = open->route.receiver == self_ ? find(open->route.sender) : nullptr;
   if (!session) return Refusal::kNotForMe;
+  if (!isAuthentic(*open, datagram, session->key())) {
+    refuse(open->route, RefuseCode::kKey, from, now);
+    return Refusal::kKey;
+  }
   if (!cookies_.accepts(open->cookie, makeSubject(open->route), now)) {
     refuse(open->route, RefuseCode::kCookie, from, now);
     return Refusal::kCookie;
   }
-  if (!limitsOf(*session, from).opens.take(now)) {
+  if (!takeOpen(*session, *open, from, now)) {
     refuse(open->route, RefuseCode::kBusy, from, now);
     return Refusal::kTooMany;
   }
   const Outcome outcome = session->onOpen(*open, from, now, outlet_);
   if (outcome.refusal == Refusal::kKey) refuse(open->route, RefuseCode::kKey, from, now);
   return outcome;
+}
+
+/// Copies must not use up what a new OPEN needs. Earlier ones get no answer and cost nothing.
+bool PeerGroup::takeOpen(const PeerSession& session, const OpenMessage& open, const Address& from,
+                         double now) noexcept {
+  switch (session.findOpen(open)) {
+    case Answerer::Seen::kNever:
+      return limitsOf(session, from).opens.take(now);
+    case Answerer::Seen::kLast:
+      return limitsOf(session, from).hellos.take(now);
+    default:
+      return true;
+  }
 }
 
 Outcome PeerGroup::handleSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,

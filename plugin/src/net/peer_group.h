@@ -50,7 +50,11 @@ class PeerGroup {
 
   [[nodiscard]] Outcome handle(ByteSpan datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome handleHello(ByteView datagram, const Address& from, double now) noexcept;
+  [[nodiscard]] bool takeHello(PeerSession& session, std::uint64_t nonce, const Address& from,
+                               double now) noexcept;
   [[nodiscard]] Outcome handleOpen(ByteView datagram, const Address& from, double now) noexcept;
+  [[nodiscard]] bool takeOpen(const PeerSession& session, const OpenMessage& open,
+                              const Address& from, double now) noexcept;
   [[nodiscard]] Outcome handleSealed(const ClearHeader& header, ByteSpan datagram,
                                      const Address& from, double now) noexcept;
   [[nodiscard]] Limits& limitsOf(const PeerSession& session, const Address& from) noexcept;
@@ -63,6 +67,7 @@ class PeerGroup {
   std::vector<std::unique_ptr<PeerLink>> links_;
   secure::CookieMaker cookies_;
   Limits known_, strange_;
+  RateLimit old_hellos_;
   RateLimit refusals_;
   DatagramCounts counts_;
 };

@@ -31,7 +31,8 @@ PeerSession::PeerSession(const Pair& pair, std::optional<Address> address, Secre
     : pair_(pair),
       paths_(address),
       key_(std::move(key)),
-      caller_(pair, key_),
+      caller_(pair, key_, common.first_nonce),
+      knock_nonces_(common.first_nonce),
       answerer_(pair, key_),
       agreement_(common.configuration),
       stream_(common.playout, common.profile, agreement_.hash()),
@@ -97,7 +98,7 @@ void PeerSession::knockIfNeeded(double now, Outlet& outlet) noexcept {
     return;
   }
   if (knock_nonce_ == 0) {
-    knock_nonce_ = drawNumber<std::uint64_t>();
+    knock_nonce_ = knock_nonces_.next();
     knocks_.start(now);
   }
   if (!knocks_.isDue(now)) return;

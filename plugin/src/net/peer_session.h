@@ -31,6 +31,7 @@ class PeerSession {
     Configuration configuration;
     PlayoutSettings playout;
     WireProfile profile = WireProfile::kFloat32;
+    std::uint64_t first_nonce = 0;  ///< drawFirstNonce() of the program's start
   };
 
   PeerSession(const Pair& pair, std::optional<Address> address, SecretKey key,
@@ -42,12 +43,20 @@ class PeerSession {
   void advance(double now, Outlet& outlet) noexcept;
 
   // Handlers of received datagrams, by type. They may change the bytes.
+  /// Age of an authentic HELLO with this nonce.
+  [[nodiscard]] NewestHello::Age noteHello(std::uint64_t nonce) noexcept {
+    return newest_hello_.note(nonce);
+  }
   /// A responder asks to be called at this address.
   void onKnock(const Address& from, Outlet& outlet) noexcept { caller_.callAt(from, outlet); }
   [[nodiscard]] Outcome onCookie(ByteView datagram, double now) noexcept;
   [[nodiscard]] Outcome onAccept(ByteView datagram, const Address& from, double now) noexcept;
   [[nodiscard]] Outcome onRefuse(ByteView datagram) noexcept;
-  /// Called after the cookie was accepted.
+  /// Whether this OPEN was answered already.
+  [[nodiscard]] Answerer::Seen findOpen(const OpenMessage& message) const noexcept {
+    return answerer_.find(message);
+  }
+  /// Called after tag and cookie were accepted.
   [[nodiscard]] Outcome onOpen(const OpenMessage& message, const Address& from, double now,
                                Outlet& outlet) noexcept;
   [[nodiscard]] Outcome onSealed(const ClearHeader& header, ByteSpan datagram, const Address& from,
@@ -94,9 +103,11 @@ class PeerSession {
   Paths paths_;
   SecretKey key_;
   Caller caller_;
+  HandshakeNonces knock_nonces_;
   Retry knocks_;
   std::uint64_t knock_nonce_ = 0;  ///< of a responder that nobody calls; else 0
   Answerer answerer_;
+  NewestHello newest_hello_;
   Agreement agreement_;
   StateStream stream_;
 

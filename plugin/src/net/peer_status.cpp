@@ -1,4 +1,4 @@
-// What a pair's session shows to its host, and the words for it.
+// The status of a pair's session as its host sees it, and the words for it.
 
 #include "net/peer_session.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "coordination/src/wire/wire_handshake.h"
 #include "secure/handshake_tag.h"
 
@@ -23,6 +25,13 @@ namespace tandem::net {
   return encodeCookie(message, out);
 }
 
+/// Sets the tag of OPEN.
+inline void tagOpen(OpenMessage& open, const SecretKey& key) noexcept {
+  std::array<std::uint8_t, kOpenSize> datagram;
+  if (encodeOpen(open, {datagram.data(), datagram.size()}) != 0)
+    open.tag = secure::computeTag(key, {datagram.data(), kOpenTagOffset});
+}
+
 /// True if the datagram that a decoder accepted was tagged under this key.
 [[nodiscard]] inline bool isAuthentic(const HelloMessage& message, ByteView datagram,
                                       const SecretKey& key) noexcept {
@@ -31,6 +40,10 @@ namespace tandem::net {
 [[nodiscard]] inline bool isAuthentic(const CookieMessage& message, ByteView datagram,
                                       const SecretKey& key) noexcept {
   return secure::isTagged(key, {datagram.data, kCookieTagOffset}, message.tag);
+}
+[[nodiscard]] inline bool isAuthentic(const OpenMessage& message, ByteView datagram,
+                                      const SecretKey& key) noexcept {
+  return secure::isTagged(key, {datagram.data, kOpenTagOffset}, message.tag);
 }
 
 }  // namespace tandem::net

@@ -1,6 +1,7 @@
 #include "tandem/plugin/udp_mesh.h"
 
 #include <array>
+#include <chrono>
 
 #include "tandem/plugin/udp_socket.h"
 
@@ -45,6 +46,11 @@ const char* name(net::Refusal refusal) noexcept {
   return "";
 }
 
+/// The only use of the wall clock. A wrong one costs nothing but speed while under attack.
+double readUtc() noexcept {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
 std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers) {
   std::vector<net::PeerGroup::Peer> all;
   for (UdpPeer& peer : peers) all.push_back({peer.id, peer.address, std::move(peer.key)});
@@ -57,7 +63,9 @@ struct UdpMesh::Impl {
   Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers)
       : socket(settings.bind),
         mesh(settings.self, toMeshPeers(std::move(peers)),
-             {settings.configuration, settings.playout, settings.profile}, socket) {}
+             {settings.configuration, settings.playout, settings.profile,
+              net::drawFirstNonce(readUtc())},
+             socket) {}
 
   net::UdpSocket socket;
   net::PeerGroup mesh;
