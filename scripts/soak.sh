@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# Runs the long tests of the network: most in virtual time, for minutes each, and one over real sockets.
+# Runs the long tests of the network: most in virtual time, for minutes each, and two over real sockets.
 # scripts/test.sh runs a part of them.
 #
-#   scripts/soak.sh [forged|peers|churn|matrix|flood]...     all five by default
+#   scripts/soak.sh [forged|peers|churn|matrix|flood|attacks]...     all six by default
 #
 # forged: 1e8 forged, changed, cut, replayed and random datagrams at a live pair. peers: four sites for 24 hours with
 # 1 s delay, 100 ms jitter, a quarter lost and a quarter doubled. churn: 10,000 times a site leaves, is killed or gets
 # another port. matrix: two sites with worlds and devices under 150 conditions of the network, three times each, with an
 # outage. flood: two `tandem peer` for 20 s, and again with 100,000 forged datagrams a second at one of them, three times
 # each. Under the flood its memory may grow by 64 kB more than without. Another hundredth of all its ticks may be late,
-# and another hundredth of its peer's states lost.
+# and another hundredth of its peer's states lost. attacks: two `tandem peer` for ten minutes, with a man in the middle
+# without the key (tests/wire/attack.py), five attacks at the same time. They must be live all the time but a second.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -96,12 +97,27 @@ flood() {
   step "flood: passed"
 }
 
-(( $# > 0 )) || set -- forged peers churn matrix flood
+# All attacks at once: each takes ten minutes, and little of the processor.
+attacks() {
+  local attack failed=0 running=()
+  trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
+  step "attacks: for ten minutes"
+  for attack in cookies flood copies forgeries hellos; do
+    python3 -B "$checkout/tests/wire/attack.py" "$checkout/build/release/demos/tandem" \
+      "$checkout/demos/scenarios/experiment1.toml" "$attack" --seconds 600 --strict &
+    running+=($!)
+  done
+  for attack in "${running[@]}"; do wait "$attack" || failed=1; done
+  (( failed == 0 )) || { step "attacks: FAILED"; return 1; }
+  step "attacks: passed"
+}
+
+(( $# > 0 )) || set -- forged peers churn matrix flood attacks
 for name in "$@"; do
   case "$name" in
-    forged|peers|churn|matrix|flood) ;;
-    -h|--help) sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
-    *) echo "soak.sh: $name: there is no such test; allowed: forged, peers, churn, matrix, flood" >&2; exit 2 ;;
+    forged|peers|churn|matrix|flood|attacks) ;;
+    -h|--help) sed -n '2,15s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    *) echo "soak.sh: $name: there is no such test; allowed: forged, peers, churn, matrix, flood, attacks" >&2; exit 2 ;;
   esac
 done
 "$checkout/scripts/packages.sh" install build test
@@ -115,5 +131,6 @@ for name in "$@"; do
     churn)  soak churn tandem_net_tests Soak.SitesComeAndGo TANDEM_CHURN_CYCLES=10000 ;;
     matrix) soak matrix tandem_matrix_tests '*ConditionMatrixTest*' TANDEM_MATRIX_CELLS=150 TANDEM_MATRIX_SEEDS=3 ;;
     flood)  flood ;;
+    attacks) attacks ;;
   esac
 done

@@ -144,14 +144,17 @@ TEST(Device, TakesPartAsAPeer) {
   const TempFolder folder;
   const std::string key = folder / "k";
   ASSERT_EQ(runTandem({"key", "new", key}).status, 0);
-  const auto peer = [&](const char* site, const char* own, const char* other, const char* device) {
+  const std::string first_address = test::ownLoopback() + ":17391";
+  const std::string second_address = test::ownLoopback() + ":17392";
+  const auto peer = [&](const char* site, const std::string& own, const std::string& other,
+                        const char* device) {
     return runTandem({"peer", "--scenario", test::scenarioPath("playground.toml"), "--site", site,
                       "--bind", own, "--peer", other, "--key", key, "--device", device, "--out",
                       folder / "out", "--set", "experiment.duration=2"});
   };
   auto second =
-      std::async(std::launch::async, peer, "2", "127.0.0.1:17392", "127.0.0.1:17391", "simulated");
-  const Outcome first = peer("1", "127.0.0.1:17391", "127.0.0.1:17392", "emulated");
+      std::async(std::launch::async, peer, "2", second_address, first_address, "simulated");
+  const Outcome first = peer("1", first_address, second_address, "emulated");
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(second.get().status, 0);
   EXPECT_NE(first.out.find("1. Pull the grip"), std::string::npos) << first.out;
@@ -166,10 +169,10 @@ TEST(Device, APeersDeviceMustBeThere) {
   const TempFolder folder;
   const std::string key = folder / "k";
   ASSERT_EQ(runTandem({"key", "new", key}).status, 0);
-  const Words words = {"peer",    "--scenario", test::scenarioPath("experiment1.toml"),
-                       "--site",  "1",          "--bind",
-                       ":17393",  "--peer",     "127.0.0.1:17394",
-                       "--key",   key,          "--quiet",
+  const Words words = {"peer",        "--scenario", test::scenarioPath("experiment1.toml"),
+                       "--site",      "1",          "--bind",
+                       "127.0.0.1:0", "--peer",     "127.0.0.1:9",
+                       "--key",       key,          "--quiet",
                        "--device"};
   const auto with = [&](const std::string& device) {
     Words all = words;

@@ -2,6 +2,7 @@
 // properties that hold on any machine are asserted.
 
 #include <cmath>
+#include <csignal>
 #include <future>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "tandem/plugin/udp_socket.h"
 
+#include "program/background.h"
 #include "program/process.h"
 
 namespace tandem {
@@ -30,17 +32,18 @@ std::string makeKey(const TempFolder& folder, const std::string& name) {
 /// Arguments of one of two sites; each test has its own ports.
 std::vector<std::string> peer(int site, int first_port, const std::string& key,
                               const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"peer",
-                                        "--scenario",
-                                        scenarioPath("experiment1.toml"),
-                                        "--site",
-                                        std::to_string(site),
-                                        "--bind",
-                                        "127.0.0.1:" + std::to_string(first_port + site - 1),
-                                        "--peer",
-                                        "127.0.0.1:" + std::to_string(first_port + 2 - site),
-                                        "--key",
-                                        key};
+  std::vector<std::string> arguments = {
+      "peer",
+      "--scenario",
+      scenarioPath("experiment1.toml"),
+      "--site",
+      std::to_string(site),
+      "--bind",
+      test::ownLoopback() + ":" + std::to_string(first_port + site - 1),
+      "--peer",
+      test::ownLoopback() + ":" + std::to_string(first_port + 2 - site),
+      "--key",
+      key};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -122,21 +125,18 @@ TEST(Peer, NobodyAnswers) {
 
 TEST(Peer, PortInUse) {
   const TempFolder folder;
-  const net::UdpSocket taken(resolveAddress("127.0.0.1:0"));
-  auto arguments = peer(1, 17350, makeKey(folder, "k"));
-  for (std::string& argument : arguments)
-    if (argument == "127.0.0.1:17350") argument = toString(taken.bound());
+  const auto arguments = peer(1, 17350, makeKey(folder, "k"));
+  const net::UdpSocket taken(resolveAddress(test::ownLoopback() + ":17350"));
   expectOneLine(runTandem(arguments), 2, "choose another port");
 }
 
 TEST(Peer, EndsAtASignal) {
   const TempFolder folder;
-  const Outcome outcome = test::runProgram("/usr/bin/timeout", [&] {
-    std::vector<std::string> arguments = {"--preserve-status", "-s", "INT", "3", TANDEM_PROGRAM};
-    for (const std::string& one : peer(1, 17360, makeKey(folder, "k"))) arguments.push_back(one);
-    return arguments;
-  }());
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  test::Background waiting(TANDEM_PROGRAM, peer(1, 17360, makeKey(folder, "k")));
+  while (waiting.readLine().find("waiting") == std::string::npos) {
+  }
+  const Outcome outcome = waiting.finish(SIGINT);
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
 }
 
 TEST(Peer, BadInput) {

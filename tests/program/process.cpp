@@ -84,6 +84,12 @@ std::string TempFolder::write(std::string_view name, std::string_view text) cons
   return path;
 }
 
+std::string ownLoopback() {
+  const auto process = static_cast<unsigned>(getpid());  // at most 22 bits
+  const auto byte = [process](int shift) { return std::to_string(process >> shift & 0xffU); };
+  return "127." + std::to_string(1 + (process >> 16 & 0x7fU)) + "." + byte(8) + "." + byte(0);
+}
+
 std::string readFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

@@ -51,6 +51,10 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
+/// A loopback address that no other process uses: tests may run twice at a time, with the same
+/// ports.
+[[nodiscard]] std::string ownLoopback();
+
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
 /// Names of the entries of a folder, sorted; empty if it does not exist.
