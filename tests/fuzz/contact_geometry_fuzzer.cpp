@@ -76,7 +76,7 @@ Vec3 makeSturdy(const Vec3& sizes) {
 
 Shape makeShape(std::uint8_t kind, const Vec3& sizes, const Vec3& direction) {
   const Axis axis = static_cast<Axis>(kind / 8 % 3);
-  switch (kind % 7) {
+  switch (kind % 8) {
     case 0:
       return Sphere{sizes.x()};
     case 1:
@@ -89,6 +89,8 @@ Shape makeShape(std::uint8_t kind, const Vec3& sizes, const Vec3& direction) {
       return test::makeHull(test::makeOctahedron(makeSturdy(sizes)), std::abs(sizes.y()));
     case 6:
       return test::makeMesh(test::cutIntoTriangles(test::makeBoxSolid(makeSturdy(sizes))));
+    case 7:
+      return Cone{sizes.x(), sizes.y(), axis, std::abs(sizes.z())};
     default:
       return Plane{direction, sizes.z()};
   }

@@ -53,8 +53,10 @@ Shape makeShape(std::size_t kind, Random& random) {
       return Cylinder{a, b, static_cast<Axis>(static_cast<int>(20.0 * c) % 3)};
     case 6:
       return test::makeHull(makeSkewSolid(a, b, c, random));
-    default:
+    case 7:
       return test::makeMesh(test::cutIntoTriangles(makeSkewSolid(a, b, c, random)));
+    default:
+      return Cone{a, b, static_cast<Axis>(static_cast<int>(20.0 * c) % 3)};
   }
 }
 
@@ -183,6 +185,23 @@ class SampledSurface {
     covering_radius_ = std::max(covering_radius_, longest / kSteps);
   }
 
+  void addCone(const Cone& cone) {
+    const int axis = static_cast<int>(cone.axis);
+    const Vec3 tip = cone.half_length * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3),
+               v = Vec3::Unit((axis + 2) % 3);
+    for (int i = 0; i < kSteps; ++i) {
+      const double angle = kPi * middle(i);
+      const Vec3 across = cone.radius * (std::cos(angle) * u + std::sin(angle) * v);
+      for (int j = 0; j < kSteps; ++j) {
+        const double part = 0.5 + 0.5 * middle(j);
+        add(tip + part * (across - 2.0 * tip));
+        add(part * across - tip);
+      }
+    }
+    cover(kPi * cone.radius, std::hypot(0.5 * cone.radius, cone.half_length));
+    cover(kPi * cone.radius, 0.5 * cone.radius);
+  }
+
   void addCylinder(const Cylinder& cylinder) {
     const int axis = static_cast<int>(cylinder.axis);
     const Vec3 along = Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3),
@@ -250,6 +269,8 @@ void addSurface(SampledSurface& surface, const Cylinder& cylinder) {
   surface.addCylinder(cylinder);
 }
 
+void addSurface(SampledSurface& surface, const Cone& cone) { surface.addCone(cone); }
+
 void addSurface(SampledSurface& surface, const ConvexHull& hull) {
   const ConvexPolyhedron& solid = *hull.solid;
   for (const ConvexPolyhedron::Face& face : solid.faces()) {
@@ -295,6 +316,12 @@ bool isInside(const Vec3& p, const Cylinder& s) {
   const Vec3 along = Vec3::Unit(static_cast<int>(s.axis));
   return along.cross(p).norm() < s.radius && std::abs(along.dot(p)) < s.half_length;
 }
+bool isInside(const Vec3& p, const Cone& s) {
+  const Vec3 along = Vec3::Unit(static_cast<int>(s.axis));
+  const double under_tip = s.half_length - along.dot(p);
+  return under_tip < 2.0 * s.half_length &&
+         along.cross(p).norm() < s.radius * under_tip / (2.0 * s.half_length);
+}
 bool isInside(const Vec3& p, const ConvexHull& s) {
   const auto& faces = s.solid->faces();
   return std::all_of(faces.begin(), faces.end(),
@@ -322,12 +349,12 @@ TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
 }
 
 std::string nameShape(const ::testing::TestParamInfo<std::size_t>& kind) {
-  return std::array{"Sphere",       "Box",      "Capsule",    "Plane",
-                    "CapsuleAlong", "Cylinder", "ConvexHull", "Mesh"}
+  return std::array{"Sphere",   "Box",        "Capsule", "Plane", "CapsuleAlong",
+                    "Cylinder", "ConvexHull", "Mesh",    "Cone"}
       .at(kind.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 8), nameShape);
+INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 9), nameShape);
 
 }  // namespace
 }  // namespace tandem

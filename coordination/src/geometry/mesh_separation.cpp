@@ -1,6 +1,8 @@
 #include <array>
 #include <limits>
 
+#include "geometry/face_heights.h"
+#include "geometry/held_face.h"
 #include "geometry/mesh_pieces.h"
 #include "geometry/triangle_mesh.h"
 
@@ -36,14 +38,6 @@ double computeMargin(const PlainVec& c, const Vec3& p, const Vec3& normal) noexc
   return moved > 0.0 ? kOnPlane : -kOnPlane;
 }
 
-double heightOver(const TriangleMesh::Triangle& triangle, const PlainVec& c) noexcept {
-  return dot(PlainVec(triangle.normal), c) - triangle.offset;
-}
-
-const TriangleMesh::Triangle& triangleAt(const TriangleMesh& mesh, int place) noexcept {
-  return mesh.triangles()[static_cast<std::size_t>(place)];
-}
-
 const TriangleMesh::Edge& edgeAt(const TriangleMesh& mesh, int place) noexcept {
   return triangleAt(mesh, place / 3).edges[static_cast<std::size_t>(place % 3)];
 }
@@ -53,9 +47,10 @@ bool goesOnBehind(const TriangleMesh::Edge& edge, const PlainVec& c) noexcept {
   return edge.meeting == Meeting::kConcave && computeMargin(c, edge.start, edge.inward) < 0.0;
 }
 
-/// Margin of the face's region, counting only the triangle and its neighbours [m].
+/// Margin of the face's region, counting only the triangle and its neighbours [m]. An open surface
+/// that was touched pushes from any depth.
 double computeOwnMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
-                        const PlainVec& c) noexcept {
+                        const PlainVec& c, int touched) noexcept {
   std::array<bool, 3> behind;
   for (std::size_t k = 0; k < 3; ++k) behind[k] = goesOnBehind(triangle.edges[k], c);
   const bool is_beyond = behind[0] || behind[1] || behind[2];
@@ -75,7 +70,8 @@ double computeOwnMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& 
       margin = std::min(margin, computeMargin(c, edge.start, edge.inward));
     }
   }
-  if (!mesh.isClosed()) margin = std::min(margin, heightOver(triangle, c) + TriangleMesh::kDeepest);
+  if (!mesh.isClosed() && touched < 0)
+    margin = std::min(margin, heightOver(triangle, c) + TriangleMesh::kDeepest);
   return margin;
 }
 
@@ -102,8 +98,8 @@ double computeCornerMargin(const TriangleMesh& mesh, const TriangleMesh::Corner&
 
 /// Margin of a triangle's feature [m]; -infinity if the triangle does not own it.
 double computeFeatureMargin(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
-                            int feature, const PlainVec& c) noexcept {
-  if (feature == kMeshFace) return computeOwnMargin(mesh, triangle, c);
+                            int feature, const PlainVec& c, int touched) noexcept {
+  if (feature == kMeshFace) return computeOwnMargin(mesh, triangle, c, touched);
   if (feature < kMeshCorner) {
     const auto& edge = triangle.edges[static_cast<std::size_t>(feature - kMeshEdge)];
     return edge.is_owner ? computeEdgeMargin(mesh, edge, c) : -HUGE_VAL;
@@ -136,11 +132,11 @@ struct Claim {
 };
 
 /// The feature whose region holds the centre, counting only the triangle and its neighbours.
-Claim findClaim(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
-                const PlainVec& c) noexcept {
+Claim findClaim(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle, const PlainVec& c,
+                int touched) noexcept {
   Claim claim;
   for (int feature = kMeshFace; feature < kMeshFeatures; ++feature) {
-    const double margin = computeFeatureMargin(mesh, triangle, feature, c);
+    const double margin = computeFeatureMargin(mesh, triangle, feature, c, touched);
     if (margin > claim.margin) claim.margin = margin;
     if (margin > 0.0) return {feature, margin};
   }
@@ -150,15 +146,16 @@ Claim findClaim(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle
 /// How much nearer the plane of `behind` is than any other triangle that claims the centre [m]. The
 /// centre is `depth` behind that plane. Negative: the centre leaves through another triangle.
 double computeLeadOverOthers(const TriangleMesh& mesh, int piece,
-                             const TriangleMesh::Triangle& behind, double depth,
-                             const PlainVec& c) noexcept {
+                             const TriangleMesh::Triangle& behind, double depth, const PlainVec& c,
+                             int touched) noexcept {
   double lead = std::numeric_limits<double>::infinity();
   // The search reaches farther, so that an approaching triangle shows up before it is the nearest.
   mesh.forEachNear(c.toVec3(), 1.1 * depth + kSameDepth, [&](int place, double) {
     const TriangleMesh::Triangle& other = triangleAt(mesh, place);
     // A triangle in front of that plane is the other side of a groove: both push.
     if (place == piece || !(heightOver(behind, PlainVec(other.middle)) < -kSameDepth)) return;
-    const Claim claim = findClaim(mesh, other, c);
+    if (isHidden(c, mesh, touched, place)) return;
+    const Claim claim = findClaim(mesh, other, c, touched);
     if (claim.feature < 0) return;
     const double theirs = std::abs(leaveByFeature(other, claim.feature, c).distance);
     // Ties go to the lower index, so that exactly one of several equally near faces wins.
@@ -170,29 +167,33 @@ double computeLeadOverOthers(const TriangleMesh& mesh, int piece,
 }
 
 /// Margin of the face's region among all triangles [m]; a centre inside leaves through the nearest.
-double computeFaceMargin(const TriangleMesh& mesh, int piece, const PlainVec& c) noexcept {
+double computeFaceMargin(const TriangleMesh& mesh, int piece, const PlainVec& c,
+                         int touched) noexcept {
+  // It may push when the centre is in front of the touched triangle again.
+  if (isHidden(c, mesh, touched, piece)) return heightOver(triangleAt(mesh, touched), c);
   const TriangleMesh::Triangle& triangle = triangleAt(mesh, piece);
-  double margin = computeOwnMargin(mesh, triangle, c);
+  double margin = computeOwnMargin(mesh, triangle, c, touched);
   if (!(margin > 0.0)) return margin;
   const double height = heightOver(triangle, c);
   if (height < 0.0)
-    margin = std::min(margin, computeLeadOverOthers(mesh, piece, triangle, -height, c));
+    margin = std::min(margin, computeLeadOverOthers(mesh, piece, triangle, -height, c, touched));
   for (const TriangleMesh::Edge& edge : triangle.edges) {
     if (!goesOnBehind(edge, c)) continue;
     const TriangleMesh::Triangle& wall = triangleAt(mesh, edge.mate / 3);
-    margin = std::min(margin, computeLeadOverOthers(mesh, piece, wall, -heightOver(wall, c), c));
+    margin = std::min(margin,
+                      computeLeadOverOthers(mesh, piece, wall, -heightOver(wall, c), c, touched));
   }
   return margin;
 }
 
 }  // namespace
 
-Separation separate(const PlainVec& c, const Mesh& mesh, int piece) noexcept {
+Separation separate(const PlainVec& c, const Mesh& mesh, int piece, int touched) noexcept {
   const TriangleMesh& surface = *mesh.surface;
   const TriangleMesh::Triangle& triangle = triangleAt(surface, piece);
-  Claim claim = findClaim(surface, triangle, c);
+  Claim claim = findClaim(surface, triangle, c, touched);
   if (claim.feature == kMeshFace) {
-    claim.margin = computeFaceMargin(surface, piece, c);
+    claim.margin = computeFaceMargin(surface, piece, c, touched);
     if (!(claim.margin > 0.0)) claim.feature = -1;
   }
   Separation found = leaveByFeature(triangle, std::max(claim.feature, int{kMeshFace}), c);
@@ -208,9 +209,10 @@ Separation leaveByFace(const PlainVec& c, const Mesh& mesh, int piece, int featu
   return found;
 }
 
-double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece, int feature) noexcept {
-  if (feature == kMeshFace) return computeFaceMargin(*mesh.surface, piece, c);
-  return computeFeatureMargin(*mesh.surface, triangleAt(*mesh.surface, piece), feature, c);
+double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece, int feature,
+                       int touched) noexcept {
+  if (feature == kMeshFace) return computeFaceMargin(*mesh.surface, piece, c, touched);
+  return computeFeatureMargin(*mesh.surface, triangleAt(*mesh.surface, piece), feature, c, touched);
 }
 
 Separation separate(const PlainVec& c, const Mesh& mesh) noexcept {
@@ -219,7 +221,7 @@ Separation separate(const PlainVec& c, const Mesh& mesh) noexcept {
   Separation found{far, {1.0, 0.0, 0.0}};
   mesh.surface->forEachNear(c.toVec3(), nearest * (1.0 + 1e-9) + kSameDepth,
                             [&](int piece, double) {
-                              const Separation at = separate(c, mesh, piece);
+                              const Separation at = separate(c, mesh, piece, -1);
                               if (at.face >= 0 && at.distance < found.distance) found = at;
                             });
   return found;

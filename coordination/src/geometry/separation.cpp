@@ -2,44 +2,15 @@
 
 #include <limits>
 
-#include "geometry/convex_polyhedron.h"
+#include "geometry/face_heights.h"
+#include "geometry/held_face.h"
+#include "geometry/round.h"
 
 // Cylinders and hulls: a centre outside goes to the nearest point of the surface, a centre inside
 // to the nearest face.
 
 namespace tandem {
 namespace {
-
-/// A centre in a cylinder's coordinates, and the direction out of its side.
-struct Round {
-  double along, across;
-  PlainVec outwards;
-};
-
-Round look(const PlainVec& c, Axis axis) noexcept {
-  const PlainVec v = detail::layAlongY(c, axis);
-  const double across = std::sqrt(v.x * v.x + v.z * v.z);
-  if (across < detail::kOnCore) return {v.y, across, detail::layBack({1.0, 0.0, 0.0}, axis)};
-  return {v.y, across, detail::layBack({v.x / across, 0.0, v.z / across}, axis)};
-}
-
-PlainVec pointAlong(Axis axis, double side) noexcept {
-  return detail::layBack({0.0, side, 0.0}, axis);
-}
-
-double heightOver(const ConvexPolyhedron::Face& face, const PlainVec& c) noexcept {
-  return dot(PlainVec(face.normal), c) - face.offset;
-}
-
-/// Distance of the centre from the prism over a face [m]; negative inside the prism.
-double computeWayBeside(const ConvexPolyhedron& solid, const ConvexPolyhedron::Face& face,
-                        const PlainVec& c) noexcept {
-  double farthest = -std::numeric_limits<double>::infinity();
-  const ConvexPolyhedron::Side* side = solid.sides(face);
-  for (int i = 0; i < face.count; ++i)
-    farthest = std::max(farthest, dot(PlainVec(side[i].outward), c - PlainVec(side[i].start)));
-  return farthest;
-}
 
 /// Vector to an outside centre from the nearest point of the faces that it is in front of.
 PlainVec comeFromFaces(const ConvexPolyhedron& solid, const PlainVec& c) noexcept {
@@ -71,29 +42,31 @@ PlainVec comeFromFaces(const ConvexPolyhedron& solid, const PlainVec& c) noexcep
 }  // namespace
 
 Separation separate(const PlainVec& c, const Cylinder& cylinder) noexcept {
-  const Round at = look(c, cylinder.axis);
+  const detail::Round at = detail::lookAlong(c, cylinder.axis);
   const double over_side = at.across - cylinder.radius;
   const double over_end = std::abs(at.along) - cylinder.half_length;
-  const PlainVec end = pointAlong(cylinder.axis, at.along < 0.0 ? -1.0 : 1.0);
+  const PlainVec end = detail::pointAlong(cylinder.axis, at.along < 0.0 ? -1.0 : 1.0);
   if (over_side > 0.0 && over_end > 0.0) {
     const double distance = std::sqrt(over_side * over_side + over_end * over_end);
     if (distance * distance >= detail::kSmallestSquare)
       return {distance, (1.0 / distance) * (over_side * at.outwards + over_end * end)};
   }
   const bool is_inside = over_side <= 0.0 && over_end <= 0.0;
-  if (over_side >= over_end) return {over_side, at.outwards, is_inside ? kSide : -1};
-  return {over_end, end, is_inside ? (at.along < 0.0 ? kLowerEnd : kUpperEnd) : -1};
+  if (over_side >= over_end)
+    return {over_side, at.outwards, is_inside ? kSide : -1, 0.0, over_end <= 0.0 ? kSide : -1};
+  const int end_face = at.along < 0.0 ? kLowerEnd : kUpperEnd;
+  return {over_end, end, is_inside ? end_face : -1, 0.0, over_side <= 0.0 ? end_face : -1};
 }
 
 Separation leaveByFace(const PlainVec& c, const Cylinder& cylinder, int face) noexcept {
-  const Round at = look(c, cylinder.axis);
+  const detail::Round at = detail::lookAlong(c, cylinder.axis);
   if (face == kSide) return {at.across - cylinder.radius, at.outwards, face};
   const double side = face == kUpperEnd ? 1.0 : -1.0;
-  return {side * at.along - cylinder.half_length, pointAlong(cylinder.axis, side), face};
+  return {side * at.along - cylinder.half_length, detail::pointAlong(cylinder.axis, side), face};
 }
 
 double computeFaceLead(const PlainVec& c, const Cylinder& cylinder, int face) noexcept {
-  const Round at = look(c, cylinder.axis);
+  const detail::Round at = detail::lookAlong(c, cylinder.axis);
   const double over_side = at.across - cylinder.radius;
   const double over_end = std::abs(at.along) - cylinder.half_length;
   if (face == kSide) return over_side < 0.0 ? over_side - over_end : -over_end;
@@ -113,8 +86,9 @@ Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept {
 
   const ConvexPolyhedron::Face& face = faces[nearest];
   Separation found{height - hull.rounding, PlainVec(face.normal)};
+  found.under = static_cast<int>(nearest);
   if (height <= 0.0) {
-    found.face = static_cast<int>(nearest);
+    found.face = found.under;
     return found;
   }
   // The highest face is the nearest one if the centre is right over it.
@@ -122,6 +96,7 @@ Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept {
   const PlainVec way = comeFromFaces(solid, c);
   const double distance = std::sqrt(dot(way, way));
   // At a smaller distance rounding hides the direction.
+  found.under = -1;
   if (distance < detail::kOnCore) return found;
   return {distance - hull.rounding, way / distance};
 }
@@ -150,15 +125,19 @@ Separation leaveAnyByFace(const PlainVec& c, const Shape& shape, int piece, int 
     return detail::leaveByFace(c, box->half_extents, face);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return leaveByFace(c, *cylinder, face);
   if (const auto* hull = std::get_if<ConvexHull>(&shape)) return leaveByFace(c, *hull, face);
+  if (const auto* cone = std::get_if<Cone>(&shape)) return leaveByFace(c, *cone, face);
   return leaveByFace(c, *std::get_if<Mesh>(&shape), piece, face);
 }
 
-double computeAnyFaceLead(const PlainVec& c, const Shape& shape, int piece, int face) noexcept {
+double computeAnyFaceLead(const PlainVec& c, const Shape& shape, int piece, int face,
+                          int touched) noexcept {
+  if (piece < 0 && touched >= 0) return computeHeldLead(c, shape, face, touched);
   if (const auto* box = std::get_if<Box>(&shape)) return computeFaceLead(c, *box, face);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
     return computeFaceLead(c, *cylinder, face);
   if (const auto* hull = std::get_if<ConvexHull>(&shape)) return computeFaceLead(c, *hull, face);
-  return computeFaceLead(c, *std::get_if<Mesh>(&shape), piece, face);
+  if (const auto* cone = std::get_if<Cone>(&shape)) return computeFaceLead(c, *cone, face);
+  return computeFaceLead(c, *std::get_if<Mesh>(&shape), piece, face, touched);
 }
 
 }  // namespace tandem

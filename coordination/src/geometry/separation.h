@@ -27,11 +27,13 @@ struct Separation {
   double distance = 0.0;
   PlainVec n;
   /// The face through which an inside centre leaves: of a box 2 axis + (side < 0), of a cylinder a
-  /// LeaveCylinder, of a hull an index into faces(). For a piece of a mesh: its MeshFeature, inside
-  /// or outside.
+  /// LeaveCylinder, of a cone a LeaveCone, of a hull an index into faces(). For a piece of a mesh:
+  /// its MeshFeature, inside or outside.
   int face = -1;
   /// For a piece of a mesh: lower bound of the distance to where it pushes [m]; <= 0 if it pushes.
   double aside = 0.0;
+  /// `face`, or the face right under an outside centre; -1 if there is none, or for a mesh.
+  int under = face;
 };
 
 namespace detail {
@@ -101,6 +103,7 @@ inline Separation separate(const PlainVec& c, const Capsule& capsule) noexcept {
 }
 
 [[nodiscard]] Separation separate(const PlainVec& c, const Cylinder& cylinder) noexcept;
+[[nodiscard]] Separation separate(const PlainVec& c, const Cone& cone) noexcept;
 [[nodiscard]] Separation separate(const PlainVec& c, const ConvexHull& hull) noexcept;
 /// Separation from the nearest point of a whole mesh; its piece there decides the sign.
 [[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh) noexcept;
@@ -111,13 +114,14 @@ inline Separation separate(const PlainVec& c, const Box& box) noexcept {
                           c.y - std::clamp(c.y, -h.y(), h.y()),
                           c.z - std::clamp(c.z, -h.z(), h.z())};
   // Over a face, the usual case: no square root, no division, an exact normal.
-  const auto over_face = [](double way, const PlainVec& n) noexcept {
-    return way < 0.0 ? Separation{-way, {-n.x, -n.y, -n.z}} : Separation{way, n};
+  const auto over_face = [](double way, const PlainVec& n, int face) noexcept {
+    return way < 0.0 ? Separation{-way, {-n.x, -n.y, -n.z}, -1, 0.0, face + 1}
+                     : Separation{way, n, -1, 0.0, face};
   };
   const bool over_x = outwards.x != 0.0, over_y = outwards.y != 0.0, over_z = outwards.z != 0.0;
-  if (over_x && !over_y && !over_z) return over_face(outwards.x, {1.0, 0.0, 0.0});
-  if (!over_x && over_y && !over_z) return over_face(outwards.y, {0.0, 1.0, 0.0});
-  if (!over_x && !over_y && over_z) return over_face(outwards.z, {0.0, 0.0, 1.0});
+  if (over_x && !over_y && !over_z) return over_face(outwards.x, {1.0, 0.0, 0.0}, 0);
+  if (!over_x && over_y && !over_z) return over_face(outwards.y, {0.0, 1.0, 0.0}, 2);
+  if (!over_x && !over_y && over_z) return over_face(outwards.z, {0.0, 0.0, 1.0}, 4);
   const double square = dot(outwards, outwards);
   if (square < detail::kSmallestSquare) return detail::leaveBox(c, h);
   const double distance = std::sqrt(square);
@@ -149,27 +153,37 @@ inline Separation separate(const PlainVec& c, const Shape& shape) noexcept {
 
 /// Faces through which a centre inside a cylinder leaves.
 enum LeaveCylinder { kSide, kUpperEnd, kLowerEnd };
+/// Faces through which a centre inside a cone leaves.
+enum LeaveCone { kConeSide, kConeBase };
 
 /// Separation from one face, wherever the centre is; see computeFaceLead().
 [[nodiscard]] Separation leaveByFace(const PlainVec& c, const Cylinder& cylinder,
                                      int face) noexcept;
+[[nodiscard]] Separation leaveByFace(const PlainVec& c, const Cone& cone, int face) noexcept;
 [[nodiscard]] Separation leaveByFace(const PlainVec& c, const ConvexHull& hull, int face) noexcept;
 [[nodiscard]] double computeFaceLead(const PlainVec& c, const Cylinder& cylinder,
                                      int face) noexcept;
+[[nodiscard]] double computeFaceLead(const PlainVec& c, const Cone& cone, int face) noexcept;
 [[nodiscard]] double computeFaceLead(const PlainVec& c, const ConvexHull& hull, int face) noexcept;
 
+/// True if the centre's foot on the plane or cone of a face is beside the face.
+[[nodiscard]] bool isBesideFace(const PlainVec& c, const Cone& cone, int face) noexcept;
+
 /// Separation from the feature of one mesh triangle (by its index) that pushes a centre at c. If
-/// none pushes, the separation from its face, with `aside` above 0.
-[[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh, int piece) noexcept;
+/// none pushes, the separation from its face, with `aside` above 0. `touched`: the triangle that
+/// the sphere has touched, or -1; see held_face.h.
+[[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh, int piece,
+                                  int touched) noexcept;
 [[nodiscard]] Separation leaveByFace(const PlainVec& c, const Mesh& mesh, int piece,
                                      int feature) noexcept;
-[[nodiscard]] double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece,
-                                     int feature) noexcept;
+[[nodiscard]] double computeFaceLead(const PlainVec& c, const Mesh& mesh, int piece, int feature,
+                                     int touched) noexcept;
 
-/// Generic forms for any shape with faces; `piece` matters for a mesh only.
+/// Generic forms for any shape with faces; `piece` matters for a mesh only. `touched`: the face
+/// that the sphere has touched, or -1.
 [[nodiscard]] Separation leaveAnyByFace(const PlainVec& c, const Shape& shape, int piece,
                                         int face) noexcept;
-[[nodiscard]] double computeAnyFaceLead(const PlainVec& c, const Shape& shape, int piece,
-                                        int face) noexcept;
+[[nodiscard]] double computeAnyFaceLead(const PlainVec& c, const Shape& shape, int piece, int face,
+                                        int touched) noexcept;
 
 }  // namespace tandem

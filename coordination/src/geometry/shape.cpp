@@ -23,6 +23,9 @@ double boundingRadius(const Plane&) noexcept { return std::numeric_limits<double
 double boundingRadius(const Cylinder& cylinder) noexcept {
   return std::hypot(cylinder.radius, cylinder.half_length);
 }
+double boundingRadius(const Cone& cone) noexcept {
+  return std::hypot(cone.radius, cone.half_length) + cone.rounding;
+}
 double boundingRadius(const ConvexHull& hull) noexcept {
   return hull.solid->boundingRadius() + hull.rounding;
 }
@@ -40,6 +43,12 @@ double reach(const Cylinder& cylinder, const Vec3& d) noexcept {
   const double along = std::abs(d[static_cast<int>(cylinder.axis)]);
   const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
   return cylinder.radius * across + cylinder.half_length * along;
+}
+double reach(const Cone& cone, const Vec3& d) noexcept {
+  const double along = d[static_cast<int>(cone.axis)];
+  const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
+  return std::max(cone.half_length * along, cone.radius * across - cone.half_length * along) +
+         cone.rounding;
 }
 double reach(const ConvexHull& hull, const Vec3& d) noexcept {
   double farthest = -std::numeric_limits<double>::infinity();
@@ -73,6 +82,12 @@ void check(const Capsule& capsule) {
 void check(const Cylinder& cylinder) {
   checkPositive("cylinder radius", cylinder.radius);
   checkPositive("cylinder half_length", cylinder.half_length);
+}
+
+void check(const Cone& cone) {
+  checkPositive("cone radius", cone.radius);
+  checkPositive("cone half_length", cone.half_length);
+  checkNotNegative("cone rounding", cone.rounding);
 }
 
 void check(const ConvexHull& hull) {

@@ -21,7 +21,8 @@ namespace tandem {
 /// Coplanar faces thus push once, and both sides of a groove push. At a blunt concave edge (less
 /// than 60 degrees off flat) each face pushes on its side of the plane between them. A bowl thus
 /// pushes once. An inside centre leaves through the nearest face, and through all walls of a sharp
-/// concave edge. A surface with open edges pushes only down to kDeepest behind it.
+/// concave edge. A surface with open edges pushes only down to kDeepest behind it, unless the
+/// sphere has touched it (held_face.h).
 class TriangleMesh {
  public:
   /// How faces meet at an edge of a triangle.

@@ -39,6 +39,15 @@ struct Cylinder {
   Axis axis = Axis::kY;
 };
 
+/// Cone with its base half a length down the axis from the body's origin and its tip half a length
+/// up. It is thickened all round by a rounding (Bullet's collision margin).
+struct Cone {
+  double radius = 0.0;       ///< of the base [m], > 0
+  double half_length = 0.0;  ///< half of the height [m], > 0
+  Axis axis = Axis::kY;
+  double rounding = 0.0;  ///< [m], >= 0
+};
+
 /// A convex solid, thickened all round by a rounding (Bullet's collision margin). Copies share the
 /// immutable solid, so copying allocates nothing. Destroying the last copy frees it: keep one copy
 /// outside the tick.
@@ -60,7 +69,7 @@ struct Mesh {
   double skin = 0.0;                            ///< [m], >= 0
 };
 
-using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Mesh>;
+using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Mesh, Cone>;
 
 /// Radius of the sphere around the body's origin that holds the shape [m]; infinite for a plane.
 [[nodiscard]] double computeBoundingRadius(const Shape& shape) noexcept;
