@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
+
 #include "bridge/obstacle_scene.h"
 
 namespace tandem {
@@ -225,9 +227,7 @@ TEST(NearSpheres, LooksAsFarAsTheMarginAndSkipsShapesTheIslandDoesNotKnow) {
   BulletRig rig;
   rig.addBody(rig.makeShape<btSphereShape>(btScalar(0.25)), 0,
               Vec3(0, 0.31, 0));  // 5 cm from the ball
-  rig.addBody(rig.makeShape<btConeShape>(btScalar(1), btScalar(1)), 0);
-  // An elliptic cylinder.
-  rig.addBody(rig.makeShape<btCylinderShape>(btVector3(1, 1, 2)), 0);
+  rig.addBody(rig.makeShape<btEmptyShape>(), 0);
   EXPECT_TRUE(findNearBall(rig, 0.04).empty());
   EXPECT_EQ(findNearBall(rig, 0.06).size(), 1u);
 }

@@ -1,8 +1,12 @@
 #include "tandem/bullet_bridge/shapes.h"
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <BulletCollision/CollisionShapes/btMinkowskiSumShape.h>
 #include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
 
 #include "bridge/obstacle_scene.h"
@@ -50,12 +54,26 @@ TEST(ConvertShape, RoundsAHullByItsMargin) {
   EXPECT_NEAR(gapAt(*shape, {0.0, 0.0, 0.0}), -0.125 - 0.0625, rounding);
 }
 
-TEST(ConvertShape, KnowsNoFlatHull) {
+TEST(ConvertShape, GivesAFlatHullSomeThickness) {
   BulletRig rig;
   auto& hull = rig.makeShape<btConvexHullShape>();
   fill(hull, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}});
-  EXPECT_FALSE(convertShape(hull));
+  const double rounding = byWidth(1e-12, 1e-7);
+  for (const double margin : {0.04, 0.0}) {
+    hull.setMargin(static_cast<btScalar>(margin));
+    const auto shape = convertShape(hull);
+    ASSERT_TRUE(shape);
+    for (const double side : {1.0, -1.0})
+      EXPECT_NEAR(gapAt(*shape, {0.5, 0.5 * side, 0.5}), 0.5 - margin,
+                  rounding + (margin > 0.0 ? 0.0 : 1.5e-4));
+  }
   EXPECT_FALSE(convertShape(rig.makeShape<btConvexHullShape>()));
+}
+
+TEST(SampleShape, IsNotForWhatIsNotConvex) {
+  BulletRig rig;
+  EXPECT_FALSE(sampleShape(rig.makeShape<btCompoundShape>()));
+  EXPECT_FALSE(sampleShape(rig.makeShape<btEmptyShape>()));
 }
 
 TEST(ConvertMesh, TakesMeshesAsTheyAreScaled) {
@@ -138,6 +156,67 @@ TEST(NearSpheres, KeepsAMeshWhileItsObjectIsInTheWorld) {
   EXPECT_TRUE(find(0.03).empty());
   rig.world.addRigidBody(&floor);
   EXPECT_NE(std::get<Mesh>(find(0.03)[0].shape).surface.get(), surface);
+}
+
+/// The form of the only fixed shape near a ball of 1 cm in the origin.
+Shape findOnlyNear(Obstacles& obstacles) {
+  obstacles.update({RigidState{}}, 0.04);
+  EXPECT_EQ(obstacles.nearSpheres().size(), 1u);
+  return obstacles.nearSpheres().at(0).shape;
+}
+
+btMultiSphereShape makePair(double radius) {
+  const btVector3 places[] = {btVector3(btScalar(-0.01), 0, 0), btVector3(btScalar(0.01), 0, 0)};
+  const btScalar radii[] = {btScalar(0.01), static_cast<btScalar>(radius)};
+  return {places, radii, 2};
+}
+
+TEST(NearSpheres, KeepsASampledShapeUntilItIsScaled) {
+  BulletRig rig;
+  auto& pair = rig.makeShape<btMultiSphereShape>(makePair(0.02));
+  rig.addBody(pair, 0);
+  Obstacles obstacles(rig.world);
+  obstacles.addSphere(0, 0.01);
+  const Shape first = findOnlyNear(obstacles);
+  EXPECT_EQ(std::get<ConvexHull>(findOnlyNear(obstacles)).solid, std::get<ConvexHull>(first).solid);
+  pair.setLocalScaling(btVector3(2, 2, 2));
+  const Shape scaled = findOnlyNear(obstacles);
+  EXPECT_NEAR(gapAt(first, {0.1, 0, 0}), 0.1 - 0.03, 1e-5);
+  EXPECT_NEAR(gapAt(scaled, {0.1, 0, 0}), 0.1 - 0.06, 1e-5);
+}
+
+// A Minkowski sum does not tell that its parts have moved; its bounds do.
+TEST(NearSpheres, NoticesThatPartsOfASampledShapeMove) {
+  BulletRig rig;
+  auto& ball = rig.makeShape<btSphereShape>(btScalar(0.01));
+  auto& cone = rig.makeShape<btConeShape>(btScalar(0.01), btScalar(0.02));
+  cone.setMargin(btScalar(0.001));
+  auto& sum = rig.makeShape<btMinkowskiSumShape>(&cone, &ball);
+  rig.addBody(sum, 0);
+  Obstacles obstacles(rig.world);
+  obstacles.addSphere(0, 0.01);
+  EXPECT_NEAR(gapAt(findOnlyNear(obstacles), {0, 0.1, 0}), 0.1 - 0.021, 1e-5);
+  sum.setTransformA(toBullet(Vec3(0, 0.005, 0), Quat::Identity()));
+  EXPECT_NEAR(gapAt(findOnlyNear(obstacles), {0, 0.1, 0}), 0.1 - 0.026, 1e-5);
+}
+
+// A new shape may come where a deleted one was.
+TEST(NearSpheres, ForgetsADeletedSampledShape) {
+  BulletRig rig;
+  std::optional<btMultiSphereShape> place(makePair(0.02));
+  btRigidBody body(0, nullptr, &*place);
+  rig.world.addRigidBody(&body);
+  Obstacles obstacles(rig.world);
+  obstacles.addSphere(0, 0.01);
+  EXPECT_NEAR(gapAt(findOnlyNear(obstacles), {0.1, 0, 0}), 0.1 - 0.03, 1e-5);
+  rig.world.removeRigidBody(&body);
+  place.emplace(makePair(0.03));
+  rig.world.addRigidBody(&body);
+  EXPECT_NEAR(gapAt(findOnlyNear(obstacles), {0.1, 0, 0}), 0.1 - 0.04, 1e-5);
+  rig.world.removeRigidBody(&body);
+  place.reset();
+  obstacles.update({RigidState{}}, 0.04);
+  EXPECT_TRUE(obstacles.nearSpheres().empty());
 }
 
 TEST(NearSpheres, TakesMeshesAndHullsOutOfCompounds) {

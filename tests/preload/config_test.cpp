@@ -176,6 +176,7 @@ TEST(ShapeWords, AreThoseOfAShape) {
   EXPECT_EQ(toText(preload::describeShape(Sphere{0.05})), "sphere 0.05");
   EXPECT_EQ(toText(preload::describeShape(Capsule{0.05, 0.1, Axis::kX})), "capsule 0.05 0.2");
   EXPECT_EQ(toText(preload::describeShape(Cylinder{0.05, 0.1, Axis::kX})), "cylinder 0.05 0.2");
+  EXPECT_EQ(toText(preload::describeShape(Cone{0.05, 0.1, Axis::kX, 0.01})), "cone 0.05 0.2");
   EXPECT_EQ(toText(preload::describeShape(Plane{})), "");
 }
 

@@ -108,7 +108,9 @@ TEST(SharedObject, GivesBackWhatTheBodyHad) {
 
 TEST(SharedObject, GivesUpOnABodyThatCannotBeShared) {
   BulletRig rig;
-  rig.addBody(rig.makeShape<btConeShape>(btScalar(0.1), btScalar(0.1)), 0.2);
+  const btVector3 places[] = {btVector3(0, 0, 0), btVector3(1, 0, 0)};
+  const btScalar sizes[] = {btScalar(0.1), btScalar(0.2)};
+  rig.addBody(rig.makeShape<btMultiSphereShape>(places, sizes, 2), 0.2);
   SharedObject shared(makeConfig());
   shared.setWorld(rig.world);
   for (int i = 0; i < 3; ++i) step(shared, rig);

@@ -4,6 +4,7 @@
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -39,6 +40,14 @@ struct Maker {
     if (cylinder.axis == Axis::kX) return std::make_unique<btCylinderShapeX>(toBullet(half));
     if (cylinder.axis == Axis::kZ) return std::make_unique<btCylinderShapeZ>(toBullet(half));
     return std::make_unique<btCylinderShape>(toBullet(half));
+  }
+  BulletShape operator()(const Cone& cone) const {
+    const auto radius = static_cast<btScalar>(cone.radius);
+    const auto height = static_cast<btScalar>(2.0 * cone.half_length);
+    auto shape = std::make_unique<btConeShape>(radius, height);
+    shape->setConeUpIndex(static_cast<int>(cone.axis));
+    shape->setMargin(static_cast<btScalar>(cone.rounding));
+    return shape;
   }
   BulletShape operator()(const ConvexHull& hull) const {
     auto shape = std::make_unique<btConvexHullShape>();

@@ -1,51 +1,71 @@
 #include "tandem/bullet_bridge/shapes.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include <BulletCollision/CollisionShapes/btBox2dShape.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
-#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btConvex2dShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
+#include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/CollisionShapes/btUniformScalingShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
-#include "coordination/src/geometry/convex_polyhedron.h"
 #include "coordination/src/geometry/triangle_mesh.h"
+#include "shapes/convex_shapes.h"
 #include "shapes/only_shape.h"
+#include "shapes/thick_hull.h"
 
 namespace tandem {
 namespace {
 
-/// Half extents across a cylinder may differ by this share; more makes it oval.
-constexpr double kRound = 1e-6;
-
 Axis toAxis(int axis) { return axis == 0 ? Axis::kX : axis == 1 ? Axis::kY : Axis::kZ; }
 
-std::optional<Shape> convertCylinder(const btCylinderShape& cylinder) {
+/// Bullet's cylinders are round: of an oval one it takes the first radius.
+Cylinder convertCylinder(const btCylinderShape& cylinder) {
   const Vec3 half = fromBullet(cylinder.getHalfExtentsWithMargin());
   const int axis = cylinder.getUpAxis();
-  const double radius = half[(axis + 1) % 3];
-  if (std::abs(half[(axis + 2) % 3] - radius) > kRound * radius) return std::nullopt;
-  return Cylinder{radius, half[axis], toAxis(axis)};
+  return {half[axis == 0 ? 1 : 0], half[axis], toAxis(axis)};
 }
 
-std::optional<Shape> convertHull(const btConvexHullShape& hull) {
-  std::vector<Vec3> points;
-  for (int i = 0; i < hull.getNumPoints(); ++i)
-    points.push_back(fromBullet(hull.getScaledPoint(i)));
-  try {
-    return ConvexHull{std::make_shared<const ConvexPolyhedron>(ConvexPolyhedron::makeHull(points)),
-                      static_cast<double>(hull.getMargin())};
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;  // a point, a line or a plate
+/// A flat box gets some thickness.
+Box convertBox2d(const btBox2dShape& box) {
+  const Vec3 half = fromBullet(box.getHalfExtentsWithMargin());
+  return {half.cwiseMax(kThin * half.maxCoeff())};
+}
+
+/// A shape that others may enclose, which only scale it.
+struct Bare {
+  const btCollisionShape* shape;
+  double factor = 1.0;
+};
+
+Bare unwrap(const btCollisionShape& whole) {
+  Bare bare{&onlyShapeOf(whole)};
+  for (;;) {
+    if (bare.shape->getShapeType() == UNIFORM_SCALING_SHAPE_PROXYTYPE) {
+      const auto& scaling = static_cast<const btUniformScalingShape&>(*bare.shape);
+      bare.factor *= static_cast<double>(scaling.getUniformScalingFactor());
+      bare.shape = scaling.getChildShape();
+    } else if (bare.shape->getShapeType() == CONVEX_2D_SHAPE_PROXYTYPE) {
+      bare.shape = static_cast<const btConvex2dShape&>(*bare.shape).getChildShape();
+    } else {
+      return bare;
+    }
   }
+}
+
+std::optional<Shape> scaleAs(const Bare& bare, std::optional<Shape> shape) {
+  return shape && bare.factor != 1.0 ? scaleShape(*shape, bare.factor) : shape;
 }
 
 class TriangleReader final : public btTriangleCallback {
@@ -72,30 +92,48 @@ class TriangleReader final : public btTriangleCallback {
   std::vector<Vec3> corners_;
 };
 
-}  // namespace
-
-std::optional<Shape> convertShape(const btCollisionShape& whole) {
-  const btCollisionShape& shape = onlyShapeOf(whole);
+std::optional<Shape> convertBare(const btCollisionShape& shape) {
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:
       return Sphere{static_cast<const btSphereShape&>(shape).getRadius()};
     case BOX_SHAPE_PROXYTYPE:
       return Box{fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin())};
+    case BOX_2D_SHAPE_PROXYTYPE:
+      return convertBox2d(static_cast<const btBox2dShape&>(shape));
     case CAPSULE_SHAPE_PROXYTYPE: {
       const auto& capsule = static_cast<const btCapsuleShape&>(shape);
       return Capsule{capsule.getRadius(), capsule.getHalfHeight(), toAxis(capsule.getUpAxis())};
     }
     case CYLINDER_SHAPE_PROXYTYPE:
       return convertCylinder(static_cast<const btCylinderShape&>(shape));
-    case CONVEX_HULL_SHAPE_PROXYTYPE:
-      return convertHull(static_cast<const btConvexHullShape&>(shape));
+    case CONE_SHAPE_PROXYTYPE: {
+      const auto& cone = static_cast<const btConeShape&>(shape);
+      return Cone{cone.getRadius(), 0.5 * cone.getHeight(), toAxis(cone.getConeUpIndex()),
+                  cone.getMargin()};
+    }
+    case MULTI_SPHERE_SHAPE_PROXYTYPE:
+      return convertEqualSpheres(static_cast<const btMultiSphereShape&>(shape));
     case STATIC_PLANE_PROXYTYPE: {
       const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
       return Plane{fromBullet(plane.getPlaneNormal()).normalized(), plane.getPlaneConstant()};
     }
     default:
-      return std::nullopt;
+      if (!shape.isPolyhedral()) return std::nullopt;
+      return convertCorners(static_cast<const btPolyhedralConvexShape&>(shape));
   }
+}
+
+}  // namespace
+
+std::optional<Shape> convertShape(const btCollisionShape& shape) {
+  const Bare bare = unwrap(shape);
+  return scaleAs(bare, convertBare(*bare.shape));
+}
+
+std::optional<Shape> sampleShape(const btCollisionShape& shape) {
+  const Bare bare = unwrap(shape);
+  if (!bare.shape->isConvex()) return std::nullopt;
+  return scaleAs(bare, sampleConvex(static_cast<const btConvexShape&>(*bare.shape)));
 }
 
 std::optional<Shape> convertMesh(const btCollisionShape& shape) {
@@ -115,12 +153,19 @@ std::optional<Shape> convertMesh(const btCollisionShape& shape) {
   }
 }
 
+std::optional<Shape> findShareableShape(const btRigidBody& body) {
+  std::optional<Shape> shape = convertShape(*body.getCollisionShape());
+  if (shape && std::holds_alternative<Plane>(*shape)) shape.reset();
+  return shape;
+}
+
 Shape getShareableShape(const btRigidBody& body) {
-  const std::optional<Shape> shape = convertShape(*body.getCollisionShape());
-  if (!shape || std::holds_alternative<Plane>(*shape))
+  const std::optional<Shape> shape = findShareableShape(body);
+  if (!shape)
     throw Error(
         std::string(
-            "a shared object must be a box, sphere, capsule, cylinder or convex hull, not a ") +
+            "a shared object must be a box, sphere, capsule, cylinder, cone or convex hull, not "
+            "a ") +
         body.getCollisionShape()->getName() +
         "; give the body one of these shapes, or a compound of just one at its origin");
   return *shape;

@@ -9,25 +9,44 @@
 #include "world/world_lookup.h"
 
 namespace tandem {
+namespace {
+
+/// Shapes whose form takes a copy of some numbers.
+bool isCheap(const btCollisionShape& shape) {
+  switch (shape.getShapeType()) {
+    case BOX_SHAPE_PROXYTYPE:
+    case BOX_2D_SHAPE_PROXYTYPE:
+    case SPHERE_SHAPE_PROXYTYPE:
+    case CAPSULE_SHAPE_PROXYTYPE:
+    case CONE_SHAPE_PROXYTYPE:
+    case CYLINDER_SHAPE_PROXYTYPE:
+    case STATIC_PLANE_PROXYTYPE:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
 
 std::optional<Shape> KnownShapes::find(const btCollisionObject& object,
                                        const btCollisionShape& shape) {
-  const int type = shape.getShapeType();
-  const bool is_costly =
-      type == CONVEX_HULL_SHAPE_PROXYTYPE || (shape.isConcave() && type != STATIC_PLANE_PROXYTYPE);
-  if (!is_costly) return convertShape(shape);
+  if (isCheap(shape)) return convertShape(shape);
+  const Region bounds = computeRegion(shape, btTransform::getIdentity());
   const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.shape == &shape && entry.object == &object;
   });
   if (known != entries_.end()) {
-    if (known->scaling == shape.getLocalScaling() && known->margin == shape.getMargin())
+    if (known->scaling == shape.getLocalScaling() && known->margin == shape.getMargin() &&
+        known->bounds.low == bounds.low && known->bounds.high == bounds.high)
       return known->own;
     entries_.erase(known);
   }
   std::optional<Shape> own = convertShape(shape);
+  if (!own) own = sampleShape(shape);
   if (!own) own = convertMesh(shape);
   entries_.push_back({&object, object.getCollisionShape(), &shape, shape.getLocalScaling(),
-                      shape.getMargin(), own, object.getWorldArrayIndex()});
+                      shape.getMargin(), bounds, own, object.getWorldArrayIndex()});
   return own;
 }
 

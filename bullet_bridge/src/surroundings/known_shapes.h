@@ -7,10 +7,13 @@
 
 #include "tandem/coordination/shape.h"
 
+#include "surroundings/regions.h"
+
 namespace tandem {
 
-/// Cache of the island's forms of a world's shapes. A hull or mesh, which takes time, is converted
-/// at first use and kept while its object is in the world.
+/// Cache of the island's forms of a world's shapes. A form that takes time (a hull, a mesh) is made
+/// at first use. It is kept while its object is in the world and the shape keeps its scaling,
+/// margin and bounds.
 class KnownShapes {
  public:
   /// The island's form of `shape`, which is the object's shape or a child of it. Nothing for a
@@ -28,6 +31,7 @@ class KnownShapes {
     const btCollisionShape* shape;
     btVector3 scaling;
     btScalar margin;
+    Region bounds;  ///< in the shape's frame
     std::optional<Shape> own;
     int place;  ///< index of the object in the world
   };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/Gimpact/btGImpactShape.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
@@ -62,17 +63,38 @@ void sortAsAdded(std::vector<btCollisionObject*>& objects) {
             });
 }
 
+namespace {
+
+/// Calls `visit(child, pose)` for each child of a compound, of either kind that Bullet has. False
+/// if the shape is no compound.
+template <typename Visit>
+bool forEachChild(const btCollisionShape& shape, Visit visit) {
+  if (shape.isCompound()) {
+    const auto& compound = static_cast<const btCompoundShape&>(shape);
+    for (int i = 0; i < compound.getNumChildShapes(); ++i)
+      visit(*compound.getChildShape(i), compound.getChildTransform(i));
+    return true;
+  }
+  if (shape.getShapeType() != GIMPACT_SHAPE_PROXYTYPE) return false;
+  const auto& gimpact = static_cast<const btGImpactShapeInterface&>(shape);
+  if (gimpact.getGImpactShapeType() != CONST_GIMPACT_COMPOUND_SHAPE) return false;
+  const bool has_poses = gimpact.childrenHasTransform();
+  for (int i = 0; i < gimpact.getNumChildShapes(); ++i)
+    visit(*gimpact.getChildShape(i),
+          has_poses ? gimpact.getChildTransform(i) : btTransform::getIdentity());
+  return true;
+}
+
+}  // namespace
+
 void appendObstacles(const btCollisionObject& object, const btCollisionShape& shape,
                      const btTransform& pose, const std::vector<Region>& regions,
                      KnownShapes& known, int& part, std::vector<Obstacle>& obstacles) {
-  if (shape.isCompound()) {
-    const auto& compound = static_cast<const btCompoundShape&>(shape);
-    for (int i = 0; i < compound.getNumChildShapes(); ++i) {
-      appendObstacles(object, *compound.getChildShape(i), pose * compound.getChildTransform(i),
-                      regions, known, part, obstacles);
-    }
-    return;
-  }
+  const bool is_compound =
+      forEachChild(shape, [&](const btCollisionShape& child, const btTransform& child_pose) {
+        appendObstacles(object, child, pose * child_pose, regions, known, part, obstacles);
+      });
+  if (is_compound) return;
   ++part;
   const Region bounds = computeRegion(shape, pose);
   const bool is_near = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {

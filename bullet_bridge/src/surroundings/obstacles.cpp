@@ -103,10 +103,10 @@ Obstacles::~Obstacles() {
 void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
   if (impl_->findBody(index) != nullptr)
     throw Error("island body " + std::to_string(index) + " has a rigid body already; add it once");
-  if (index < 0 || body.isStaticObject())
+  const bool is_driven = body.isKinematicObject();
+  if (index < 0 || (body.isStaticObject() && !is_driven))
     throw Error("only a moving body with an index of its island can be held by obstacles");
   const btCollisionShape& shape = *body.getCollisionShape();
-  const bool is_driven = body.isKinematicObject();
   if (!shape.isConvex() && !shape.isCompound() &&
       !(is_driven && shape.getShapeType() != STATIC_PLANE_PROXYTYPE))
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +

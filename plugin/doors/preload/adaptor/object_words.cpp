@@ -10,7 +10,7 @@ namespace {
 
 const std::map<std::string, std::size_t>& sizesOfKinds() {
   static const std::map<std::string, std::size_t> sizes{
-      {"box", 3}, {"sphere", 1}, {"capsule", 2}, {"cylinder", 2}, {"hull", 0}};
+      {"box", 3}, {"sphere", 1}, {"capsule", 2}, {"cylinder", 2}, {"cone", 2}, {"hull", 0}};
   return sizes;
 }
 
@@ -41,6 +41,8 @@ ShapeWords describeShape(const Shape& shape) {
     return {"capsule", {capsule->radius, 2.0 * capsule->half_length}};
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
     return {"cylinder", {cylinder->radius, 2.0 * cylinder->half_length}};
+  if (const auto* cone = std::get_if<Cone>(&shape))
+    return {"cone", {cone->radius, 2.0 * cone->half_length}};
   if (std::holds_alternative<ConvexHull>(shape)) return {"hull", {}};
   return {};
 }

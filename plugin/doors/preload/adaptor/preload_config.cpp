@@ -154,7 +154,8 @@ std::vector<Key> makeKeys(PreloadConfig& config, double& mass, LinkWords& words)
       {"world", "a whole number from 1", toInteger(config.world, 1, 1000000)},
       {"object",
        "a whole number from 1, or a shape with or without its sizes [m]: \"box 0.1 0.1 0.2\", "
-       "\"sphere 0.05\", \"capsule 0.05 0.1\", \"cylinder 0.05 0.1\", \"hull\"",
+       "\"sphere 0.05\", \"capsule 0.05 0.1\", \"cylinder 0.05 0.1\", "
+       "\"cone 0.05 0.1\", \"hull\"",
        toObject(config)},
       {"mass", "above 0 [kg]", toNumber(mass, tiny, kMost)},
       {"damping", "0 or more [N s/m]", toNumber(config.damping, 0.0, kMost)},
