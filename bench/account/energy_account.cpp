@@ -174,7 +174,7 @@ void EnergyAccount::measureStock() {
     if (!island_.isDynamic(b)) continue;
     const RigidState& state = now_.states[static_cast<std::size_t>(b)];
     const RigidState& target = island_.target(c);
-    const CouplerSettings& gains = island_.couplerSettings(c);
+    const CouplerSettings& gains = island_.presentGains(c);
     const double way =
         scene_.guide ? scene_.guide->dot(target.p_W - state.p_W) : (target.p_W - state.p_W).norm();
     stock_.couplers += 0.5 * gains.linear.stiffness * way * way;
@@ -262,7 +262,7 @@ double EnergyAccount::workOfTargets(double dt) const {
     if (!island_.isDynamic(b)) continue;
     const auto i = static_cast<std::size_t>(b);
     const RigidState& target = island_.target(c);
-    const CouplerSettings& gains = island_.couplerSettings(c);
+    const CouplerSettings& gains = island_.presentGains(c);
     const Vec3 v_W =
         scene_.guide ? Vec3(*scene_.guide * scene_.guide->dot(target.v_W)) : target.v_W;
     const Vec3 way_W = now_.states[i].p_W - last_.states[i].p_W - shifts_[i].way_W;

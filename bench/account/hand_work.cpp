@@ -59,7 +59,7 @@ double EnergyAccount::innerRate() const {
     if (!island_.isDynamic(b) || !island_.body(b).is_rigid) continue;
     double stiffness = 2.0 * scene_.contact.stiffness;
     for (CouplerIndex c = 0; c < island_.couplerCount(); ++c)
-      if (island_.follower(c) == b) stiffness += island_.couplerSettings(c).linear.stiffness;
+      if (island_.follower(c) == b) stiffness += island_.presentGains(c).linear.stiffness;
     fastest = std::max(fastest, std::sqrt(stiffness * computeMobility(island_.body(b), true)));
   }
   const double longest = 1.0 / IslandSettings{}.inner_step;
@@ -72,8 +72,8 @@ double EnergyAccount::neededRate(BodyIndex driver, BodyIndex touched) const {
   double stiffness = 2.0 * scene_.contact.stiffness, damping = 2.0 * scene_.contact.damping;
   for (CouplerIndex c = 0; c < island_.couplerCount(); ++c) {
     if (island_.follower(c) != touched) continue;
-    stiffness += island_.couplerSettings(c).linear.stiffness;
-    damping += island_.couplerSettings(c).linear.damping;
+    stiffness += island_.presentGains(c).linear.stiffness;
+    damping += island_.presentGains(c).linear.damping;
   }
   const double mobility = computeMobility(body, !scene_.guide);
   const double size = std::min(computeBoundingRadius(island_.body(driver).shape),
@@ -158,7 +158,7 @@ Vec3 EnergyAccount::impulseOfHand(double dt) const {
     if (!island_.isDynamic(b)) continue;
     const RigidState &from = last_.states[static_cast<std::size_t>(b)],
                      &to = now_.states[static_cast<std::size_t>(b)];
-    const CouplerGains& gains = island_.couplerSettings(c).linear;
+    const CouplerGains& gains = island_.presentGains(c).linear;
     const RigidState& target = island_.target(c);
     const Vec3 bend_W = dt * dt / 12.0 * (from.v_W - to.v_W);
     const Vec3 stretch_W = 0.5 * dt * ((target.p_W - from.p_W) + (target.p_W - to.p_W)) - bend_W;

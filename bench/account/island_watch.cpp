@@ -20,7 +20,7 @@ RemoteUser IslandWatch::makeRemoteUser(Island& island, const ProxySettings& prox
                                        const PointState& start) const {
   island_ = &island;
   // The account knows springs only.
-  island.setGentleStarts(false);
+  island.setTouchMemory(false);
   const RemoteUser user = scheme_.makeRemoteUser(island, proxy, coordination, start);
   bodies_.push_back(user.body.value_or(-1));
   times_.push_back(0.0);

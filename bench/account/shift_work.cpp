@@ -55,7 +55,7 @@ double EnergyAccount::computePotential(const std::vector<RigidState>& states) co
     const BodyIndex b = island_.follower(c);
     if (!island_.isDynamic(b)) continue;
     const RigidState &state = states[static_cast<std::size_t>(b)], &target = island_.target(c);
-    const CouplerSettings& gains = island_.couplerSettings(c);
+    const CouplerSettings& gains = island_.presentGains(c);
     potential += 0.5 * gains.linear.stiffness * (target.p_W - state.p_W).squaredNorm() +
                  0.5 * gains.angular.stiffness * computeTurn(state.q_WB, target.q_WB).squaredNorm();
   }

@@ -36,12 +36,11 @@ class ScriptedDevice final : public HapticDevice {
   DeviceCapabilities capabilities_;
 };
 
-/// Packets of a scripted user, without delay.
+/// Packets of a scripted user, without delay; its objects stand as in `start`.
 class ScriptedLink final : public Link {
  public:
-  ScriptedLink(const StressPath& path, PeerId user, double rate) : path_(path), rate_(rate) {
-    packet_.sender = user;
-  }
+  ScriptedLink(const StressPath& path, const StatePacket& start, double rate)
+      : path_(path), rate_(rate), packet_(start) {}
   void send(const StatePacket&, double) noexcept override {}
   std::optional<Arrival> receive(double, double until) noexcept override {
     const double time = next_ / rate_;
@@ -183,7 +182,7 @@ void StressSite::connect(const std::vector<Link*>& links) {
     start.user = {path.start_W, Vec3::Zero()};
     Link* link = remote < links.size() ? links[remote] : nullptr;
     if (!link) {
-      links_.push_back(std::make_unique<ScriptedLink>(path, peerOf(user), case_.packet_rate));
+      links_.push_back(std::make_unique<ScriptedLink>(path, start, case_.packet_rate));
       link = links_.back().get();
     }
     links_.push_back(std::make_unique<WatchedLink>(

@@ -33,7 +33,7 @@ struct PulledBall {
     settings.obstacle_contact = kContact;
     settings.tolerance = tolerance;
     island.emplace(settings);
-    island->setGentleStarts(false);  // the ball is put into shapes
+    island->setTouchMemory(false);  // the ball is put into shapes
     IslandBody body;
     body.shape = Sphere{kRadius};
     body.mass = kMass;
@@ -161,6 +161,25 @@ TEST(CylinderObstacle, IsNearlyAFinePrism) {
   const Obstacle prism{test::makeHull(test::makePrism(0.03, 0.04, 400)), Vec3::Zero(),
                        Quat::Identity()};
   EXPECT_LT(compare(bar, prism, 1.5,
+                    [](double t) {
+                      return Vec3(0.034 * std::cos(5.0 * t), 0.045 * std::sin(3.0 * t),
+                                  0.034 * std::sin(5.0 * t));
+                    }),
+            5e-5);
+}
+
+// The section of a pyramid of 400 sides is within 1 um of the cone's, as of the round bar's.
+TEST(ConeObstacle, IsNearlyAFinePyramid) {
+  const Obstacle cone{Cone{0.03, 0.04, Axis::kY, 0.002}, Vec3::Zero(), Quat::Identity()};
+  test::Solid solid = test::makePrism(0.03, 0.04, 400);
+  std::vector<Vec3> corners{Vec3(0.0, 0.04, 0.0)};
+  for (const Vec3& p : solid.corners)
+    if (p.y() < 0.0) corners.push_back(p);
+  const Obstacle pyramid{
+      ConvexHull{std::make_shared<const ConvexPolyhedron>(ConvexPolyhedron::makeHull(corners)),
+                 0.002},
+      Vec3::Zero(), Quat::Identity()};
+  EXPECT_LT(compare(cone, pyramid, 1.5,
                     [](double t) {
                       return Vec3(0.034 * std::cos(5.0 * t), 0.045 * std::sin(3.0 * t),
                                   0.034 * std::sin(5.0 * t));
@@ -306,8 +325,12 @@ class Bounce : public ::testing::TestWithParam<int> {
         return test::makeMesh(test::cutIntoTriangles(test::makeBoxSolid(half)));
       case 6:
         return test::makeMesh(test::cutIntoTriangles(test::makeOctahedron(half)), 0.001);
-      default:
+      case 7:
         return test::makeMesh(test::cutIntoTriangles(test::makePrism(0.03, 0.03, 24)));
+      case 8:
+        return Cone{0.03, 0.03, Axis::kX};
+      default:
+        return Cone{0.03, 0.03, Axis::kZ, 0.002};
     }
   }
 };
@@ -327,18 +350,18 @@ TEST_P(Bounce, KeepsTheEnergy) {
                   random.uniform(-0.015, 0.015));
     const double speed = i % 2 ? 2.0 : 0.4;  // [m/s]
     const double change = bounce(shape, at - 0.09 * towards, speed * towards);
-    EXPECT_LT(std::abs(change), GetParam() < 5 ? 3e-5 : 2e-6)
+    EXPECT_LT(std::abs(change), (GetParam() < 5 || GetParam() > 7 ? 3e-5 : 2e-6))
         << "flight " << i << ", " << towards.transpose();
   }
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, Bounce, ::testing::Range(0, 8), [](const auto& kind) {
+INSTANTIATE_TEST_SUITE_P(Shapes, Bounce, ::testing::Range(0, 10), [](const auto& kind) {
   return std::string(std::array{"Box", "Capsule", "Cylinder", "Hull", "RoundedHull", "MeshBox",
-                                "MeshOctahedron", "MeshPrism"}
+                                "MeshOctahedron", "MeshPrism", "Cone", "RoundedCone"}
                          .at(static_cast<std::size_t>(kind.param)));
 });
 
-TEST(IslandShapes, HullAndCylinderTakeThePush) {
-  for (const Shape& shape : {Shape(Cylinder{0.02, 0.03, Axis::kX}),
+TEST(IslandShapes, HullCylinderAndConeTakeThePush) {
+  for (const Shape& shape : {Shape(Cylinder{0.02, 0.03, Axis::kX}), Shape(Cone{0.03, 0.03}),
                              Shape(test::makeHull(test::makeOctahedron({0.02, 0.03, 0.025})))}) {
     IslandSettings settings;
     Island island(settings);

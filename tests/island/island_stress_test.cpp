@@ -137,7 +137,7 @@ TEST(IslandStress, WhoIsShotOutOfOneTouchMeetsTheNext) {
   const double stiffness = 3e5, radius = 0.02, mass = 0.14;  // [N/m], [m], [kg]
   const CouplerGains gains{stiffness, 0.0};
   Island island({});
-  island.setGentleStarts(false);
+  island.setTouchMemory(false);
   IslandBody held = makeBall(radius, 0.0, Vec3::Zero(), Vec3::Zero());
   held.motion = Motion::kHeld;
   const double shot_overlap = 0.03, hit_overlap = 0.001, gap = 0.004;

@@ -122,8 +122,9 @@ class Island {
   /// an obstacle (IslandSettings::obstacle_contact), and it receives the reaction force and torque.
   /// Not in a guided island.
   BodyIndex addSlot();
-  /// False: contacts that begin deep push at once, as their springs say. Default true.
-  void setGentleStarts(bool are_gentle) noexcept;
+  /// False: contacts have no past. Those that begin deep push at once, and the nearest face pushes
+  /// whatever was touched: a function of the state alone. Default true.
+  void setTouchMemory(bool remembers) noexcept;
   /// Sets the finder of rigid contacts; null: there are none. It must outlive the island.
   void setContactFinder(ContactFinder* finder);
   /// Builds the exact maps of everything added.
@@ -157,12 +158,14 @@ class Island {
   void setGhost(BodyIndex body, bool is_ghost) noexcept;
   /// Replaces the obstacles that spheres touch; the vector must live until the next call.
   void setObstacles(const std::vector<Obstacle>& obstacles) noexcept;
-  /// Fills the slot with a body at its start state, without external forces. From the next advance
-  /// it moves like any body without couplers. The body must satisfy addBody's checks (asserted, not
-  /// thrown); `feels_obstacles` is ignored. Filling a filled slot replaces its body.
+  /// Fills the slot with a body at its start state, without external forces, or replaces another
+  /// body, which keeps its couplers and contacts. From the next advance it moves like any body. The
+  /// body must satisfy addBody's checks (asserted, not thrown); `feels_obstacles` is ignored. Not
+  /// in a guided island.
   void fill(BodyIndex slot, const IslandBody& body) noexcept;
-  /// Empties the slot: it moves nothing, touches nothing and costs nothing. Its state is
-  /// RigidState{} until it is filled again.
+  /// Empties the slot, or takes another body out until it is filled again: it moves nothing,
+  /// touches nothing and costs nothing. Its state is RigidState{} until setState(). Not in a guided
+  /// island.
   void clear(BodyIndex slot) noexcept;
   /// Ends sleep for a cause that the island cannot see: the ContactFinder's data changed.
   void wake() noexcept;
@@ -202,9 +205,9 @@ class Island {
   [[nodiscard]] const IslandBody& body(BodyIndex body) const noexcept;
   [[nodiscard]] int couplerCount() const noexcept;
   [[nodiscard]] BodyIndex follower(CouplerIndex coupler) const noexcept;
-  /// The settings as added, regardless of the share.
-  [[nodiscard]] const CouplerSettings& couplerSettings(CouplerIndex coupler) const noexcept;
   [[nodiscard]] double couplerShare(CouplerIndex coupler) const noexcept;
+  /// The settings as added, times the share.
+  [[nodiscard]] const CouplerSettings& presentGains(CouplerIndex coupler) const noexcept;
   [[nodiscard]] double contactShare(BodyIndex body) const noexcept;
   /// The last external force set; the torque is zero for a body that does not rotate.
   [[nodiscard]] const Vec3& externalForce(BodyIndex body) const noexcept;
@@ -224,6 +227,9 @@ class Island {
   /// Deepest overlap of a body in its smooth contacts, as if it were no ghost [m]; 0 if none. Other
   /// ghosts do not count. Real-time safe.
   [[nodiscard]] double computeOverlap(BodyIndex body) const noexcept;
+  /// Deepest overlap of all spheres with faces that they touched, at the start of the last advance
+  /// [m]; 0 if none. A sphere may have gone through a thin body: its face is that far away.
+  [[nodiscard]] double deepestTouch() const noexcept;
   /// Force of a coupler on its follower at this instant, in W [N].
   [[nodiscard]] Vec3 computeCouplerForce(CouplerIndex coupler) const noexcept;
   /// Sum of all forces and torques on a dynamic body at this instant, with external ones and

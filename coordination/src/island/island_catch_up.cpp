@@ -68,6 +68,7 @@ void IslandCatchUp::swapPast(IslandModel& model) noexcept {
   model.couplers.swap(couplers_);
   model.contacts.swap(contacts_);
   model.slots.swap(slots_);
+  std::swap(model.faces, faces_);
   model.is_listed = false;
 }
 

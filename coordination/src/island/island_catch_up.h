@@ -33,6 +33,7 @@ class IslandCatchUp {
   std::vector<ModelCoupler> couplers_;
   std::vector<IslandContact> contacts_;
   std::vector<BodyIndex> slots_;
+  TouchedFaces faces_;
   const std::vector<Obstacle>* obstacles_ = nullptr;
   States states_;
 };

@@ -23,6 +23,8 @@ Vec3 computeArms(const Shape& shape, double bounding_radius) noexcept {
     return around(capsule->radius, capsule->axis);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
     return around(cylinder->radius, cylinder->axis);
+  if (const auto* cone = std::get_if<Cone>(&shape))
+    return around(cone->radius + cone->rounding, cone->axis);
   return Vec3::Constant(square);
 }
 

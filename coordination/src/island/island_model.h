@@ -5,6 +5,7 @@
 
 #include "island/island.h"
 #include "island/touch_memory.h"
+#include "island/touched_faces.h"
 
 /// \file
 /// Data shared by the island's laws of motion. Private to coordination.
@@ -69,9 +70,10 @@ struct IslandModel {
   const std::vector<Obstacle>* obstacles = nullptr;
   ContactFinder* finder = nullptr;
   TouchMemory memory;
-  bool gentle_starts = true;  ///< contacts that begin deep are let in
-  bool has_jumps = false;     ///< since the last advance some body or obstacle came or jumped
-  bool has_arrivals = false;  ///< some obstacle came or moved, and no contact knows it yet
+  TouchedFaces faces;
+  bool remembers_touches = true;  ///< Island::setTouchMemory()
+  bool has_jumps = false;         ///< since the last advance some body or obstacle came or jumped
+  bool has_arrivals = false;      ///< some obstacle came or moved, and no contact knows it yet
 
   std::vector<BodyIndex> present;               ///< active and awake bodies, in order
   std::vector<IslandContact> present_contacts;  ///< contacts between two present bodies

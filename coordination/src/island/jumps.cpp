@@ -58,8 +58,9 @@ double measureDepthBefore(const IslandModel& model, const Touch& touch,
                           const States& states) noexcept {
   const Obstacle& obstacle = *touch.obstacle;
   const double radius = std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius;
-  const SphereContact before = findSphereContact(states[touch.sphere].p_W, radius, obstacle.shape,
-                                                 obstacle.p_before_WB, obstacle.q_before_WB);
+  const SphereContact before =
+      findSphereContact(states[touch.sphere].p_W, radius, obstacle.shape, obstacle.p_before_WB,
+                        obstacle.q_before_WB, isWholeMesh(touch) ? -1 : touch.touched);
   return std::max(0.0, -before.gap);
 }
 
@@ -82,18 +83,25 @@ void wakeTouched(IslandModel& model, States& states) noexcept {
   if (!model.is_listed) model.listPresent();
 }
 
-void letIn(IslandModel& model, const Touch& touch, const States& states) noexcept {
+void letIn(IslandModel& model, Touch touch, const States& states) noexcept {
   const bool has_moved =
       model.has_arrivals && touch.obstacle && touch.obstacle->change != ObstacleChange::kNone;
   const bool has_jumped =
       model.bodies[touch.sphere].has_jumped || model.bodies[touch.other].has_jumped;
   if (!has_moved && !has_jumped) return;
-  const double depth = measureDepth(model, touch, states);
-  if (depth == 0.0) return;
   const TouchKey key = keyOf(model, touch);
-  if (has_jumped || touch.obstacle->change == ObstacleChange::kNew)
-    return model.memory.letIn(key, depth);
-  model.memory.keepDepth(key, measureDepthBefore(model, touch, states));
+  const bool is_new = has_jumped || touch.obstacle->change == ObstacleChange::kNew;
+  const double before = is_new ? 0.0 : measureDepthBefore(model, touch, states);
+  double depth = measureDepth(model, touch, states);
+  if (touch.touched >= 0 && depth - before > kStepOfFixed) {
+    // It was put elsewhere: the side that the sphere touched means nothing now.
+    model.faces.forget(key);
+    touch.touched = -1;
+    depth = measureDepth(model, touch, states);
+  }
+  if (depth == 0.0) return;
+  if (is_new) return model.memory.letIn(key, depth);
+  model.memory.keepDepth(key, before);
   model.memory.letIn(key, depth, kStepOfFixed);
 }
 
@@ -106,8 +114,9 @@ void noteJump(IslandModel& model, BodyIndex b, States& states) noexcept {
     if (const double depth = measureDepth(model, touch, states); depth > 0.0)
       model.memory.keepDepth(keyOf(model, touch), depth);
   });
+  model.faces.forget(b);
   model.bodies[b].has_jumped = true;
-  model.has_jumps = model.gentle_starts;
+  model.has_jumps = model.remembers_touches;
 }
 
 void notePlacing(IslandModel& model, BodyIndex b, const RigidState& next, States& states) noexcept {

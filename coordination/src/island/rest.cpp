@@ -45,6 +45,9 @@ class Hash {
   void add(const Box& b) noexcept { add(b.half_extents); }
   void add(const Capsule& c) noexcept { add(c.radius), add(c.half_length), add(c.axis); }
   void add(const Cylinder& c) noexcept { add(c.radius), add(c.half_length), add(c.axis); }
+  void add(const Cone& c) noexcept {
+    add(c.radius), add(c.half_length), add(c.axis), add(c.rounding);
+  }
   void add(const ConvexHull& h) noexcept { add(h.solid.get()), add(h.rounding); }
   void add(const Mesh& m) noexcept { add(m.surface.get()), add(m.skin); }
   void add(const Plane& p) noexcept { add(p.normal_B), add(p.offset); }

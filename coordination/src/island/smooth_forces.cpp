@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/separation.h"
+#include "geometry/held_face.h"
 #include "geometry/turn.h"
 
 namespace tandem {
@@ -117,6 +117,7 @@ void SmoothForces::addContact(const IslandModel& model, const Touch& touch) noex
   contact.radius =
       std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius - touch.allowance;
   contact.gains = touch.gains;
+  contact.touched = touch.touched;
   double mobility = model.bodies[touch.sphere].mobility;
   if (!touch.obstacle) mobility += model.bodies[touch.other].mobility;
   contact.gains.damping = limitDamping(touch.gains.damping, mobility);
@@ -231,14 +232,23 @@ void SmoothForces::placeFrames(double t, const double* y) noexcept {
   }
 }
 
+/// Separation of a centre by the face that it has entered, else by the nearest that may push it.
+Separation SmoothForces::separate(const Contact& contact, const PlainVec& c_B, Look look) noexcept {
+  const Shape& shape = *contact.shape;
+  if (contact.face >= 0 && look != Look::kDecide)
+    return leaveAnyByFace(c_B, shape, contact.piece, contact.face);
+  if (contact.piece >= 0)
+    return tandem::separate(c_B, *std::get_if<Mesh>(&shape), contact.piece, contact.touched);
+  // Between measured states no centre goes through a shape.
+  if (look == Look::kPushing) return tandem::separate(c_B, shape);
+  return tandem::separate(c_B, shape, contact.touched);
+}
+
 void SmoothForces::push(Contact& contact, Look look) noexcept {
   Frame &sphere = frames_[contact.sphere], &other = frames_[contact.other];
   const PlainVec c_B = other.R_WB.toBody(sphere.p - other.p);
   if (look == Look::kDecide) contact.face = -1;
-  const Separation found =
-      contact.face >= 0   ? leaveAnyByFace(c_B, *contact.shape, contact.piece, contact.face)
-      : contact.piece < 0 ? separate(c_B, *contact.shape)
-                          : separate(c_B, *std::get_if<Mesh>(contact.shape), contact.piece);
+  const Separation found = separate(contact, c_B, look);
   const PlainVec n = other.R_WB.toWorld(found.n);
   // From the other body's centre to the nearest point of its surface.
   const PlainVec arm = sphere.p - other.p - found.distance * n;
@@ -264,7 +274,8 @@ void SmoothForces::push(Contact& contact, Look look) noexcept {
         contact.piece >= 0 || (contact.pushes && found.face >= 0 && found.distance < 0.0);
     contact.entered = leaves_by_face ? found.face : -1;
     if (contact.face >= 0) {
-      const double lead = computeAnyFaceLead(c_B, *contact.shape, contact.piece, contact.face);
+      const double lead =
+          computeAnyFaceLead(c_B, *contact.shape, contact.piece, contact.face, contact.touched);
       // A change of face is an event; for a piece of a mesh also before it is touched.
       if (contact.pushes)
         contact.guard = std::min(contact.guard, lead);

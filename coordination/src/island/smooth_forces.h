@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/plain_vec.h"
+#include "geometry/separation.h"
 #include "island/island_model.h"
 #include "island/touch.h"
 
@@ -46,6 +46,7 @@ class SmoothForces {
     /// change makes the force jump: an event.
     int face = -1;
     int entered = -1;  ///< face at the last measured state
+    int touched = -1;  ///< face, or triangle of a mesh, that the sphere has touched
   };
 
   /// A body that is integrated.
@@ -125,6 +126,8 @@ class SmoothForces {
   void addContact(const IslandModel& model, const Touch& touch) noexcept;
   [[nodiscard]] double limitDamping(double damping, double mobility) const noexcept;
   void placeFrames(double t, const double* y) noexcept;
+  [[nodiscard]] static Separation separate(const Contact& contact, const PlainVec& c_B,
+                                           Look look) noexcept;
   void push(Contact& contact, Look look) noexcept;
   void computeRates(const double* y, double* k) const noexcept;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "island/follow_faces.h"
 #include "island/rest.h"
 
 namespace tandem {
@@ -183,9 +184,10 @@ void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& co
   }
 }
 
-void SpatialMotion::findTouches(const IslandModel& model, IslandCounters& counters) noexcept {
+void SpatialMotion::findTouches(IslandModel& model, IslandCounters& counters) noexcept {
   touches_.clear();
-  forEachTouch(model, [&](const Touch& touch) {
+  model.faces.startLook();
+  forEachTouch(model, [&](Touch& touch) {
     double allowance = allowance_[touch.sphere];
     if (!touch.obstacle) allowance += allowance_[touch.other];
     if (!couldMeet(model, touch, states_, allowance)) {
@@ -193,14 +195,13 @@ void SpatialMotion::findTouches(const IslandModel& model, IslandCounters& counte
       return;
     }
     ++counters.contact_searches;
-    if (isWholeMesh(touch)) {
-      forEachPiece(model, touch, states_, allowance, [&](const Touch& piece, double gap) {
-        if (gap < allowance) addTouch(model, piece);
-      });
-    } else if (computeTouchState(model, touch, states_).geometry.gap < allowance) {
+    if (isWholeMesh(touch))
+      followPieces(model, states_, touch, allowance,
+                   [&](const Touch& piece) { addTouch(model, piece); });
+    else if (followFace(model, states_, touch, allowance) < allowance)
       addTouch(model, touch);
-    }
   });
+  model.faces.endLook();
 }
 
 void SpatialMotion::addTouch(const IslandModel& model, const Touch& touch) noexcept {

@@ -62,7 +62,7 @@ class SpatialMotion {
 
   void prepareAlone(const IslandModel& model, BodyIndex b) noexcept;
   void findLoners(IslandModel& model, double dt, IslandCounters& counters) noexcept;
-  void findTouches(const IslandModel& model, IslandCounters& counters) noexcept;
+  void findTouches(IslandModel& model, IslandCounters& counters) noexcept;
   void addTouch(const IslandModel& model, const Touch& touch) noexcept;
   [[nodiscard]] bool needsTurning(const IslandModel& model, BodyIndex b) const noexcept;
   void advanceAlone(const IslandModel& model, double dt) noexcept;

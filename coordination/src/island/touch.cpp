@@ -5,13 +5,15 @@
 namespace tandem {
 namespace {
 
-SphereContact findPieceContact(const Vec3& p_W, double radius, const Obstacle& mesh,
-                               int piece) noexcept {
-  const PlainRotation rotation(mesh.q_WB);
-  const Separation found = separate(rotation.toBody(PlainVec(p_W) - PlainVec(mesh.p_WB)),
-                                    *std::get_if<Mesh>(&mesh.shape), piece);
+SphereContact findPieceContact(const Vec3& p_W, double radius, const Obstacle& obstacle,
+                               const Touch& touch) noexcept {
+  const PlainRotation rotation(obstacle.q_WB);
+  const PlainVec c_B = rotation.toBody(PlainVec(p_W) - PlainVec(obstacle.p_WB));
+  const Mesh& mesh = *std::get_if<Mesh>(&obstacle.shape);
+  const Separation found = separate(c_B, mesh, touch.piece, touch.touched);
   const Vec3 n_W = rotation.toWorld(found.n).toVec3();
-  return {computeGap(found, radius), n_W, p_W - found.distance * n_W};
+  return {computeGap(found, radius), n_W, p_W - found.distance * n_W,
+          found.aside > 0.0 ? -1 : found.face};
 }
 
 }  // namespace
@@ -28,6 +30,7 @@ void addMemory(const IslandModel& model, Touch& touch, double ahead) noexcept {
 
 bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
                double reach) noexcept {
+  if (touch.touched >= 0) return true;
   const Vec3& p_W = touch.obstacle ? touch.obstacle->p_WB : states[touch.other].p_W;
   reach += model.bodies[touch.sphere].bounding_radius;
   reach += touch.obstacle ? computeBoundingRadius(touch.obstacle->shape)
@@ -42,15 +45,16 @@ TouchState computeTouchState(const IslandModel& model, const Touch& touch,
   TouchState state;
   if (touch.obstacle) {
     const Obstacle& obstacle = *touch.obstacle;
-    state.geometry = touch.piece < 0 ? findSphereContact(sphere.p_W, radius, obstacle.shape,
-                                                         obstacle.p_WB, obstacle.q_WB)
-                                     : findPieceContact(sphere.p_W, radius, obstacle, touch.piece);
+    state.geometry = touch.piece < 0
+                         ? findSphereContact(sphere.p_W, radius, obstacle.shape, obstacle.p_WB,
+                                             obstacle.q_WB, touch.touched)
+                         : findPieceContact(sphere.p_W, radius, obstacle, touch);
     state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W);
     return state;
   }
   const RigidState& other = states[touch.other];
   state.geometry = findSphereContact(sphere.p_W, radius, model.bodies[touch.other].settings.shape,
-                                     other.p_W, other.q_WB);
+                                     other.p_W, other.q_WB, touch.touched);
   const Vec3 v_point_W = other.v_W + other.w_W.cross(state.geometry.p_W - other.p_W);
   state.overlap_rate = -state.geometry.n_W.dot(sphere.v_W - v_point_W);
   return state;
@@ -74,7 +78,8 @@ void addPush(const IslandModel& model, const Touch& touch, const TouchState& sta
 double computeOverlap(const IslandModel& model, const States& states, BodyIndex body) noexcept {
   double gap = 0.0;
   const auto look = [&](BodyIndex sphere, BodyIndex other, const Obstacle* obstacle) {
-    const Touch touch{sphere, other, obstacle, {}};
+    Touch touch{sphere, other, obstacle, {}};
+    recallFace(model, touch);
     if (!couldMeet(model, touch, states, 0.0)) return;
     if (isWholeMesh(touch)) {
       forEachPiece(model, touch, states, 0.0,

@@ -15,6 +15,7 @@ struct Touch {
   const Obstacle* obstacle = nullptr;  ///< null: `other` is a body
   CouplerGains gains;
   int piece = -1;          ///< triangle of a mesh obstacle; -1: the whole mesh
+  int touched = -1;        ///< face that the sphere has touched, or triangle: TouchedFaces
   double allowance = 0.0;  ///< overlap that does not push yet [m]: TouchMemory
 };
 
@@ -35,8 +36,8 @@ using States = std::vector<RigidState>;
 /// A body alone is watched when something comes this close [m].
 inline constexpr double kWatchDistance = 1e-4;
 
-/// False if the bounding spheres are farther apart than `reach` [m]. It takes a few additions;
-/// exact geometry needs a rotation and a root.
+/// False if the bounding spheres are farther apart than `reach` [m], and nothing is remembered. It
+/// takes a few additions; exact geometry needs a rotation and a root.
 [[nodiscard]] bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
                              double reach) noexcept;
 
@@ -54,6 +55,12 @@ void addPush(const IslandModel& model, const Touch& touch, const TouchState& sta
 [[nodiscard]] double computeOverlap(const IslandModel& model, const States& states,
                                     BodyIndex body) noexcept;
 
+/// Adds the face that the model remembers of the touch, if any.
+inline void recallFace(const IslandModel& model, Touch& touch) noexcept {
+  if (!model.faces.isEmpty()) [[unlikely]]
+    touch.touched = model.faces.find(keyOf(model, touch));
+}
+
 /// Adds what the model remembers of the contact, if anything: rare. The allowance is that of the
 /// middle of the coming advance, or `ahead` of it [s].
 [[gnu::cold]] void addMemory(const IslandModel& model, Touch& touch, double ahead) noexcept;
@@ -66,16 +73,23 @@ inline void recall(const IslandModel& model, Touch& touch, double ahead = 0.0) n
   return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
 }
 
+/// True if a piece of a mesh pushes with its face, and not with an edge or corner.
+[[nodiscard]] inline bool isOverFace(const IslandModel& model, const Touch& piece,
+                                     const States& states) noexcept {
+  return computeTouchState(model, piece, states).geometry.under == kMeshFace;
+}
+
 /// Calls `visit(touch, gap)` for each piece of a whole mesh that pushes at a gap below `allowance`
 /// [m]. Includes pieces that would push after a move of that length.
 template <typename Visit>
 void forEachPiece(const IslandModel& model, const Touch& whole, const States& states,
                   double allowance, Visit visit) noexcept {
   const Obstacle& obstacle = *whole.obstacle;
+  const Mesh& mesh = *std::get_if<Mesh>(&obstacle.shape);
   const double radius = std::get_if<Sphere>(&model.bodies[whole.sphere].settings.shape)->radius;
   const PlainVec c_B = PlainRotation(obstacle.q_WB)
                            .toBody(PlainVec(states[whole.sphere].p_W) - PlainVec(obstacle.p_WB));
-  forEachPiece(c_B, *std::get_if<Mesh>(&obstacle.shape), radius + allowance, allowance,
+  forEachPiece(c_B, mesh, whole.touched, radius + allowance, allowance,
                [&](int piece, const Separation& found) {
                  Touch touch = whole;
                  touch.piece = piece;
@@ -87,18 +101,22 @@ void forEachPiece(const IslandModel& model, const Touch& whole, const States& st
 /// slots and obstacles. Meshes stay whole.
 template <typename Visit>
 void forEachTouch(const IslandModel& model, Visit visit) {
+  const auto show = [&](Touch&& touch) {
+    recallFace(model, touch);
+    visit(touch);
+  };
   for (const IslandContact& pair : model.present_contacts)
-    visit(Touch{pair.sphere, pair.other, nullptr,
-                computeShare(pair.gains, model.contactShare(pair.sphere, pair.other))});
+    show({pair.sphere, pair.other, nullptr,
+          computeShare(pair.gains, model.contactShare(pair.sphere, pair.other))});
   for (const BodyIndex b : model.present) {
     if (!model.bodies[b].settings.feels_obstacles || model.bodies[b].is_ghost) continue;
     const CouplerGains gains =
         computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
     for (BodyIndex slot : model.slots)
       if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres)
-        visit(Touch{b, slot, nullptr, gains});
+        show({b, slot, nullptr, gains});
     if (!model.obstacles) continue;
-    for (const Obstacle& obstacle : *model.obstacles) visit(Touch{b, b, &obstacle, gains});
+    for (const Obstacle& obstacle : *model.obstacles) show({b, b, &obstacle, gains});
   }
 }
 

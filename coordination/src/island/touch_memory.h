@@ -1,21 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
-#include "island/contact_finder.h"
+#include "island/touch_key.h"
 
 namespace tandem {
-
-/// A sphere and the thing that it touches, the same from tick to tick.
-struct TouchKey {
-  BodyIndex sphere = 0;
-  BodyIndex other = 0;         ///< the sphere itself with an obstacle
-  std::uint64_t obstacle = 0;  ///< 0: `other` is a body
-
-  bool operator==(const TouchKey&) const = default;
-};
 
 // clang-format off
 /// Overlap that contacts do not push against yet.

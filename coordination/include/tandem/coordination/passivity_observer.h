@@ -37,23 +37,13 @@ class PassivityObserver {
 
   /// Adds energy that the hand put in [J]; negative: it extracted some. Ignores non-finite values.
   void addHand(double energy) noexcept {
-    if (!std::isfinite(energy)) return;
-    overdrawn_ += std::max(0.0, -energy - std::max(0.0, available()));
-    hand_ += energy;
-    settle();
+    if (std::isfinite(energy)) overdrawn_ += std::max(0.0, -energy - std::max(0.0, available()));
+    add(energy, hand_);
   }
   /// Adds energy that the site's own world put in [J]; negative: it took some.
-  void addWorld(double energy) noexcept {
-    if (!std::isfinite(energy)) return;
-    world_ += energy;
-    settle();
-  }
+  void addWorld(double energy) noexcept { add(energy, world_); }
   /// Adds energy received from peers [J]; negative: granted to them.
-  void addMoved(double energy) noexcept {
-    if (!std::isfinite(energy)) return;
-    moved_ += energy;
-    settle();
-  }
+  void addMoved(double energy) noexcept { add(energy, moved_); }
   /// Refills the tank after an input of unknown energy by the world.
   void refill() noexcept { refilled_ += std::max(0.0, settings_.tank - available()); }
 
@@ -73,8 +63,10 @@ class PassivityObserver {
   [[nodiscard]] double computeShare(const TickEnergy& whole) const noexcept;
 
  private:
-  /// Limits stored energy: the rest has become heat.
-  void settle() noexcept {
+  /// Adds finite energy to one of the sums, and limits what is stored: the rest has become heat.
+  void add(double energy, double& sum) noexcept {
+    if (!std::isfinite(energy)) return;
+    sum += energy;
     const double now = available();
     lowest_ = std::min(lowest_, now);
     forgotten_ += std::max(0.0, now - settings_.tank - settings_.most);

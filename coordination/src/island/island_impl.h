@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "island/island.h"
+#include "island/island_catch_up.h"
+#include "island/island_model.h"
+#include "island/jumps.h"
+#include "island/rest.h"
+#include "island/slot_motion.h"
+#include "island/spatial_motion.h"
+#include "island/touch.h"
+
+/// \file
+/// The state behind an Island, shared by its set-up and its work in the tick. Only these two files
+/// include it.
+namespace tandem {
+
+struct Island::Impl {
+  IslandModel model;
+  IslandCounters counters;
+  std::uint64_t revision = 0;
+  std::optional<SlotMotion> slot;
+  std::optional<SpatialMotion> spatial;
+  std::vector<Wrench> wrenches;
+  States states;
+  IslandCatchUp catch_up;
+  bool prepared = false;
+  bool asleep = false;
+  std::uint64_t obstacles_hash = 0;  ///< hash when the island fell asleep
+
+  /// Gives contacts with what has jumped their allowances.
+  void letJumpsIn() noexcept {
+    tandem::letJumpsIn(model, states);
+    if (slot) slot->recall(model);
+  }
+  void endJumps(double dt) noexcept {
+    tandem::endJumps(model, dt, states);
+    if (slot) slot->recall(model);
+  }
+
+  void disturb(BodyIndex body) noexcept {
+    asleep = false;
+    model.bodies[body].disturbed = true;
+    model.wake(body);
+  }
+
+  /// Wakes a body and its contact partners after its gains, damping or contacts changed.
+  void refit(BodyIndex body, bool is_damping) noexcept {
+    disturb(body);
+    if (slot) slot->refit(model);
+    if (spatial) spatial->refit(model, body, is_damping);
+    for (const IslandContact& contact : model.contacts) {
+      if (contact.sphere == body) disturb(contact.other);
+      if (contact.other == body) disturb(contact.sphere);
+    }
+  }
+
+  void noteJumps() noexcept { model.has_jumps = model.remembers_touches; }
+  [[nodiscard]] bool isLettingIn() const noexcept {
+    return model.has_jumps || !model.memory.isEmpty();
+  }
+
+  /// Falls asleep if the forces allow it.
+  void tryToSleep() noexcept {
+    if (!model.memory.isEmpty()) return;
+    computeContactWrenches();
+    for (const BodyIndex b : model.present) {
+      if (spatial->wasHeld(b)) return;
+      if (!spatial->isResting(b) && !isSettled(model, b, addUp(b, wrenches[b]))) return;
+    }
+    asleep = true;
+    obstacles_hash = computeHash(model.obstacles);
+  }
+
+  /// Puts single bodies at rest to sleep if nothing is near.
+  void letSomeSleep() noexcept {
+    for (const BodyIndex b : model.present) {
+      const ModelBody& body = model.bodies[b];
+      if (!body.isDynamic() || body.is_slot || body.settings.feels_obstacles) continue;
+      if (!spatial->isAtRest(b)) continue;
+      // Contact forces are left out: letSleep() refuses if a contact is near.
+      if (spatial->isResting(b) || isSettled(model, b, addUp(b, {}))) spatial->letSleep(model, b);
+    }
+  }
+
+  /// Sum of all forces on a body; the caller passes those of contacts.
+  [[nodiscard]] Wrench addUp(BodyIndex body, Wrench sum) const noexcept {
+    const ModelBody& b = model.bodies[body];
+    sum.f_W += b.f_external_W - b.damping() * b.state.v_W;
+    sum.t_W += b.t_external_W + computeAngularDamping(b.settings, b.state);
+    for (const ModelCoupler& coupler : model.couplers) {
+      if (coupler.follower != body) continue;
+      const Wrench pull = computeCouplerWrench(coupler, b.state);
+      sum.f_W += pull.f_W;
+      sum.t_W += pull.t_W;
+    }
+    return sum;
+  }
+
+  /// Contact wrenches of a free island at this instant, written to `wrenches`.
+  void computeContactWrenches() noexcept {
+    if (model.has_jumps) letJumpsIn();
+    if (!model.is_listed) model.listPresent();
+    for (const BodyIndex b : model.present) {
+      states[b] = model.bodies[b].state;
+      wrenches[b] = {};
+    }
+    forEachTouch(model, [&](Touch touch) {
+      if (!couldMeet(model, touch, states, 0.0)) return;
+      recall(model, touch, 0.5 * model.settings.haptic_period);
+      const auto add = [&](const Touch& one) {
+        const TouchState state = computeTouchState(model, one, states);
+        const double push = computePush(one, state);
+        if (push > 0.0) addPush(model, one, state, push, states, wrenches);
+      };
+      if (isWholeMesh(touch))
+        forEachPiece(model, touch, states, 0.0, [&](const Touch& piece, double) { add(piece); });
+      else
+        add(touch);
+    });
+  }
+
+  [[nodiscard]] Wrench contactWrench(BodyIndex body) noexcept {
+    if (slot && model.has_jumps) letJumpsIn();
+    if (slot) return {*model.settings.guide * slot->computeContactForce(model, body), Vec3::Zero()};
+    wrenches[body] = {};
+    computeContactWrenches();
+    return wrenches[body];
+  }
+};
+
+}  // namespace tandem
