@@ -209,7 +209,7 @@ TEST(StartExchange, TheLowerSiteFollowsNoCountdown) {
   const Listening one(PeerId{1}, PeerId{2}, 990.0);
   EXPECT_FALSE(one.exchange.start());
   EXPECT_FALSE(one.exchange.refused());
-  // One that runs already is joined, whoever it is.
+  // It joins any peer that runs already.
   EXPECT_TRUE(Listening(PeerId{1}, PeerId{2}, 1000.5).exchange.start());
 }
 

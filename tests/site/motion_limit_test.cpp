@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "plugin/src/site/shorten.h"
+
 namespace tandem {
 namespace {
 

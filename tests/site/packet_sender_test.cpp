@@ -160,7 +160,7 @@ TEST(PacketSender, CarriesAtMostEightObjectsAndForgetsNone) {
   checkTurns(12, 1, 20);
 }
 
-// One body that is thrown out of the range of packets must not silence the others.
+// A body that is thrown out of the range of packets must not silence the others.
 TEST(PacketSender, WithholdsOnlyWhatIsOutOfRangeAndSaysSo) {
   SendingSite site(3);
   site.letObjectsGo();

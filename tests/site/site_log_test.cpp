@@ -41,7 +41,7 @@ TEST(SiteLog, TakesBitsOfTheHostFromTheNextTickOn) {
   for (const std::uint32_t bit : {std::uint32_t{kBodyMissing}, std::uint32_t{kWorldGone}}) {
     SiteLog log;
     log.startTick();
-    log.raiseFromHost(bit);
+    log.stop(bit);
     EXPECT_EQ(log.endTick(), std::uint32_t{kTickOk});
     EXPECT_EQ(log.status(), bit);
     EXPECT_EQ(log.isWorldGone(), bit == kWorldGone);
@@ -55,8 +55,18 @@ TEST(SiteLog, TakesBitsOfTheHostFromTheNextTickOn) {
   EXPECT_EQ(log.status(), std::uint32_t{kHostStepWrong});
 }
 
+TEST(SiteLog, ReportsAMissingBodyWhileItIsMissing) {
+  SiteLog log;
+  log.setMissing(true);
+  EXPECT_EQ(runTick(log, kTickOk), std::uint32_t{kBodyMissing});
+  EXPECT_FALSE(log.hasFault());
+  log.setMissing(false);
+  EXPECT_EQ(runTick(log, kTickOk), std::uint32_t{kTickOk});
+  EXPECT_EQ(log.status(), std::uint32_t{kBodyMissing});
+}
+
 TEST(SiteLog, HasAFaultWhileThereIsNoUsableForce) {
-  const std::uint32_t faults[] = {kDeviceInvalid, kBodyMissing, kStateNotFinite, kWorldGone};
+  const std::uint32_t faults[] = {kDeviceInvalid, kStateNotFinite, kWorldGone};
   for (const std::uint32_t bit : faults) {
     SiteLog log;
     log.startTick();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
@@ -68,6 +69,13 @@ constexpr double kTooLittleToWake = 5e-5;
 /// Above this speed Bullet's sleep timer is reset [m/s, rad/s].
 constexpr double kTiredSpeed = 1e-4;
 
+/// True if Bullet's numbers hold the state, and the velocity that leads to it in a step.
+bool fitsBullet(const RigidState& state) {
+  const double most = 1e-6 * static_cast<double>(std::numeric_limits<btScalar>::max());
+  return tandem::isFinite(state) && state.p_W.cwiseAbs().maxCoeff() < most &&
+         state.v_W.cwiseAbs().maxCoeff() < most && state.w_W.cwiseAbs().maxCoeff() < most;
+}
+
 bool isFinite(const HostChange& change) {
   return change.f_W.allFinite() && change.t_W.allFinite() && change.impulse_W.allFinite() &&
          change.angular_impulse_W.allFinite() && change.offset_W.allFinite() &&
@@ -110,6 +118,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   if (mass_share != 1.0) scaleMass(mass_share);
   inverse_mass_ = body.getInvMass();
   inverse_inertia_ = body.getInvInertiaDiagLocal();
+  look_ = BodyLook::at(body);
   // Sets the weight by a known computation, so that takeHostChanges() can separate it from the
   // host's forces to the bit.
   body.setGravity(body.getGravity());
@@ -119,7 +128,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
 HapticBody::~HapticBody() {
   if (!isInWorld()) return;
   if (handed_.pending) body_.setFlags(handed_.flags);
-  if (sleep_ == Sleep::kAsHost) takeDamping();
+  takeDamping();
   body_.setDamping(original_.linear_damping, original_.angular_damping);
   if (hasItsMass())
     restoreMass(body_, original_.inverse_mass, original_.inverse_inertia, original_.weight);
@@ -152,6 +161,9 @@ void HapticBody::scaleMass(double share) {
 }
 
 void HapticBody::restoreActivation() {
+  const int now = body_.getActivationState();
+  const bool is_ours = now == DISABLE_DEACTIVATION || now == ISLAND_SLEEPING;
+  if (!is_ours) return;
   const bool slept = original_.activation_state == ISLAND_SLEEPING ||
                      original_.activation_state == WANTS_DEACTIVATION;
   const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
@@ -228,7 +240,8 @@ HostChange HapticBody::takeHostChanges(double dt) noexcept {
 }
 
 void HapticBody::handOff(const RigidState& end, double dt) noexcept {
-  if (!isInWorld() || !(dt > 0.0)) return;
+  // A state that is not finite never reaches a host's body.
+  if (!isInWorld() || !(dt > 0.0) || !fitsBullet(end)) return;
   handed_.asleep = isAsleep() && !hasLeftItsRest(end);
   if (isAsleep() && !handed_.asleep) {
     body_.activate(true);
@@ -302,6 +315,7 @@ void HapticBody::park() noexcept {
   standStill();
   known_gravity_ = body_.getGravity();
   known_world_gravity_ = world_.getGravity();
+  known_look_ = BodyLook::at(body_);
   body_.forceActivationState(ISLAND_SLEEPING);
 }
 
@@ -311,7 +325,7 @@ bool HapticBody::isUndisturbed() const noexcept {
          areZero(body_.getTotalForce(), body_.getTotalTorque(), body_.getLinearVelocity(),
                  body_.getAngularVelocity()) &&
          isSame(body_.getGravity(), known_gravity_) &&
-         isSame(body_.getWorldTransform(), known_pose_);
+         isSame(body_.getWorldTransform(), known_pose_) && BodyLook::at(body_) == known_look_;
 }
 
 bool HapticBody::hasMissedWorldGravity() const noexcept {
@@ -383,7 +397,7 @@ void HapticBody::remember() noexcept {
 }
 
 void HapticBody::setState(const RigidState& state) noexcept {
-  if (isInWorld()) setPoseAndVelocity(state);
+  if (isInWorld() && fitsBullet(state)) setPoseAndVelocity(state);
 }
 
 void HapticBody::setPoseAndVelocity(const RigidState& state) noexcept {

@@ -7,6 +7,8 @@
 
 #include "tandem/coordination/types.h"
 
+#include "bodies/body_look.h"
+
 class btDiscreteDynamicsWorld;
 
 #pragma GCC visibility push(default)
@@ -65,8 +67,9 @@ class HapticBody {
   /// object's life.
   [[nodiscard]] double linearDamping() const noexcept;
   [[nodiscard]] double angularDamping() const noexcept;
-  /// True if mass and inertia are unchanged since the start.
-  [[nodiscard]] bool hasItsMass() const noexcept;
+  /// True if the host has not changed it since the start, nor made another body at its address. The
+  /// body must be in its world.
+  [[nodiscard]] bool isAsHeld() const noexcept { return BodyLook::at(body_) == look_; }
 
   /// Warnings for the user, one line each. They concern built-in damping that is off or stays on, a
   /// large collision margin, and native contact stiffness that the island ignores.
@@ -101,7 +104,7 @@ class HapticBody {
   /// box overlaps that of an awake one.
   [[nodiscard]] bool isAsleep() const noexcept { return !body_.isActive(); }
 
-  /// Pre-tick. False once the host has woken, moved, pushed or changed the weight of a parked body.
+  /// Pre-tick. False once the host has woken, moved, pushed or changed a parked body or its weight.
   [[nodiscard]] bool isUndisturbed() const noexcept;
   /// True if the world's gravity changed since the body was parked: Bullet updates awake bodies
   /// only. unpark() makes up for it.
@@ -145,6 +148,7 @@ class HapticBody {
   };
 
   void scaleMass(double share);
+  [[nodiscard]] bool hasItsMass() const noexcept;
   void takeDamping() noexcept;
   void replaceMissingWeight() noexcept;
   [[nodiscard]] bool hasLeftItsRest(const RigidState& state) const noexcept;
@@ -168,10 +172,12 @@ class HapticBody {
   btScalar inverse_mass_;
   btVector3 inverse_inertia_;  // with the mass share
   Original original_;
+  BodyLook look_;
   Handed handed_;
   btTransform known_pose_;
   btVector3 known_v_, known_w_;
   btVector3 known_gravity_, known_world_gravity_;  // while parked
+  BodyLook known_look_;
 };
 
 /// Switches Bullet's own contact between two objects off or back on, and drops their cached contact

@@ -8,6 +8,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bodies/body_look.h"
 #include "surroundings/regions.h"
 
 namespace tandem {
@@ -54,6 +55,12 @@ class Visitor final : public btBroadphaseAabbCallback {
  private:
   Visit visit_;
 };
+
+/// True if all axes are free. The island knows no factors: it would turn a figure that stands.
+bool movesFreely(const btRigidBody& body) {
+  const btVector3 ones(1, 1, 1);
+  return body.getLinearFactor() == ones && body.getAngularFactor() == ones;
+}
 
 template <typename Body>
 bool contains(const std::vector<Body*>& bodies, const btRigidBody* body) {
@@ -134,8 +141,7 @@ bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
   if (!body.hasContactResponse() || std::binary_search(excluded_.begin(), excluded_.end(), &body))
     return false;
   if (body.isKinematicObject()) return shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
-  return !body.isStaticObject() && body.getInvMass() > 0 &&
-         body.getActivationState() != DISABLE_SIMULATION &&
+  return isMovedByForces(body) && movesFreely(body) &&
          !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
          (shape.isConvex() || shape.isCompound());
 }

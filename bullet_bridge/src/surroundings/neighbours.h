@@ -39,10 +39,12 @@ class NeighbourSearch {
   /// `host` must outlive this object.
   NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity);
 
-  /// Set-up: excludes a body that the island holds anyway.
+  /// Excludes a body that the island holds anyway. Allocates.
   void exclude(const btRigidBody& body) {
     excluded_.insert(std::upper_bound(excluded_.begin(), excluded_.end(), &body), &body);
   }
+  /// Ends the exclusion of a body, which may have been deleted.
+  void include(const btRigidBody& body) noexcept { std::erase(excluded_, &body); }
 
   /// Once per host step; `horizon` is T [s]. Omits bodies that the host removed from its world. The
   /// result is valid until the next call.

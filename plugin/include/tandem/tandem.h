@@ -424,7 +424,7 @@ TandemResult tandem_site_connect(TandemSite* site, uint32_t peer, TandemLink* li
 /* Report of a tick. */
 typedef enum TandemStatus {
   TANDEM_STATUS_DEVICE_INVALID = 1 << 0,   /* no usable device reading: no force */
-  TANDEM_STATUS_BODY_MISSING = 1 << 1,     /* a body left the world: make a new site */
+  TANDEM_STATUS_BODY_MISSING = 1 << 1,     /* a body is not in the world: put it back */
   TANDEM_STATUS_PACKET_REFUSED = 1 << 2,   /* a packet was invalid: check the sender */
   TANDEM_STATUS_HOST_STEP_WRONG = 1 << 3,  /* impulse injection needs steps of a haptic period */
   TANDEM_STATUS_STATE_NOT_FINITE = 1 << 4, /* lower gains or inner_step; no force from now on */

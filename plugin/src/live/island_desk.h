@@ -32,6 +32,10 @@ class IslandDesk {
   }
 
   [[nodiscard]] bool isOpen() const noexcept { return is_open_.load(std::memory_order_acquire); }
+  /// True once a haptic thread has begun, also when it has left.
+  [[nodiscard]] bool wasEverOpen() const noexcept {
+    return was_ever_open_.load(std::memory_order_acquire);
+  }
 
   /// Opens the desk before the haptic thread begins. Not for the haptic thread.
   void open() {

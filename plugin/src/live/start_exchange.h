@@ -15,7 +15,7 @@ namespace tandem {
 /// The site with the lowest number chooses a moment ahead, once all its peers are live. The states
 /// that its user holds until then count down to it. The others subtract half the round trip from
 /// the first that reaches them. They follow the countdown of their lowest peer only, and of nobody
-/// if they are the lowest themselves. A peer that runs already is joined, whoever it is.
+/// if they are the lowest themselves. A site joins any peer that runs already.
 class StartExchange {
  public:
   /// A peer as its connection shows it now.

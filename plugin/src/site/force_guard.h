@@ -6,6 +6,7 @@
 #include "tandem/coordination/types.h"
 
 #include "coordination/src/force_rise.h"
+#include "site/shorten.h"
 
 namespace tandem {
 
@@ -25,12 +26,12 @@ class ForceGuard {
   [[nodiscard]] Vec3 clamp(const Vec3& wanted_W) noexcept {
     if (!(wanted_W.norm() > max_force_)) return wanted_W;
     ++clamped_;
-    return shorten(wanted_W, max_force_);
+    return shortenTo(wanted_W, max_force_);
   }
 
   /// The force of this tick: from the last tick's force to `allowed_W`, as fast as allowed.
   [[nodiscard]] Vec3 follow(const Vec3& allowed_W, bool fault) noexcept {
-    if (fault || !allowed_W.allFinite()) return shorten(last_W_, last_W_.norm() - fade_per_tick_);
+    if (fault || !allowed_W.allFinite()) return shortenTo(last_W_, last_W_.norm() - fade_per_tick_);
     if (allowed_W == last_W_) return last_W_;
     const Vec3 force_W = riseTowards(allowed_W, last_W_, rise_per_tick_);
     if (force_W != allowed_W) ++slewed_;
@@ -46,12 +47,6 @@ class ForceGuard {
   [[nodiscard]] std::uint64_t slewedCount() const noexcept { return slewed_; }
 
  private:
-  static Vec3 shorten(const Vec3& v, double longest) noexcept {
-    const double norm = v.norm();
-    if (norm <= longest) return v;
-    return longest > 0.0 ? Vec3(v * (longest / norm)) : Vec3(Vec3::Zero());
-  }
-
   double max_force_, rise_per_tick_, fade_per_tick_;
   Vec3 last_W_ = Vec3::Zero();
   std::uint64_t clamped_ = 0, slewed_ = 0;

@@ -4,30 +4,35 @@
 // and once on the way out.
 
 namespace tandem {
+namespace {
+
+/// A caller that has not ticked for this long has stopped [s].
+constexpr double kLongestPause = 0.25;
+
+}  // namespace
 
 void HandOffStep::before(double dt) noexcept {
   if (isWaiting()) return;
+  if (hasNoTicks()) return leaveAlone(dt);
+  is_alone_ = false;
   const bool looks_quiet = dt == site_.clock.step() && site_.rest.looksQuiet();
   if (!looks_quiet) {
-    site_.surroundings.findMissing();
-    if (!site_.areBodiesPresent()) {
+    if (!findChanges()) {
       site_.rest.disturb();
-      site_.desk.run([&] {
-        site_.surroundings.takeLeaving();
-        site_.passStepWithout(dt);
-      });
-      return site_.surroundings.giveBack();
+      return site_.desk.run([&] { site_.passStepWithout(dt); });
     }
+    renewObjects();
     lookAtBodies(dt);
   }
   site_.desk.run([&] { goIn(dt, looks_quiet); });
   if (site_.rest.isQuiet()) return;
-  site_.surroundings.giveBack();
+  giveBack();
   handOff(dt);
 }
 
 void HandOffStep::after(double dt) noexcept {
   if (isWaiting()) return wait(dt);
+  if (is_alone_) return site_.desk.run([&] { site_.clock.endStep(dt); });
   if (site_.rest.staysQuiet()) {
     ++site_.log.counters.host_steps_skipped;
     return site_.desk.run([&] {
@@ -36,24 +41,70 @@ void HandOffStep::after(double dt) noexcept {
     });
   }
   site_.rest.disturb();
-  site_.surroundings.findMissing();
-  if (!site_.areBodiesPresent()) {
-    site_.desk.run([&] {
-      site_.surroundings.takeLeaving();
-      site_.clock.endStep(dt);
-    });
-    return site_.surroundings.giveBack();
-  }
+  if (!findChanges()) return site_.desk.run([&] { site_.clock.endStep(dt); });
   site_.bodies.forEachPresent([&](SiteBody& body) { takeBack(body); });
   site_.bodies.forEachPresent([&](SiteBody& body) { site_.rest.parkIfItStood(body); });
   if (!site_.ticksInHostStep()) site_.surroundings.lookAtDriven(step_end_);
+  site_.objects.findReturned();
   // With a haptic thread the island's mirror is as old as Bullet's step.
   site_.surroundings.look(dt, step_end_, site_.desk.isOpen() ? dt : 0.0);
   site_.desk.run([&] { goOut(dt); });
-  site_.surroundings.giveBack();
+  giveBack();
   lookFarther();
   ++site_.log.counters.searches;
   fallQuiet();
+}
+
+/// True if nobody ticks any more: a loop has been stopped, or the caller stays away.
+bool HandOffStep::hasNoTicks() const noexcept {
+  if (site_.ticksInHostStep() || site_.desk.isOpen() || site_.settings.guide) return false;
+  const double most = site_.desk.wasEverOpen() ? site_.clock.expectedStep() : kLongestPause;
+  return site_.timeline.hasBegun() && site_.clock.time() - site_.timeline.time() > most;
+}
+
+/// Leaves all bodies to Bullet until somebody ticks again. The island would let them hang.
+void HandOffStep::leaveAlone(double dt) noexcept {
+  if (!is_alone_) {
+    is_alone_ = true;
+    leaveNeighbours();
+    site_.objects.leaveAll();
+    site_.objects.takeLeaving();
+    site_.objects.giveBack();
+  }
+  site_.followHostClock(dt);
+}
+
+/// Marks bodies that the island must leave. False if the site has to stop: no body can leave a
+/// guide.
+bool HandOffStep::findChanges() noexcept {
+  if (site_.settings.guide) return site_.areBodiesPresent();
+  site_.surroundings.findMissing();
+  if (site_.objects.findChanged()) site_.rest.disturb();
+  return true;
+}
+
+/// Takes objects out that the host changed, and holds those again that may still be held: Bullet
+/// makes no step with them.
+void HandOffStep::renewObjects() {
+  if (site_.objects.areLeaving()) {
+    site_.desk.run([&] {
+      site_.surroundings.takeLeaving();
+      site_.objects.takeLeaving();
+    });
+    giveBack();
+  }
+  if (!site_.objects.findReturned()) return;
+  site_.surroundings.searchObstacles(true);
+  site_.desk.run([&] {
+    site_.surroundings.takeObstacles();
+    site_.objects.take();
+    site_.surroundings.catchUp();
+  });
+}
+
+void HandOffStep::giveBack() {
+  site_.surroundings.giveBack();
+  site_.objects.giveBack();
 }
 
 /// Reads how the host changed its bodies for its coming step.
@@ -115,8 +166,9 @@ void HandOffStep::lookFarther() {
 void HandOffStep::fallQuiet() {
   bool all_parked = true;
   site_.bodies.forEachPresent([&](const SiteBody& body) { all_parked &= body.bullet->isParked(); });
+  if (!all_parked || site_.objects.hasLeft()) return;
   // A kinematic body may start to move at any step, and that wakes nothing.
-  if (!all_parked || (!site_.isBare() && site_.surroundings.isAnythingDriven())) return;
+  if (!site_.isBare() && site_.surroundings.isAnythingDriven()) return;
   site_.rest.fallQuiet(site_.bodies);
 }
 

@@ -6,6 +6,13 @@
 // the host's thread.
 
 namespace tandem {
+namespace {
+
+/// A host that moves a body farther than this in a step puts it elsewhere; peers feel less as a
+/// pull [m].
+constexpr double kTeleport = 0.05;
+
+}  // namespace
 
 HandOffStep::HandOffStep(SiteParts& parts) : IslandStep(parts) {
   site_.island.setContactFinder(&site_.surroundings.contactFinder());
@@ -18,7 +25,7 @@ void HandOffStep::addObject(SharedObject& object) {
 }
 
 void HandOffStep::finishSetUp() {
-  site_.bodies.forEach(
+  site_.bodies.forEachPresent(
       [&](SiteBody& body) { site_.forces.setWeight(body, body.bullet->gravityForce()); });
   IslandStep::finishSetUp();
 }
@@ -117,6 +124,9 @@ void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexc
                                return state;
                              });
   site_.hand.energy().refill();
+  if (change.offset_W.norm() < kTeleport) return;
+  for (const SharedObject& object : site_.bodies.objects)
+    if (&object.body == &body) site_.peers.awaitFollowing(object, site_.timeline.time());
 }
 
 /// Looks up the states of all bodies at the end of the host's step.
@@ -137,6 +147,7 @@ void HandOffStep::goOut(double dt) noexcept {
   site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
   if (!site_.ticksInHostStep()) site_.surroundings.steerDriven(false);
   if (!site_.desk.isOpen()) makeRoomFor(dt);
+  site_.objects.take();
   site_.surroundings.take();
   if (!site_.timeline.hasBegun()) return;
   site_.rest.mark(site_.island, site_.island.state(site_.hand.hip()).p_W);

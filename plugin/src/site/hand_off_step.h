@@ -35,6 +35,11 @@ class HandOffStep final : public IslandStep {
   void moveTo(double until) noexcept;
   void loseTime(double until) noexcept;
   // In the host's thread.
+  [[nodiscard]] bool hasNoTicks() const noexcept;
+  void leaveAlone(double dt) noexcept;
+  bool findChanges() noexcept;
+  void renewObjects();
+  void giveBack();
   void lookAtBodies(double dt) noexcept;
   void handOff(double dt) noexcept;
   void takeBack(SiteBody& body) noexcept;
@@ -50,6 +55,7 @@ class HandOffStep final : public IslandStep {
   void receive(SiteBody& body) noexcept;
 
   double step_end_ = 0.0;  ///< of the host's present step [s]
+  bool is_alone_ = false;  ///< nobody ticks: all bodies are Bullet's
 };
 
 }  // namespace tandem

@@ -32,7 +32,7 @@ class HostStep {
   virtual void finishSetUp() = 0;
   /// A haptic thread ticks from now on.
   virtual void beginLive() {}
-  /// True if all bodies are in the host's world; raises kBodyMissing if not.
+  /// True if the site can go on with the bodies that are in the host's world; stops it if not.
   [[nodiscard]] virtual bool areBodiesPresent() noexcept = 0;
   /// @}
 

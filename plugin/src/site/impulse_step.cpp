@@ -50,7 +50,7 @@ void ImpulseStep::showProxy(Peer& peer) noexcept {
 
 void ImpulseStep::before(double dt) noexcept {
   if (isWaiting()) return;
-  if (!site_.areBodiesPresent()) return site_.passStepWithout(dt);
+  if (!areBodiesPresent()) return site_.passStepWithout(dt);
   const double period = site_.timeline.period();
   if (std::abs(dt - period) > 1e-3 * period) site_.log.raiseFromHost(kHostStepWrong);
   site_.followHostClock(dt);
@@ -67,8 +67,8 @@ void ImpulseStep::before(double dt) noexcept {
 void ImpulseStep::after(double dt) noexcept {
   if (isWaiting()) return wait(dt);
   site_.clock.endStep(dt);
-  if (!site_.areBodiesPresent()) return;
-  site_.bodies.forEach([&](SiteBody& body) {
+  if (!areBodiesPresent()) return;
+  site_.bodies.forEachPresent([&](SiteBody& body) {
     if (site_.island.isDynamic(body.index)) {
       site_.island.setState(body.index, body.bullet->state());
     } else {
@@ -77,6 +77,10 @@ void ImpulseStep::after(double dt) noexcept {
   });
   site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
   makeRoomFor(dt);
+  if (!site_.settings.guide) {
+    site_.objects.findReturned();
+    site_.objects.take();
+  }
   lookAround(dt);
   ++site_.log.counters.searches;
 }

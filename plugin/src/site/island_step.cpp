@@ -25,7 +25,8 @@ void IslandStep::addObject(SharedObject& object) {
   for (Peer& peer : site_.peers) {
     if (!peer.proxy.sphere) continue;
     site_.island.addContact(*peer.user.body, object.body.index, contact);
-    filterNativeContact(site_.host_world.world(), peer.proxy.sphere->rigid(), *object.rigid, true);
+    if (btRigidBody* proxy = peer.proxy.findRigid())
+      filterNativeContact(site_.host_world.world(), *proxy, *object.rigid, true);
   }
 }
 
@@ -42,8 +43,19 @@ void IslandStep::addProxy(Peer& peer, const Vec3& start_W) {
   site_.island.addContact(site_.hand.hip(), index, contact);
   for (SharedObject& object : site_.bodies.objects) {
     site_.island.addContact(index, object.body.index, contact);
-    filterNativeContact(site_.host_world.world(), peer.proxy.sphere->rigid(), *object.rigid, true);
+    if (object.body.is_held)
+      filterNativeContact(site_.host_world.world(), peer.proxy.sphere->rigid(), *object.rigid,
+                          true);
   }
+}
+
+/// Without a guide, a body that is missing leaves alone.
+bool IslandStep::areBodiesPresent() noexcept {
+  if (site_.settings.guide) return site_.areBodiesPresent();
+  site_.objects.findChanged();
+  site_.objects.takeLeaving();
+  site_.objects.giveBack();
+  return true;
 }
 
 void IslandStep::finishSetUp() {

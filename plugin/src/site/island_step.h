@@ -14,7 +14,7 @@ class IslandStep : public HostStep {
   void addObject(SharedObject& object) override;
   void addProxy(Peer& peer, const Vec3& start_W) override;
   void finishSetUp() override;
-  [[nodiscard]] bool areBodiesPresent() noexcept override { return site_.areBodiesPresent(); }
+  [[nodiscard]] bool areBodiesPresent() noexcept override;
   void addCoupler(SharedObject&, CouplerIndex, const CouplerSettings&) override {}
   [[nodiscard]] const Vec3& computeContactForce() noexcept override {
     return site_.hand.computeContactForce();

@@ -6,18 +6,14 @@
 
 #include "tandem/coordination/types.h"
 
+#include "site/shorten.h"
+
 namespace tandem {
 
 /// Fastest turn that a peer's states may describe [rad/s].
 inline constexpr double kMostPeerRate = 100.0;
 /// Fastest motion of a target on its way to where a peer's state jumped [m/s].
 inline constexpr double kMostLeadSpeed = 20.0;
-
-/// Shortens a vector to `longest`; shorter ones stay the same to the bit.
-[[nodiscard]] inline Vec3 shortenTo(const Vec3& v, double longest) noexcept {
-  const double norm = v.norm();
-  return norm > longest ? Vec3(longest / norm * v) : v;
-}
 
 /// A body's state with its velocities limited, if `fastest` [m/s] is finite.
 [[nodiscard]] inline RigidState limitMotion(RigidState state, double fastest) noexcept {

@@ -81,7 +81,7 @@ void NativeStep::after(double dt) noexcept {
 
 bool NativeStep::areBodiesPresent() noexcept {
   if (!model_->isPresent()) {
-    site_.log.raiseFromHost(kBodyMissing);
+    site_.log.stop(kBodyMissing);
     return false;
   }
   return site_.areBodiesPresent();

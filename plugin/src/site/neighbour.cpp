@@ -22,8 +22,8 @@ void Neighbour::becomeEmpty() {
 }
 
 bool Neighbour::hasChanged() const noexcept {
-  return rigid->getCollisionShape() != shape || rigid->isKinematicObject() != (driven != nullptr) ||
-         (bullet && !bullet->hasItsMass());
+  if (driven) return !rigid->isKinematicObject() || rigid->getCollisionShape() != shape;
+  return !bullet->isAsHeld() || !isMovedByForces(*rigid);
 }
 
 void Neighbour::lookAtDamping() noexcept {

@@ -28,7 +28,7 @@ struct Neighbour {
   }
   /// Empties the slot for another body.
   void becomeEmpty();
-  /// True if the host changed its shape, its mass, or whether it is kinematic.
+  /// True if the host changed it, or made another body at its address. It must be in its world.
   [[nodiscard]] bool hasChanged() const noexcept;
   /// Updates the damping of the island's body to the values last read. True if it changed.
   bool followDamping() noexcept;

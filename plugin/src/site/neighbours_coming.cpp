@@ -18,6 +18,7 @@ constexpr double kMendingTime = 0.1;
 void Surroundings::mirror() noexcept {
   if (settings_.guide) return;
   mirror_.island_time = timeline_.time();
+  mirror_.depth = island_.deepestTouch();
   for (std::size_t b = 0; b < mirror_.states.size(); ++b)
     mirror_.states[b] = island_.state(static_cast<BodyIndex>(b));
   std::fill(mirror_.moves.begin(), mirror_.moves.end(), char{0});
@@ -76,7 +77,6 @@ void Surroundings::takeNewcomers() noexcept {
   }
 }
 
-/// Newcomers start with their state at the host's time; the island may be ahead of it.
 void Surroundings::catchUp() noexcept {
   if (newcomers_.empty()) return;
   double time = clock_.time();
@@ -132,8 +132,7 @@ double Surroundings::computeSpeedInSprings() const noexcept {
       if (island_.follower(c) != b) continue;
       const RigidState& target = island_.target(c);
       const double way = (target.p_W - island_.state(b).p_W).norm();
-      const double stiffness =
-          island_.couplerShare(c) * island_.couplerSettings(c).linear.stiffness;
+      const double stiffness = island_.presentGains(c).linear.stiffness;
       speed += target.v_W.norm() + way * std::sqrt(stiffness / mass);
     }
     most = std::max(most, speed);

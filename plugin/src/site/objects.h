@@ -7,6 +7,7 @@
 
 #include "site/site_body.h"
 
+class btDiscreteDynamicsWorld;
 class btRigidBody;
 
 namespace tandem {
@@ -15,10 +16,30 @@ namespace tandem {
 struct SharedObject {
   btRigidBody* rigid = nullptr;        ///< the host's body
   std::unique_ptr<HapticBody> bullet;  ///< `body` points to it
+  IslandBody settings;                 ///< island body, as it was held last
   SiteBody body;
   ObjectId id = 0;
   double damping = 0.0;  ///< of this copy [N s/m]
   double bounding_radius = 0.0;
+
+  // While the island does not hold it: ObjectWatch.
+  bool is_there = true;  ///< it is in the host's world; for the host's thread
+  bool is_sent = true;   ///< peers get its state; for the thread that ticks
+  bool is_new = false;   ///< held again, but not in the island yet
+  Momentum owed;         ///< momentum it still gets when it goes back
+  RigidState seen;       ///< Bullet's state
+
+  /// Takes the host's body as it is now, one of `peers` copies. It must be dynamic and in the
+  /// world.
+  void hold(btDiscreteDynamicsWorld& world, int peers, const Shape& shape) {
+    bullet = std::make_unique<HapticBody>(world, *rigid, 1.0 / static_cast<double>(peers));
+    body.bullet = bullet.get();
+    bounding_radius = computeBoundingRadius(shape);
+    settings.shape = shape;
+    settings.damping = damping;
+    settings.is_rigid = true;
+    readBody(*bullet, settings);
+  }
 };
 
 }  // namespace tandem

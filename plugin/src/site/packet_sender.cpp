@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coordination/src/same_state.h"
 #include "coordination/src/wire/state_gate.h"
 
 namespace tandem {
@@ -15,10 +16,6 @@ constexpr double kStill = 1e-9;
 constexpr double kIdleAfter = 0.5;
 /// Idle packets sent at the full rate before packets become rare: some may be lost.
 constexpr int kIdleNotices = 5;
-
-bool isSame(const RigidState& a, const RigidState& b) noexcept {
-  return a.p_W == b.p_W && a.v_W == b.v_W && a.w_W == b.w_W && a.q_WB.coeffs() == b.q_WB.coeffs();
-}
 
 }  // namespace
 
@@ -48,6 +45,8 @@ void PacketSender::sendIfDue(double until, bool is_exact) noexcept {
     if (!is_rare || packets_due_ % idle_stride_ == 0) send(is_exact ? moment : until);
     if (is_idle_ && idle_notices_ > 0) --idle_notices_;
     ++packets_due_;
+    // All others that are due would tell the same state.
+    if (!is_exact) skipTo(until);
   }
 }
 
@@ -104,7 +103,7 @@ void PacketSender::send(double time) noexcept {
   };
   for (const std::size_t i :
        turns_.choose([&](std::size_t i) { return !isSame(sent_[i], state(i)); })) {
-    if (!maySend(state(i))) continue;
+    if (!bodies_.objects[i].is_sent || !maySend(state(i))) continue;
     sent_[i] = state(i);
     packet.objects[packet.object_count++] = {bodies_.objects[i].id, sent_[i]};
   }

@@ -34,7 +34,9 @@ struct Peer {
   UserTrack track;     ///< user state given to the scheme
   MotionLimit motion;  ///< of the user
   Proxy proxy;
-  std::vector<Tie> ties;  ///< by object
+  std::vector<Tie> ties;            ///< by object
+  std::uint64_t packets_heard = 0;  ///< in any order
+  std::size_t next_checked = 0;     ///< tie that is asked next whether its object is still sent
 
   // Its link, and the effects of silence.
   LinkHealth health{LinkLossSettings{}, 1.0};
@@ -44,9 +46,12 @@ struct Peer {
   bool is_restrained = false;                ///< gains or targets differ from a live peer's
   Vec3 searched_W = Vec3::Zero();            ///< where obstacles near the proxy were last searched
 
-  /// False for an object that the peer has not sent since it came back.
+  /// False for an object that the peer has not sent since the peer or the object came back.
   [[nodiscard]] bool isRenewed(const Tie& tie) const noexcept {
-    return !rejoined_by || (tie.sequence && *tie.sequence >= *rejoined_by);
+    const auto is_since = [&](const std::optional<std::uint64_t>& packet) {
+      return !packet || (tie.sequence && *tie.sequence >= *packet);
+    };
+    return is_since(rejoined_by) && is_since(tie.awaited) && tie.away_until == 0.0;
   }
 };
 

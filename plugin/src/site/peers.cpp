@@ -7,6 +7,17 @@
 #include "site/moments.h"
 
 namespace tandem {
+namespace {
+
+/// An object counts as missing at the peer when it missed its turn this often. Packets overtake,
+/// and a body may be too fast for packets for a moment.
+constexpr std::uint64_t kTurnsMissed = 16;
+
+/// A peer's copy has so long to follow ours to where the host put it [s]: a detour, and a round
+/// trip of a second.
+constexpr double kLongestAway = 4.0;
+
+}  // namespace
 
 Peers::Peers(const SiteSettings& settings, Island& island, Bodies& bodies, EnergyPort& energy,
              SiteLog& log)
@@ -33,7 +44,7 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
 
 CouplerSettings Peers::makeCoupler(const SharedObject& object) const noexcept {
   const CouplerGains& linear = settings_.coordination;
-  const double radius_squared = object.bullet->inertia().maxCoeff() / object.bullet->mass();
+  const double radius_squared = object.settings.inertia_B.maxCoeff() / object.settings.mass;
   return {linear, settings_.angular_coordination.value_or(CouplerGains{
                       linear.stiffness * radius_squared, linear.damping * radius_squared})};
 }
@@ -110,18 +121,23 @@ void Peers::noteJump(Peer& peer) noexcept {
 /// An overtaken packet may still have the newest state of some object. True if it has one.
 bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept {
   bool has_news = false;
+  ++peer.packets_heard;
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     const ObjectState& copy = packet.objects[i];
     if (copy.id >= peer.ties.size()) continue;
     Tie& tie = peer.ties[copy.id];
     if (tie.sequence && packet.sequence <= *tie.sequence) continue;
     const bool was_renewed = peer.isRenewed(tie);
+    if (!isAway(tie, copy, time)) tie.away_until = 0.0;
     tie.sequence = packet.sequence;
+    tie.heard_at = peer.packets_heard;
     has_news = true;
     const bool jumped = tie.motion.isJump(copy.state.p_W, copy.state.v_W, packet.time, time,
                                           settings_.max_peer_speed);
     if (!was_renewed && peer.isRenewed(tie)) {
       tie.detour.start(island_.state(bodies_.objects[copy.id].body.index), copy.state);
+      island_.setCouplerShare(tie.coupler, peer.health.objectShare());
+      peer.is_restrained = true;  // so that ticks lead its targets
     } else if (jumped) {
       noteJump(peer);
       tie.detour.start(tie.computeTarget(), copy.state);
@@ -131,7 +147,44 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
     tie.velocity_share = 1.0;
     island_.setTarget(tie.coupler, tie.computeTarget());
   }
+  letGoOfMissing(peer);
   return has_news;
+}
+
+/// Lets go of objects that the peer no longer sends: it has none, or no state that can be sent. If
+/// they do not fit into one packet, each waits for its turn. Looks at some of them per packet.
+void Peers::letGoOfMissing(Peer& peer) noexcept {
+  const std::size_t count = peer.ties.size();
+  const std::uint64_t turns = 1 + count / (kMaxObjectsPerPacket - 1);
+  for (std::size_t i = 0; i < std::min<std::size_t>(count, kMaxObjectsPerPacket); ++i) {
+    peer.next_checked = (peer.next_checked + 1) % count;
+    Tie& tie = peer.ties[peer.next_checked];
+    const bool is_missing = peer.packets_heard - tie.heard_at >= kTurnsMissed * turns;
+    if (is_missing && tie.sequence && peer.isRenewed(tie)) awaitNews(peer, tie);
+  }
+}
+
+void Peers::awaitNews(const SharedObject& object) noexcept {
+  for (Peer& peer : peers_) awaitNews(peer, peer.ties[object.id]);
+}
+
+void Peers::awaitFollowing(const SharedObject& object, double time) noexcept {
+  for (Peer& peer : peers_) {
+    Tie& tie = peer.ties[object.id];
+    tie.away_until = time + kLongestAway;
+    island_.setCouplerShare(tie.coupler, 0.0);
+  }
+}
+
+/// True while a peer's copy is still on its way to where our host put ours.
+bool Peers::isAway(const Tie& tie, const ObjectState& copy, double time) const noexcept {
+  const Vec3& ours_W = island_.state(bodies_.objects[copy.id].body.index).p_W;
+  return time < tie.away_until && !((copy.state.p_W - ours_W).norm() < settings_.proxy.radius);
+}
+
+void Peers::awaitNews(const Peer& peer, Tie& tie) noexcept {
+  tie.awaited = peer.is_heard ? peer.latest.sequence + 1 : 0;
+  island_.setCouplerShare(tie.coupler, 0.0);
 }
 
 void Peers::send(StatePacket packet, double time) noexcept {

@@ -55,6 +55,12 @@ class Peers {
   /// Called once a tick. `host_step` shows changes of a proxy in Bullet.
   void followLinks(double now, double period, HostStep& host_step) noexcept;
 
+  /// Lets go of an object until the peers' next states of it: ours is held again.
+  void awaitNews(const SharedObject& object) noexcept;
+  /// Lets go of an object that the host put elsewhere at `time` [s], until the peers' copies have
+  /// followed. Between them a spring would throw both.
+  void awaitFollowing(const SharedObject& object, double time) noexcept;
+
   /// Notes that all obstacles around the proxies' present positions are known.
   void noteSearched() noexcept;
 
@@ -68,6 +74,9 @@ class Peers {
   void hearEnergy(Peer& peer, const StatePacket& packet) noexcept;
   void noteJump(Peer& peer) noexcept;
   bool hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept;
+  void letGoOfMissing(Peer& peer) noexcept;
+  [[nodiscard]] bool isAway(const Tie& tie, const ObjectState& copy, double time) const noexcept;
+  void awaitNews(const Peer& peer, Tie& tie) noexcept;
 
   // peer_restraint.cpp
   void followLink(Peer& peer, double now, double period, HostStep& host_step) noexcept;

@@ -38,6 +38,10 @@ int Site::objectCount() const noexcept { return static_cast<int>(impl_->bodies.o
 const RigidState& Site::object(ObjectId id) const noexcept {
   return impl_->island.state(impl_->bodies.objects[id].body.index);
 }
+bool Site::isHeld(ObjectId id) const noexcept {
+  const SiteBody& body = impl_->bodies.objects[id].body;
+  return body.is_held && !body.is_leaving;
+}
 btRigidBody& Site::objectBody(ObjectId id) const noexcept {
   return *impl_->bodies.objects[id].rigid;
 }

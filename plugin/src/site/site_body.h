@@ -60,6 +60,13 @@ struct HandOver {
   int steps_stood = 0;          ///< host steps without motion or impact
 };
 
+/// Reads mass, inertia and state of a body that the island takes.
+inline void readBody(const HapticBody& bullet, IslandBody& own) noexcept {
+  own.mass = bullet.mass();
+  own.inertia_B = bullet.inertia();
+  own.start = bullet.state();
+}
+
 /// A btRigidBody whose motion the island decides.
 struct SiteBody {
   HapticBody* bullet = nullptr;  ///< null while not held, and after the host's world

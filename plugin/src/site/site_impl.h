@@ -44,6 +44,9 @@ struct Site::Impl final : HostStepListener, SiteParts {
   void listBodies();
   void begin(double now) noexcept;
   void keepLastLook();
+  void giveBack(bool world_ends);
+
+  bool has_given_back_ = false;  ///< the host's bodies are Bullet's for good
 };
 
 }  // namespace tandem

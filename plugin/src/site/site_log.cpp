@@ -35,7 +35,8 @@ void SiteLog::recordTick(double now, const LocalHand& hand, const Bodies& bodies
                          const Peers& peers, const Island& island, bool reads_bullet) noexcept {
   const auto fill = [&](const SiteBody& body, BodyRecord& record) {
     record.island = island.state(body.index);
-    record.bullet = reads_bullet && body.bullet ? body.bullet->state() : body.seen;
+    record.bullet =
+        reads_bullet && body.bullet && !body.is_leaving ? body.bullet->state() : body.seen;
   };
   for (std::size_t i = 0; i < bodies.objects.size(); ++i) fill(bodies.objects[i].body, objects_[i]);
   for (const Peer& peer : peers) {

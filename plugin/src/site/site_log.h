@@ -16,8 +16,8 @@ namespace tandem {
 class LocalHand;
 class Peers;
 
-/// Status bits that stay set and stop the island.
-inline constexpr std::uint32_t kForGood = kBodyMissing | kStateNotFinite | kWorldGone;
+/// Status bits that stay set and stop the island. A missing body does so if stop() says it.
+inline constexpr std::uint32_t kForGood = kStateNotFinite | kWorldGone;
 
 /// Reports of a site: status bits, counters, a hash of its states, a recording, warnings.
 class SiteLog {
@@ -27,19 +27,40 @@ class SiteLog {
   std::vector<std::string> warnings;  ///< of bodies that the site released
 
   // The haptic thread raises bits of the present tick; the host's thread raises bits that stay.
-  void startTick() noexcept { now_ = (ever_ | of_host_) & kForGood; }
-  void raise(std::uint32_t bits) noexcept { now_ |= bits; }
+  void startTick() noexcept {
+    now_ = ((ever_ | of_host_) & kForGood) | stopped_by_ | (is_missing_ ? kBodyMissing : kTickOk);
+  }
+  void raise(std::uint32_t bits) noexcept {
+    now_ |= bits;
+    if (bits & kStateNotFinite) has_diverged_ = true;
+  }
   std::uint32_t endTick() noexcept {
     ever_ |= now_;
     return now_;
   }
   void raiseFromHost(std::uint32_t bits) noexcept { of_host_ |= bits; }
+  /// Raises bits and stops the island for good.
+  void stop(std::uint32_t bits) noexcept {
+    raiseFromHost(bits);
+    stopped_by_ |= bits;
+  }
+  /// Ticks report kBodyMissing while an object is not in the host's world.
+  void setMissing(bool is_missing) noexcept {
+    if (is_missing) raiseFromHost(kBodyMissing);
+    is_missing_ = is_missing;
+  }
+  /// True once states of the island were not finite.
+  [[nodiscard]] bool hasDiverged() const noexcept { return has_diverged_; }
   [[nodiscard]] std::uint32_t status() const noexcept { return ever_ | of_host_; }
   [[nodiscard]] bool isWorldGone() const noexcept { return (of_host_ & kWorldGone) != 0; }
   /// True if this tick has no usable force: the force fades.
-  [[nodiscard]] bool hasFault() const noexcept { return (now_ & (kDeviceInvalid | kForGood)) != 0; }
+  [[nodiscard]] bool hasFault() const noexcept {
+    return (now_ & kDeviceInvalid) != 0 || hasStopped();
+  }
   /// True if the island has stopped for good.
-  [[nodiscard]] bool hasStopped() const noexcept { return (now_ & kForGood) != 0; }
+  [[nodiscard]] bool hasStopped() const noexcept {
+    return (now_ & kForGood) != 0 || stopped_by_ != kTickOk;
+  }
 
   /// Hashes the states at the start of a tick, if anything has moved.
   void addToHash(double now, const Vec3& force_W, const Island& island) noexcept;
@@ -59,7 +80,8 @@ class SiteLog {
 
  private:
   std::uint32_t now_ = kTickOk, ever_ = kTickOk;
-  std::atomic<std::uint32_t> of_host_{kTickOk};
+  std::atomic<std::uint32_t> of_host_{kTickOk}, stopped_by_{kTickOk};
+  std::atomic<bool> is_missing_{false}, has_diverged_{false};
   StateHash hash_;
   RestMark hash_rest_;  ///< when states last went into the hash
   std::vector<BodyRecord> objects_, proxies_;

@@ -31,6 +31,7 @@ SiteParts::SiteParts(const SiteSettings& wanted, btDiscreteDynamicsWorld& world,
       peers(settings, island, bodies, hand.energy(), log),
       sender(settings, island, timeline, bodies, hand, peers, log),
       surroundings(world, settings, island, timeline, clock, bodies, peers, hand, forces, log),
+      objects(world, settings, island, timeline, bodies, peers, hand, forces, surroundings, log),
       rest(world, settings.hip_radius, log) {}
 
 void SiteParts::runTicksUntil(double time) noexcept {
@@ -60,7 +61,7 @@ void SiteParts::passStepWithout(double dt) noexcept {
 bool SiteParts::areBodiesPresent() noexcept {
   bool present = true;
   bodies.forEachPresent([&](SiteBody& body) { present &= body.bullet->isInWorld(); });
-  if (!present) log.raiseFromHost(kBodyMissing);
+  if (!present) log.stop(kBodyMissing);
   return present;
 }
 

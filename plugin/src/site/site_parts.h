@@ -2,6 +2,7 @@
 
 #include "bullet_bridge/src/world/host_world.h"
 #include "live/island_desk.h"
+#include "site/object_watch.h"
 #include "site/packet_sender.h"
 #include "site/rest.h"
 #include "site/surroundings.h"
@@ -27,7 +28,7 @@ struct SiteParts {
   void followHostClock(double dt) noexcept;
   /// Passes a host step in which a body is missing: the hand still gets its fading force.
   void passStepWithout(double dt) noexcept;
-  /// True if all bodies are in the host's world; raises kBodyMissing if not.
+  /// True if all bodies are in the host's world; stops the site if not.
   bool areBodiesPresent() noexcept;
 
   [[nodiscard]] bool ticksInHostStep() const noexcept {
@@ -54,6 +55,7 @@ struct SiteParts {
   Peers peers;
   PacketSender sender;
   Surroundings surroundings;
+  ObjectWatch objects;
   Rest rest;
 };
 

@@ -59,20 +59,10 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
   object.id = static_cast<ObjectId>(bodies.objects.size());
   object.rigid = &rigid;
   object.damping = damping;
-  object.bounding_radius = computeBoundingRadius(shape);
-  object.bullet = std::make_unique<HapticBody>(host_world.world(), rigid,
-                                               1.0 / static_cast<double>(settings.peers));
-  object.body.bullet = object.bullet.get();
-
-  IslandBody body;
-  body.shape = shape;
-  body.mass = object.bullet->mass();
-  body.inertia_B = object.bullet->inertia();
-  body.damping = damping;
-  body.is_rigid = true;
-  body.start = object.bullet->state();
-  host_step->checkObject(body.mass);
-  object.body.index = island.addBody(body);
+  object.hold(host_world.world(), settings.peers, shape);
+  host_step->checkObject(object.settings.mass);
+  object.body.index = island.addBody(object.settings);
+  object.body.is_held = true;
   host_step->addObject(object);
   bodies.objects.push_back(std::move(object));
   tieObjects();
@@ -118,10 +108,7 @@ void Site::Impl::finishSetUp() {
 
 void Site::Impl::listBodies() {
   bodies.clearList();
-  for (SharedObject& object : bodies.objects) {
-    object.body.is_held = true;
-    bodies.list(object.body);
-  }
+  for (SharedObject& object : bodies.objects) bodies.list(object.body);
   for (Neighbour& neighbour : surroundings.neighbours()) bodies.list(neighbour.body);
   for (Peer& peer : peers) {
     if (!peer.proxy.sphere) continue;
@@ -132,7 +119,7 @@ void Site::Impl::listBodies() {
 
 void Site::Impl::beginLive() {
   host_step->beginLive();
-  bodies.forEach([](SiteBody& body) { body.seen = body.bullet->state(); });
+  bodies.forEachPresent([](SiteBody& body) { body.seen = body.bullet->state(); });
   // A live host's steps are irregular, so room for all states that it may ask for is made now.
   const double moments = (kLongestHorizon + settings.host_stall) * kFastestHost;
   timeline.makeRoom(static_cast<std::size_t>(std::min(moments, kMostMoments)));

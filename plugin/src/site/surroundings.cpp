@@ -56,7 +56,7 @@ void Surroundings::makeRoom() {
   from_states_.resize(count);
   to_states_.resize(count);
   asides_.resize(count);
-  newcomers_.reserve(neighbours_.size());
+  newcomers_.reserve(neighbours_.size() + bodies_.objects.size());
   leaving_.reserve(neighbours_.size());
   for (Neighbour& neighbour : neighbours_) neighbour.body.load.makeRoom();
 }
@@ -109,15 +109,18 @@ void Surroundings::lookFarther() {
 }
 
 void Surroundings::searchObstacles(bool everywhere) {
-  const double margin =
-      kStandingMargin + kSafety * mirror_.computeSpeed() * horizon_ + way_by_springs_;
+  const double margin = kStandingMargin + kSafety * mirror_.computeSpeed() * horizon_ +
+                        way_by_springs_ + mirror_.depth;
   has_changed_ |= obstacles_.search(mirror_.states, margin, everywhere ? nullptr : &mirror_.moves);
 }
 
 std::size_t Surroundings::countHapticBodies() const noexcept {
   const auto has_body = [](const Peer& peer) { return peer.proxy.sphere != nullptr; };
   const auto proxies = std::count_if(peers_.begin(), peers_.end(), has_body);
-  return 1 + bodies_.objects.size() + static_cast<std::size_t>(proxies);
+  const auto objects =
+      std::count_if(bodies_.objects.begin(), bodies_.objects.end(),
+                    [](const SharedObject& object) { return object.body.is_held; });
+  return static_cast<std::size_t>(1 + objects + proxies);
 }
 
 void Surroundings::collectSeeds(bool everywhere) {
@@ -126,12 +129,13 @@ void Surroundings::collectSeeds(bool everywhere) {
   };
   const auto state = [&](BodyIndex b) { return mirror_.states[static_cast<std::size_t>(b)]; };
   seeds_.clear();
-  seeds_.push_back(makeSphereSeed(state(hand_.hip()), settings_.hip_radius));
+  seeds_.push_back(makeSphereSeed(state(hand_.hip()), settings_.hip_radius + mirror_.depth));
   for (const Peer& peer : peers_)
     if (peer.proxy.sphere && !is_calm(peer.proxy.body))
-      seeds_.push_back(makeSphereSeed(state(peer.proxy.body.index), settings_.proxy.radius));
+      seeds_.push_back(
+          makeSphereSeed(state(peer.proxy.body.index), settings_.proxy.radius + mirror_.depth));
   for (const SharedObject& object : bodies_.objects)
-    if (!is_calm(object.body))
+    if (object.body.is_held && !object.body.is_leaving && !is_calm(object.body))
       seeds_.push_back(makeSphereSeed(state(object.body.index), object.bounding_radius));
 }
 
@@ -177,37 +181,37 @@ void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step
   }
   mirror_.set(index, neighbour.settings.start, true);
   obstacles_.addBody(index, rigid);
-  for (Peer& peer : peers_)
-    if (peer.proxy.sphere) filterNativeContact(world_, peer.proxy.sphere->rigid(), rigid, true);
+  filterProxies(rigid, true, true);
 }
 
 void Surroundings::hold(btRigidBody& rigid, Neighbour& neighbour) {
   neighbour.bullet = std::make_unique<HapticBody>(world_, rigid, 1.0, Sleep::kAsHost);
   const HapticBody& bullet = *neighbour.bullet;
-  IslandBody& own = neighbour.settings;
-  own.mass = bullet.mass();
-  own.inertia_B = bullet.inertia();
-  own.start = bullet.state();
+  readBody(bullet, neighbour.settings);
   neighbour.lookAtDamping();
   neighbour.followDamping();
   neighbour.body.bullet = neighbour.bullet.get();
   neighbour.body.step.f_gravity_W = bullet.gravityForce();
 }
 
-/// Marks a neighbour as leaving and gives its contact with proxies back to Bullet.
-void Surroundings::leave(Neighbour& neighbour) {
-  neighbour.body.is_leaving = true;
-  leaving_.push_back(&neighbour);
-  const bool is_present = neighbour.isInWorld();
+/// Proxies touch a body that the island holds in the island, else in Bullet.
+void Surroundings::filterProxies(btRigidBody& rigid, bool is_present, bool is_held) {
   for (Peer& peer : peers_) {
     if (!peer.proxy.sphere || !peer.proxy.sphere->isAlive()) continue;
     btRigidBody& proxy = peer.proxy.sphere->rigid();
     if (is_present) {
-      filterNativeContact(world_, proxy, *neighbour.rigid, false);
+      filterNativeContact(world_, proxy, rigid, is_held);
     } else {
-      proxy.setIgnoreCollisionCheck(neighbour.rigid, false);
+      proxy.setIgnoreCollisionCheck(&rigid, false);
     }
   }
+}
+
+/// Marks a neighbour as leaving and gives its contact with proxies back to Bullet.
+void Surroundings::leave(Neighbour& neighbour) {
+  neighbour.body.is_leaving = true;
+  leaving_.push_back(&neighbour);
+  filterProxies(*neighbour.rigid, neighbour.isInWorld(), false);
   obstacles_.removeBody(neighbour.body.index);
   mirror_.set(neighbour.body.index, RigidState{}, false);
 }
@@ -217,6 +221,24 @@ void Surroundings::leaveAll() {
     if (!neighbour.rigid || neighbour.body.is_leaving) continue;
     leave(neighbour);
   }
+}
+
+void Surroundings::releaseBody(BodyIndex index, btRigidBody& rigid, bool is_present) {
+  obstacles_.removeBody(index);
+  search_.include(rigid);
+  filterProxies(rigid, is_present, false);
+}
+
+void Surroundings::holdBody(BodyIndex index, btRigidBody& rigid, const RigidState& start) {
+  search_.exclude(rigid);
+  if (settings_.injection == Injection::kHandoff) obstacles_.addBody(index, rigid);
+  mirror_.set(index, start, true);
+  filterProxies(rigid, true, true);
+}
+
+bool Surroundings::isNeighbour(const btRigidBody& rigid) const noexcept {
+  return std::any_of(neighbours_.begin(), neighbours_.end(),
+                     [&](const Neighbour& neighbour) { return neighbour.rigid == &rigid; });
 }
 
 void Surroundings::giveBack() {

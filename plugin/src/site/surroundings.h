@@ -38,10 +38,23 @@ class Surroundings {
   void addSlots(int count);
   void addSphere(BodyIndex index, double radius) { obstacles_.addSphere(index, radius); }
   void addBody(BodyIndex index, btRigidBody& rigid) { obstacles_.addBody(index, rigid); }
-  /// Excludes a body that the island always holds.
+  /// Excludes a body that the island holds whenever it can.
   void exclude(const btRigidBody& rigid) { search_.exclude(rigid); }
   /// Allocates.
   void makeRoom();
+  /// @}
+
+  /// @name For a shared object that leaves the island or comes back.
+  /// @{
+  /// In the host's thread. Meanwhile it may be a neighbour or an obstacle like any body.
+  /// `is_present`: it is in the host's world.
+  void releaseBody(BodyIndex index, btRigidBody& rigid, bool is_present);
+  void holdBody(BodyIndex index, btRigidBody& rigid, const RigidState& start);
+  [[nodiscard]] bool isNeighbour(const btRigidBody& rigid) const noexcept;
+  /// In the thread that ticks, after the island was filled: it catches up with the island's time.
+  void addNewcomer(BodyIndex index) noexcept { newcomers_.push_back(index); }
+  /// Newcomers start with their state at the host's time; the island may be ahead of it.
+  void catchUp() noexcept;
   /// @}
 
   [[nodiscard]] std::vector<Neighbour>& neighbours() noexcept { return neighbours_; }
@@ -55,6 +68,8 @@ class Surroundings {
   /// up to `age` old [s]. `everywhere`: also around parked bodies with nothing awake near them,
   /// which are otherwise searched less often.
   void look(double dt, double step_end, double age, bool everywhere = false);
+  /// Searches for standing objects; `everywhere` as in look().
+  void searchObstacles(bool everywhere);
   /// Longest time until the host's next search, after a step of `dt` [s].
   [[nodiscard]] double computeHorizon(double dt) const noexcept;
   /// True if springs may move a body beyond the searched range.
@@ -94,6 +109,7 @@ class Surroundings {
     std::vector<RigidState> states;  ///< by body
     std::vector<char> moves;         ///< by body: awake at the copy
     double island_time = 0.0;
+    double depth = 0.0;  ///< Island::deepestTouch() [m]
 
     void set(BodyIndex body, const RigidState& state, bool is_awake) noexcept;
     [[nodiscard]] double computeSpeed() const noexcept;
@@ -102,14 +118,13 @@ class Surroundings {
   [[nodiscard]] std::size_t countHapticBodies() const noexcept;
   void lookForNeighbours(double horizon, double step_end, bool everywhere);
   void collectSeeds(bool everywhere);
-  void searchObstacles(bool everywhere);
   [[nodiscard]] bool isTurnOfFullLook() noexcept;
   void promote(btRigidBody& rigid, Neighbour& neighbour, double step_end);
   void hold(btRigidBody& rigid, Neighbour& neighbour);
+  void filterProxies(btRigidBody& rigid, bool is_present, bool is_held);
   void leave(Neighbour& neighbour);
   void takeOut(Neighbour& neighbour) noexcept;
   void takeNewcomers() noexcept;
-  void catchUp() noexcept;
   void readStates(double time, std::vector<RigidState>& states) noexcept;
   [[nodiscard]] double computeSpeedInSprings() const noexcept;
 

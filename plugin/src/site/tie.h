@@ -15,8 +15,13 @@ struct Tie {
   RigidState theirs;                      ///< latest state of the peer's copy
   Detour detour;                          ///< of the coupler's target, after a silence
   std::optional<std::uint64_t> sequence;  ///< packet of that state
-  double velocity_share = 1.0;            ///< of the target's velocity; silence lowers it
-  MotionLimit motion;                     ///< of the peer's copy
+  std::optional<std::uint64_t> awaited;   ///< no force before this packet or a later one
+  std::uint64_t heard_at = 0;             ///< Peer::packets_heard at that state
+  /// The host put our copy elsewhere: no force until the peer's copy has followed, or this time
+  /// [s].
+  double away_until = 0.0;
+  double velocity_share = 1.0;  ///< of the target's velocity; silence lowers it
+  MotionLimit motion;           ///< of the peer's copy
 
   /// The coupler's target.
   [[nodiscard]] RigidState computeTarget() const noexcept {

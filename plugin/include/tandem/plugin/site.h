@@ -26,10 +26,10 @@ struct StatePacket;
 /// Report of a tick. Each bit names the remedy.
 enum TickStatus : std::uint32_t {
   kTickOk = 0,
-  kDeviceInvalid = 1u << 0,  ///< no usable device reading, no force: check the device's cable
-  kBodyMissing = 1u << 1,    ///< a body of ours left the host's world: put it back, make a new Site
-  kPacketRefused = 1u << 2,  ///< a packet was invalid (NaN, no unit quaternion): check the sender
-  kHostStepWrong = 1u << 3,  ///< impulse injection without host steps at the haptic rate: hand off
+  kDeviceInvalid = 1u << 0,   ///< no usable device reading, no force: check the device's cable
+  kBodyMissing = 1u << 1,     ///< a body of ours is not in the host's world: put it back
+  kPacketRefused = 1u << 2,   ///< a packet was invalid (NaN, no unit quaternion): check the sender
+  kHostStepWrong = 1u << 3,   ///< impulse injection without host steps at the haptic rate: hand off
   kStateNotFinite = 1u << 4,  ///< the island diverged, no force any more: lower gains or inner_step
   kWorldGone = 1u << 5,   ///< the world is gone, the force fades: destroy a site before its world
   kOutOfRange = 1u << 6,  ///< a body is too far or fast for packets: move the world to its origin
@@ -59,6 +59,7 @@ struct SiteCounters {
   std::uint64_t energy_limited = 0;      ///< ticks in which the energy limit acted
   std::uint64_t promoted = 0;            ///< host bodies taken into the island
   std::uint64_t demoted = 0;             ///< host bodies given back to Bullet
+  std::uint64_t objects_left = 0;        ///< times that a shared object was left to Bullet
 };
 
 /// One user's side of a networked haptic cooperation, attached to a Bullet world of the host.
@@ -78,9 +79,10 @@ struct SiteCounters {
 ///
 /// If the world is destroyed first, its bodies are restored at that moment and the site reports
 /// kWorldGone. A body removed from its world is ignored from the next step on (kBodyMissing), and
-/// may then be deleted. It must outlive the site, however, with the joints of
-/// ContactModel::kSpring6Dof and kPointToPoint, and with a guide and a native model. Device and
-/// links may go once nothing ticks the site.
+/// may then be deleted. Put back, the same or another at its address, it is shared again; see
+/// isHeld(). With a guide or a native model the site stops instead. With the joints of
+/// ContactModel::kSpring6Dof and kPointToPoint, and with a guide and a native model, it must
+/// outlive the site. Device and links may go once nothing ticks the site.
 ///
 /// With nothing shared and nobody connected the hand feels the bodies of the world. The host's
 /// simulation is then the same to the bit, except that native models add the hand as a body. The
@@ -96,11 +98,11 @@ class Site {
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
 
-  /// Shares a dynamic box, sphere, capsule, cylinder or convex hull of the host's world. Its mass
-  /// and inertia become m/N of their value until the site ends. A body that hits it here in Bullet
-  /// therefore pushes it N times as easily: a body beyond max_neighbours, a multi-body, a cloth.
-  /// The hit's momentum is that of m/N; couplers share it with the other N - 1 copies until all
-  /// move as one mass m would.
+  /// Shares a dynamic box, sphere, capsule, cylinder, cone or convex hull of the host's world. Its
+  /// mass and inertia become m/N of their value until the site ends. A body that hits it here in
+  /// Bullet therefore pushes it N times as easily: a body beyond max_neighbours, a multi-body, a
+  /// cloth. The hit's momentum is that of m/N; couplers share it with the other N - 1 copies until
+  /// all move as one mass m would.
   ///
   /// `damping` b acts on this copy [N s/m]. All peers share the same objects in the same order,
   /// which identifies them. At most kMaxSharedObjects. With hand-off the body sleeps in Bullet
@@ -148,6 +150,10 @@ class Site {
   [[nodiscard]] const RigidState& hip() const noexcept;
   [[nodiscard]] const RigidState& object(ObjectId id) const noexcept;
   [[nodiscard]] int objectCount() const noexcept;
+  /// False while a shared object is left to Bullet, because the island cannot hold its body: it is
+  /// not in the world, static, kinematic, without contact response, or has DISABLE_SIMULATION.
+  /// Peers follow it there, but do not move it. For the thread that steps the world.
+  [[nodiscard]] bool isHeld(ObjectId id) const noexcept;
   [[nodiscard]] int remoteCount() const noexcept;
   /// Null if the scheme has no body for a remote user.
   [[nodiscard]] const RigidState* proxy(int remote) const noexcept;

@@ -1,0 +1,137 @@
+#include "site/object_watch.h"
+
+#include "tandem/bullet_bridge/shapes.h"
+
+#include "bullet_bridge/src/bodies/body_look.h"
+#include "bullet_bridge/src/world/world_access.h"
+
+namespace tandem {
+
+/// True if the island may hold the body. It must be in its world.
+bool ObjectWatch::mayHold(const SharedObject& object) const noexcept {
+  return isMovedByForces(*object.rigid) && isFinite(readState(*object.rigid));
+}
+
+bool ObjectWatch::findChanged() {
+  bool is_missing = false;
+  for (SharedObject& object : bodies_.objects) {
+    if (!object.body.is_held || object.body.is_leaving) {
+      is_missing |= !object.is_there;
+      continue;
+    }
+    object.is_there = object.bullet->isInWorld();
+    is_missing |= !object.is_there;
+    if (!object.is_there || !object.bullet->isAsHeld() || !mayHold(object)) leave(object);
+  }
+  for (Peer& peer : peers_) {
+    if (!peer.proxy.sphere) continue;
+    SiteBody& body = peer.proxy.body;
+    // The island moves it on, without a body in Bullet.
+    body.is_leaving = !peer.proxy.sphere->isAlive() || !body.bullet->isInWorld();
+    is_missing |= body.is_leaving;
+  }
+  log_.setMissing(is_missing);
+  return are_leaving_;
+}
+
+void ObjectWatch::leaveAll() {
+  for (SharedObject& object : bodies_.objects)
+    if (object.body.is_held && !object.body.is_leaving) leave(object);
+}
+
+void ObjectWatch::leave(SharedObject& object) {
+  object.body.is_leaving = true;
+  // Nothing is taken back from it after this step.
+  object.body.step.hit = {};
+  object.body.step.was_parked = true;
+  are_leaving_ = true;
+  ++left_;
+  ++log_.counters.objects_left;
+  surroundings_.releaseBody(object.body.index, *object.rigid, object.is_there);
+}
+
+void ObjectWatch::takeLeaving() noexcept {
+  if (!are_leaving_) return;
+  for (SharedObject& object : bodies_.objects) {
+    SiteBody& body = object.body;
+    if (!body.is_leaving || !body.is_held) continue;
+    const RigidState last = island_.state(body.index);
+    hand_.energy().countNeighbour(island_.body(body.index), last, -1.0);
+    object.owed = forces_.computeOwed(body);
+    island_.clear(body.index);
+    island_.setState(body.index, last);
+    body.is_held = false;
+    object.is_sent = object.is_there;
+  }
+}
+
+void ObjectWatch::giveBack() {
+  if (!are_leaving_) return;
+  are_leaving_ = false;
+  for (SharedObject& object : bodies_.objects) {
+    if (!object.body.is_leaving || object.body.is_held) continue;
+    object.body.is_leaving = false;
+    object.body.bullet = nullptr;
+    // A missing body may come back; its mass is restored then.
+    if (!object.is_there) continue;
+    object.bullet->applyWrench(object.owed.linear_W, object.owed.angular_W, 1.0);
+    object.bullet.reset();
+  }
+}
+
+bool ObjectWatch::findReturned() {
+  if (left_ == 0) return false;
+  bool is_any_new = false;
+  for (SharedObject& object : bodies_.objects) {
+    if (object.body.is_held || object.body.is_leaving || object.is_new) continue;
+    int hint = -1;
+    object.is_there = findRigidBody(world_, object.rigid, hint) != nullptr;
+    if (!object.is_there) continue;
+    object.bullet.reset();
+    object.seen = readState(*object.rigid);
+    if (!mayHold(object) || surroundings_.isNeighbour(*object.rigid)) continue;
+    object.is_new = hold(object);
+    is_any_new |= object.is_new;
+  }
+  return is_any_new;
+}
+
+/// False if the body has a shape now that cannot be shared.
+bool ObjectWatch::hold(SharedObject& object) {
+  const std::optional<Shape> shape = findShareableShape(*object.rigid);
+  if (!shape) return false;
+  object.hold(world_, settings_.peers, *shape);
+  object.body.step = {};
+  object.body.load = {};
+  object.body.load.makeRoom();
+  object.body.step.f_gravity_W = object.bullet->gravityForce();
+  surroundings_.holdBody(object.body.index, *object.rigid, object.settings.start);
+  return true;
+}
+
+void ObjectWatch::take() noexcept {
+  takeLeaving();
+  if (left_ == 0) return;
+  for (SharedObject& object : bodies_.objects) {
+    SiteBody& body = object.body;
+    if (object.is_new) {
+      object.is_new = false;
+      object.is_sent = true;
+      --left_;
+      body.is_held = true;
+      body.seen = object.settings.start;
+      island_.fill(body.index, object.settings);
+      forces_.setWeight(body, body.step.f_gravity_W);
+      timeline_.setStart(body.index, object.settings.start);
+      surroundings_.addNewcomer(body.index);
+      peers_.awaitNews(object);
+    } else if (!body.is_held) {
+      object.is_sent = object.is_there;
+      if (!object.is_there) continue;
+      island_.setState(body.index, object.seen);
+      body.seen = object.seen;
+    }
+  }
+}
+
+}  // namespace tandem

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <vector>
+
+#include "site/host_forces.h"
+#include "site/local_hand.h"
+#include "site/peers.h"
+#include "site/surroundings.h"
+
+class btDiscreteDynamicsWorld;
+
+namespace tandem {
+
+// clang-format off
+/// Leaves a shared object to Bullet while the island cannot hold it, and holds it again afterwards:
+///
+///   taken out of its world        its state is not sent; peers let go of their copies' ties
+///   pinned, led, switched off     Bullet moves it; its state is sent, so that peers follow
+///   another mass or shape         held again at once as it is now, or after Bullet's step if it
+///                                 changed in that
+///
+/// An object that is held again starts without forces of peers. They begin with their next state.
+///
+///     host's thread      findChanged               giveBack  findReturned
+///     thread that ticks               takeLeaving                          take
+// clang-format on
+class ObjectWatch {
+ public:
+  ObjectWatch(btDiscreteDynamicsWorld& world, const SiteSettings& settings, Island& island,
+              Timeline& timeline, Bodies& bodies, Peers& peers, LocalHand& hand, HostForces& forces,
+              Surroundings& surroundings, SiteLog& log)
+      : world_(world),
+        settings_(settings),
+        island_(island),
+        timeline_(timeline),
+        bodies_(bodies),
+        peers_(peers),
+        hand_(hand),
+        forces_(forces),
+        surroundings_(surroundings),
+        log_(log) {}
+
+  /// @name For the thread that steps the host's world.
+  /// @{
+  /// Marks the objects that the island must leave, and proxies that the host has taken out. True if
+  /// an object must leave.
+  bool findChanged();
+  /// Marks all objects.
+  void leaveAll();
+  /// True if some object is marked, and not given back yet.
+  [[nodiscard]] bool areLeaving() const noexcept { return are_leaving_; }
+  /// True if some object is left to Bullet.
+  [[nodiscard]] bool hasLeft() const noexcept { return left_ > 0; }
+  /// Reads Bullet's states of objects that are left to it, and holds those again that may be held.
+  /// True if there are any. May allocate.
+  bool findReturned();
+  /// Gives objects that left the island back to the host.
+  void giveBack();
+  /// @}
+
+  /// @name For the thread that ticks, while the host's thread waits. Real-time safe.
+  /// @{
+  void takeLeaving() noexcept;
+  /// Applies the results of findReturned().
+  void take() noexcept;
+  /// @}
+
+ private:
+  [[nodiscard]] bool mayHold(const SharedObject& object) const noexcept;
+  void leave(SharedObject& object);
+  bool hold(SharedObject& object);
+
+  btDiscreteDynamicsWorld& world_;
+  const SiteSettings& settings_;
+  Island& island_;
+  Timeline& timeline_;
+  Bodies& bodies_;
+  Peers& peers_;
+  LocalHand& hand_;
+  HostForces& forces_;
+  Surroundings& surroundings_;
+  SiteLog& log_;
+  bool are_leaving_ = false;
+  int left_ = 0;  ///< objects that the island does not hold
+};
+
+}  // namespace tandem

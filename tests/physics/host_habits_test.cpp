@@ -1,0 +1,344 @@
+// Hosts pin, remove, lead, switch off and rescale bodies at run time. The island leaves such a body
+// to Bullet, and nothing else changes.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "physics/neighbour_scene.h"
+
+namespace tandem {
+namespace {
+
+using test::kGravity;
+using test::NeighbourScene;
+
+/// A shared cube on a floor, and boxes of the host beside it.
+struct Habits : NeighbourScene {
+  Habits() : NeighbourScene(true) {
+    addFloor();
+    addCube(Vec3(0.0, 0.0, kHalf));
+    addBox(Vec3(0.045, 0.0, kHalf));
+    addBox(Vec3(-0.045, 0.0, kHalf));
+    start();
+    run(0.2);
+  }
+
+  [[nodiscard]] btDiscreteDynamicsWorld& world() { return rig.world; }
+  void expectBoxesStand() const {
+    for (const btRigidBody* box : boxes) EXPECT_NEAR(positionOf(*box).z(), kHalf, 1e-4);
+  }
+  /// Pins a body as hosts do it, or frees it.
+  void setMass(btRigidBody& body, double mass) {
+    world().removeRigidBody(&body);
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0.0)
+      body.getCollisionShape()->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+    body.setMassProps(static_cast<btScalar>(mass), inertia);
+    body.updateInertiaTensor();
+    world().addRigidBody(&body);
+  }
+};
+
+TEST(HostHabits, APinnedNeighbourStands) {
+  Habits scene;
+  ASSERT_EQ(scene.site->neighbourCount(), 2);
+  scene.setMass(*scene.boxes[0], 0.0);
+  scene.run(1.0);
+  EXPECT_EQ(scene.site->status(), kTickOk);
+  EXPECT_EQ(scene.site->neighbourCount(), 1);
+  scene.expectBoxesStand();
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf, 1e-4);
+}
+
+TEST(HostHabits, APinnedSharedBodyStandsAndIsSharedAgain) {
+  Habits scene;
+  scene.setMass(*scene.cube, 0.0);
+  scene.run(0.5);
+  EXPECT_EQ(scene.site->status(), kTickOk);
+  EXPECT_FALSE(scene.site->isHeld(0));
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf, 1e-4);
+  scene.expectBoxesStand();
+  scene.setMass(*scene.cube, 2.0 * NeighbourScene::kCubeMass);
+  scene.run(0.5);
+  EXPECT_TRUE(scene.site->isHeld(0));
+  EXPECT_NEAR(1.0 / scene.cube->getInvMass(), NeighbourScene::kCubeMass, 1e-6);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf, 1e-4);
+}
+
+TEST(HostHabits, ARemovedSharedBodyTakesOnlyItselfWithIt) {
+  Habits scene;
+  btRigidBody& second =
+      scene.rig.addCube(0.2, NeighbourScene::kHalf, Vec3(0.0, 0.1, NeighbourScene::kHalf));
+  scene.site->share(second);
+  scene.run(0.2);
+  scene.world().removeRigidBody(scene.cube);
+  scene.run(2.0);
+  EXPECT_EQ(scene.site->status(), kBodyMissing);
+  EXPECT_FALSE(scene.site->isHeld(0));
+  EXPECT_TRUE(scene.site->isHeld(1));
+  EXPECT_NEAR(NeighbourScene::positionOf(second).z(), NeighbourScene::kHalf, 1e-4);
+  scene.expectBoxesStand();
+  scene.world().addRigidBody(scene.cube);
+  scene.run(0.5);
+  EXPECT_TRUE(scene.site->isHeld(0));
+  EXPECT_NEAR(1.0 / scene.cube->getInvMass(), NeighbourScene::kCubeMass, 1e-6);
+  scene.site.reset();
+  EXPECT_NEAR(1.0 / scene.cube->getInvMass(), 2.0 * NeighbourScene::kCubeMass, 1e-6);
+}
+
+TEST(HostHabits, AnotherMassOfASharedBodyIsFollowed) {
+  Habits scene;
+  scene.setMass(*scene.cube, 4.0);  // the copy has half of it
+  scene.run(0.2);
+  ASSERT_TRUE(scene.site->isHeld(0));
+  const double before = NeighbourScene::velocityOf(*scene.cube).z();
+  scene.cube->applyCentralForce(btVector3(0, 0, btScalar(2.0 * (kGravity + 30.0))));
+  scene.run(1.0 / 60.0);
+  EXPECT_NEAR(NeighbourScene::velocityOf(*scene.cube).z() - before, 30.0 / 60.0, 0.02);
+}
+
+TEST(HostHabits, AScaledSharedBodyRestsOnItsNewSurface) {
+  Habits scene;
+  scene.cube->getCollisionShape()->setLocalScaling(btVector3(1, 1, 3));
+  scene.cube->translate(btVector3(0, 0, btScalar(2.0 * NeighbourScene::kHalf)));
+  scene.run(1.0);
+  EXPECT_TRUE(scene.site->isHeld(0));
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), 3.0 * NeighbourScene::kHalf, 1e-4);
+}
+
+TEST(HostHabits, ASharedBodyWithoutContactResponseFalls) {
+  Habits scene;
+  scene.cube->setCollisionFlags(scene.cube->getCollisionFlags() |
+                                btCollisionObject::CF_NO_CONTACT_RESPONSE);
+  scene.cube->activate(true);
+  scene.run(0.5);
+  EXPECT_LT(NeighbourScene::positionOf(*scene.cube).z(), -0.5);
+  scene.expectBoxesStand();
+}
+
+TEST(HostHabits, ASharedBodyIsLedAndLetGo) {
+  Habits scene;
+  const int flags = scene.cube->getCollisionFlags();
+  scene.cube->setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
+  scene.cube->setActivationState(DISABLE_DEACTIVATION);
+  double z = NeighbourScene::kHalf;
+  scene.run(0.5, 60.0, [&] {
+    z += 0.01;
+    scene.cube->setWorldTransform(toBullet(Vec3(0.0, 0.0, z), Quat::Identity()));
+    scene.cube->setInterpolationWorldTransform(scene.cube->getWorldTransform());
+  });
+  EXPECT_NEAR(scene.site->object(0).p_W.z(), z - 0.01, 1e-6);  // as of the last step
+  scene.cube->setCollisionFlags(flags);
+  scene.cube->setLinearVelocity(btVector3(0, 0, 0));
+  scene.run(2.0);
+  EXPECT_TRUE(scene.site->isHeld(0));
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf, 1e-3);
+}
+
+TEST(HostHabits, AHandFeelsASharedBodyThatIsPinnedOrLed) {
+  for (const bool is_led : {false, true}) {
+    Habits scene;
+    if (is_led) {
+      scene.cube->setCollisionFlags(scene.cube->getCollisionFlags() |
+                                    btCollisionObject::CF_KINEMATIC_OBJECT);
+      scene.cube->setActivationState(DISABLE_DEACTIVATION);
+    } else {
+      scene.setMass(*scene.cube, 0.0);
+    }
+    scene.run(0.2);
+    double z = 2.0 * NeighbourScene::kHalf + 0.015;
+    scene.run(0.6, 60.0, [&] {
+      z = std::max(z - 2e-4, 2.0 * NeighbourScene::kHalf + 0.009);
+      scene.device.sample.hip.p_W = Vec3(0.0, 0.0, z);
+    });
+    const double depth = 2.0 * NeighbourScene::kHalf + scene.settings.hip_radius - z;
+    EXPECT_NEAR(scene.device.force_W.z(), 2000.0 * depth, 0.05) << is_led;
+  }
+}
+
+TEST(HostHabits, ASharedBodyThatIsSwitchedOffStays) {
+  Habits scene;
+  scene.cube->translate(btVector3(0, 0, 1));
+  scene.run(0.1);
+  const double z = NeighbourScene::positionOf(*scene.cube).z();
+  scene.cube->forceActivationState(DISABLE_SIMULATION);
+  scene.run(1.0);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), z, 0.05);
+  EXPECT_FALSE(scene.site->isHeld(0));
+}
+
+// As most hosts make one: without mass, so that both flags are set.
+TEST(HostHabits, AKinematicBodyWithoutMassMayComeNear) {
+  Habits scene;
+  btRigidBody& lift = scene.rig.addBody(
+      scene.rig.makeShape<btBoxShape>(btVector3(btScalar(0.02), btScalar(0.02), btScalar(0.02))),
+      0.0, Vec3(0.0, 0.045, NeighbourScene::kHalf));
+  lift.setCollisionFlags(lift.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  scene.run(0.2);
+  EXPECT_EQ(scene.site->status(), kTickOk);
+  scene.expectBoxesStand();
+}
+
+TEST(HostHabits, ABodyThatMayNotTurnDoesNotTurn) {
+  Habits scene;
+  btRigidBody& figure =
+      scene.rig.addBody(scene.rig.makeShape<btCapsuleShapeZ>(btScalar(0.02), btScalar(0.06)), 1.0,
+                        Vec3(0.0, 0.06, 0.05));
+  figure.setAngularFactor(btVector3(0, 0, 0));
+  figure.setFriction(btScalar(0.5));
+  scene.run(1.0, 60.0, [&] { figure.setLinearVelocity(btVector3(0, btScalar(-0.1), 0)); });
+  EXPECT_NEAR(fromBullet(figure.getOrientation()).angularDistance(Quat::Identity()), 0.0, 1e-6);
+}
+
+/// Two sites with a copy of one cube each, 20 ms apart unless said.
+struct TwoHosts {
+  NeighbourScene here{true}, there{true};
+  double delay = 0.02;
+
+  TwoHosts() {
+    for (int i = 0; i < 2; ++i) {
+      NeighbourScene& scene = *scenes_[i];
+      scene.settings.self = PeerId{static_cast<std::uint32_t>(i) + 1};
+      scene.settings.coordination = {50.0, 3.0};  // stable at this delay
+      scene.rig.addBody(scene.rig.makeShape<btBoxShape>(btVector3(20, 20, 1)), 0.0,
+                        Vec3(0.0, 0.0, -1.0));
+      scene.start(Vec3(0.0, 0.0, NeighbourScene::kHalf));
+      scene.site->connect(PeerId{static_cast<std::uint32_t>(2 - i)}, links_[i], Vec3(0, 15, 5));
+    }
+    run(0.5);
+  }
+
+  /// Runs both; `push` [N] acts on the other host's cube. Returns the greatest speed of a cube.
+  double run(double duration, double push = 0.0) {
+    double fastest = 0.0;
+    for (int step = 0; step < duration * 60.0; ++step) {
+      if (push != 0.0) there.cube->activate(true);
+      there.cube->applyCentralForce(btVector3(static_cast<btScalar>(push), 0, 0));
+      for (int i = 0; i < 2; ++i) {
+        scenes_[i]->rig.step(1.0 / 60.0);
+        for (const StatePacket& packet : links_[i].sent)
+          links_[1 - i].arrivals.push_back({packet, packet.time + delay});
+        links_[i].sent.clear();
+        fastest = std::max(fastest, NeighbourScene::velocityOf(*scenes_[i]->cube).norm());
+      }
+    }
+    return fastest;
+  }
+
+  static double x(const NeighbourScene& scene) {
+    return NeighbourScene::positionOf(*scene.cube).x();
+  }
+  static void put(NeighbourScene& scene, double x) {
+    const btTransform pose = toBullet(Vec3(x, 0.0, NeighbourScene::kHalf), Quat::Identity());
+    scene.cube->setWorldTransform(pose);
+    scene.cube->setInterpolationWorldTransform(pose);
+  }
+
+ private:
+  NeighbourScene* scenes_[2] = {&here, &there};
+  test::FakeLink links_[2] = {test::FakeLink(4096), test::FakeLink(4096)};
+};
+
+TEST(HostHabits, PeersFollowAnObjectThatIsLeftToBullet) {
+  TwoHosts hosts;
+  NeighbourScene &here = hosts.here, &there = hosts.there;
+  const int flags = here.cube->getCollisionFlags();
+  here.cube->setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
+  hosts.put(here, 0.05);
+  hosts.run(1.0);
+  EXPECT_NEAR(hosts.x(there), 0.05, 0.01);
+  hosts.run(0.5, 0.5);  // held by the spring
+  EXPECT_NEAR(hosts.x(there), 0.05, 0.01);
+  here.rig.world.removeRigidBody(here.cube);
+  hosts.run(0.5, 0.5);  // nothing holds it now
+  EXPECT_GT(hosts.x(there), 0.15);
+  here.cube->setCollisionFlags(flags);
+  here.rig.world.addRigidBody(here.cube);
+  EXPECT_LT(hosts.run(4.0), 2.0);  // a spring between them would throw it at 6 m/s
+  EXPECT_TRUE(here.site->isHeld(0));
+  EXPECT_NEAR(hosts.x(there), hosts.x(here), 0.01);
+}
+
+// It was thrown back by 0.9 m at 6.2 m/s, and from 10 m at 62 m/s.
+TEST(HostHabits, BothHostsPutTheObjectElsewhere) {
+  for (const double delay : {0.0, 0.05, 1.0}) {
+    for (const double place : {1.0, 10.0}) {
+      SCOPED_TRACE(std::to_string(delay) + " s, to " + std::to_string(place) + " m");
+      TwoHosts hosts;
+      hosts.delay = delay;
+      hosts.run(2.5);
+      hosts.put(hosts.here, place);
+      hosts.put(hosts.there, place);
+      EXPECT_LT(hosts.run(6.0), 0.05);
+      EXPECT_NEAR(hosts.x(hosts.here), place, 1e-3);
+      EXPECT_NEAR(hosts.x(hosts.there), place, 1e-3);
+    }
+  }
+}
+
+TEST(HostHabits, PeersFollowWhereAHostPutsTheObject) {
+  for (const double place : {0.3, 4.0}) {
+    TwoHosts hosts;
+    hosts.put(hosts.here, place);
+    const double fastest = hosts.run(6.0);
+    EXPECT_LT(fastest, std::max(0.4, 0.7 * place)) << place;
+    EXPECT_NEAR(hosts.x(hosts.here), place, 0.02);
+    EXPECT_NEAR(hosts.x(hosts.there), hosts.x(hosts.here), 0.01);
+    EXPECT_LT(hosts.run(1.0), 0.01);
+  }
+}
+
+TEST(HostHabits, BodiesAreBulletsWhileNobodyTicks) {
+  NeighbourScene scene(true);
+  scene.settings.tick_source = TickSource::kCaller;
+  scene.addBox(Vec3(0.0, 0.045, 1.0));
+  scene.start(Vec3(0.0, 0.0, 1.0));
+  double now = 0.0;
+  const auto tick = [&] {
+    for (int i = 0; i < 16; ++i) scene.site->tick(now += 1e-3);
+  };
+  const auto hold = [&] {
+    for (btRigidBody* body : {scene.cube, scene.boxes[0]}) body->setLinearVelocity({0, 0, 0});
+    tick();
+  };
+  scene.run(0.1, 62.5, hold);
+  ASSERT_EQ(scene.site->neighbourCount(), 1);
+  const double z = NeighbourScene::positionOf(*scene.boxes[0]).z();
+  scene.run(1.0, 62.5);
+  EXPECT_EQ(scene.site->neighbourCount(), 0);
+  EXPECT_FALSE(scene.site->isHeld(0));
+  EXPECT_LT(NeighbourScene::positionOf(*scene.boxes[0]).z(), z - 2.0);
+  EXPECT_LT(NeighbourScene::positionOf(*scene.cube).z(), z - 2.0);
+  now += 1.0;
+  scene.run(0.2, 62.5, tick);
+  EXPECT_TRUE(scene.site->isHeld(0));
+  EXPECT_EQ(scene.site->status(), kTickOk);
+}
+
+TEST(HostHabits, AnIslandThatDivergedGivesEverythingBackAtOnce) {
+  NeighbourScene scene(true);
+  scene.settings.contact = {1e300, 0.0};
+  scene.addFloor();
+  scene.addCube(Vec3(0.0, 0.0, NeighbourScene::kHalf));
+  for (const double x : {-0.045, 0.045}) scene.addBox(Vec3(x, 0.0, NeighbourScene::kHalf));
+  scene.start();
+  test::FakeLink link;
+  scene.site->connect(PeerId{2}, link, Vec3(0.0, 1.0, 1.0));
+  scene.run(0.1);
+  ASSERT_EQ(scene.site->neighbourCount(), 2);
+  scene.device.sample.hip.p_W = Vec3(0.0, 0.0, 2.0 * NeighbourScene::kHalf);
+  scene.run(2.0);
+  ASSERT_TRUE(scene.site->status() & kStateNotFinite);
+  EXPECT_EQ(scene.site->neighbourCount(), 0);
+  EXPECT_EQ(scene.cube->getInvMass(), btScalar(1) / btScalar(2.0 * NeighbourScene::kCubeMass));
+  EXPECT_NE(scene.site->proxyBody(0), nullptr);
+  for (const btRigidBody* box : scene.boxes)
+    EXPECT_NEAR(NeighbourScene::positionOf(*box).z(), NeighbourScene::kHalf, 1e-3);
+  EXPECT_TRUE(NeighbourScene::positionOf(*scene.cube).allFinite());
+}
+
+}  // namespace
+}  // namespace tandem
