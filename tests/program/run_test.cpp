@@ -1,5 +1,7 @@
 // Use of `tandem run`: options, outputs, exit status.
 
+#include <cstdio>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -163,6 +165,16 @@ TEST(Run, OutReplacesAnOlderRun) {
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(readColumns(out + "/site1.csv").at("t").size(), 100u);
   EXPECT_EQ(readFile(out + "/summary.json"), again.out);
+}
+
+TEST(Program, SaysItsVersion) {
+  const Outcome outcome = runTandem({"--version"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  unsigned major = 0, minor = 0, patch = 0;
+  char end = 0;
+  EXPECT_EQ(std::sscanf(outcome.out.c_str(), "tandem %u.%u.%u%c", &major, &minor, &patch, &end), 4);
+  EXPECT_EQ(end, '\n');
 }
 
 }  // namespace

@@ -67,7 +67,9 @@ bool Arguments::has(const std::string& command) const { return app_.got_subcomma
 
 CommandLine::CommandLine(const std::string& name, const std::string& summary)
     : app_(std::make_unique<CLI::App>(summary, name)),
-      arguments_(std::make_unique<Arguments>(*app_)) {}
+      arguments_(std::make_unique<Arguments>(*app_)) {
+  app_->set_version_flag("--version", fmt::format("{} {}", name, TANDEM_VERSION));
+}
 
 CommandLine::~CommandLine() = default;
 
