@@ -74,7 +74,7 @@ class Table:
 
 
 def _fault_of(cell):
-    """What keeps a cell from being a number; empty if it is one."""
+    """Reason why a cell is not a number; empty if it is one."""
     try:
         value = float(cell)
     except ValueError:

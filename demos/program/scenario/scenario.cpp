@@ -65,7 +65,7 @@ void applyTable(Scenario& scenario, const std::string& file, const std::string& 
   }
 }
 
-/// Table with the value of an override. One that is not valid TOML is a text without its quotes.
+/// Table with the value of an override. A value that is not valid TOML is a text without quotes.
 toml::table parseValue(const std::string& key, const std::string& value) {
   const std::string plain = "value = " + value;
   try {
