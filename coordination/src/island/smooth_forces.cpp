@@ -256,6 +256,7 @@ void SmoothForces::push(Contact& contact, Look look) noexcept {
   const double rate = -dot(n, sphere.v - other.v - cross(other.w, arm));
   const double force = contact.gains.stiffness * overlap + contact.gains.damping * rate;
   if (look != Look::kPushing) {
+    contact.under = found.under;
     contact.overlap = overlap;
     contact.rate = rate;
     contact.guard =

@@ -47,6 +47,7 @@ class SmoothForces {
     int face = -1;
     int entered = -1;  ///< face at the last measured state
     int touched = -1;  ///< face, or triangle of a mesh, that the sphere has touched
+    int under = -1;    ///< Separation::under at the last measured state
   };
 
   /// A body that is integrated.

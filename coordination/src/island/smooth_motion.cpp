@@ -22,6 +22,9 @@ constexpr double kMaxStepsPerPeriod = SmoothForces::kMostStepsPerPeriod;
 /// smaller.
 constexpr double kAnswerOfHands = 5e-4;
 
+/// Share of the allowed error for a step that passes an edge.
+constexpr double kAtEdges = 1.0 / 64.0;
+
 /// Shortest step as a share of what the gains require. An error that does not shrink with the step
 /// comes from a kink of the geometry.
 constexpr double kShortest = 1.0 / 1024.0;
@@ -127,7 +130,7 @@ double SmoothMotion::takeStep(double from, double rest, IslandCounters& counters
     const double h = rest / std::max(1.0, std::ceil(rest / step_ * (1.0 - 1e-9)));
     tryStep(from, h);
     const double error = estimateError(h);
-    if (error <= allowed_error_) {
+    if (error <= (hasPassedEdge() ? kAtEdges * allowed_error_ : allowed_error_)) {
       // The error falls with the fifth power of the step.
       if (error < allowed_error_ / 64.0) step_ = std::min(std::max(step_, 2.0 * h), max_step_);
       return h;
@@ -197,11 +200,20 @@ double SmoothMotion::estimateError(double h) noexcept {
   return worst;
 }
 
+/// True if a pushed centre passed from over a face to over an edge, or back. The force is smooth
+/// there but not its rate, and the estimate of the error may miss that.
+bool SmoothMotion::hasPassedEdge() const noexcept {
+  std::size_t i = 0;
+  for (const SmoothForces::Contact& contact : forces_.contacts())
+    if (starts_[i++].under != contact.under && contact.pushes) return true;
+  return false;
+}
+
 void SmoothMotion::rememberStart() noexcept {
   forces_.acceptFaces();
   std::size_t i = 0;
   for (const SmoothForces::Contact& contact : forces_.contacts())
-    starts_[i++] = {contact.overlap, contact.rate, contact.guard};
+    starts_[i++] = {contact.overlap, contact.rate, contact.guard, contact.under};
 }
 
 bool SmoothMotion::hasChanged() const noexcept {

@@ -38,10 +38,12 @@ class SmoothMotion {
   /// Values of a touch at the start of a step.
   struct Start {
     double overlap, rate, guard;
+    int under;
   };
 
   void tryStep(double from, double h) noexcept;
   [[nodiscard]] double estimateError(double h) noexcept;
+  [[nodiscard]] bool hasPassedEdge() const noexcept;
   double takeStep(double from, double rest, IslandCounters& counters) noexcept;
   [[nodiscard]] bool hasChanged() const noexcept;
   [[nodiscard]] double findHiddenTouch(double h) const noexcept;
