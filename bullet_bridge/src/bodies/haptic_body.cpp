@@ -126,7 +126,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
 }
 
 HapticBody::~HapticBody() {
-  if (!isInWorld()) return;
+  if (is_gone_ || !isInWorld()) return;
   if (handed_.pending) body_.setFlags(handed_.flags);
   takeDamping();
   body_.setDamping(original_.linear_damping, original_.angular_damping);

@@ -57,6 +57,8 @@ class HapticBody {
 
   [[nodiscard]] btRigidBody& body() const noexcept { return body_; }
   [[nodiscard]] bool isInWorld() const noexcept;
+  /// The body was deleted: the destructor restores nothing, not even a body made at its address.
+  void noteDeletion() noexcept { is_gone_ = true; }
   [[nodiscard]] double mass() const noexcept;  ///< of this copy [kg]
   /// Principal moments of this copy, in B [kg m^2]; 0 about an axis that Bullet keeps fixed.
   [[nodiscard]] Vec3 inertia() const noexcept;
@@ -183,6 +185,7 @@ class HapticBody {
 /// Switches Bullet's own contact between two objects off or back on, and drops their cached contact
 /// points. Calls are counted: two times off needs two times on. The host's own filtering is
 /// untouched. Only `keeper` stores the filter. If `other` leaves its world and is deleted,
+  bool is_gone_ = false;
 /// keeper.setIgnoreCollisionCheck(&other, false) removes it. Not during collision detection;
 /// pre-tick and post-tick are fine.
 void filterNativeContact(btDiscreteDynamicsWorld& world, btCollisionObject& keeper,

@@ -41,7 +41,8 @@ struct SphereBody::Impl {
     haptic.emplace(world, rigid);
   }
   ~Impl() {
-    const bool present = haptic->isInWorld();
+    const bool present = own.isAlive() && haptic->isInWorld();
+    if (!own.isAlive()) haptic->noteDeletion();
     haptic.reset();
     if (present) world.removeRigidBody(&own.rigid());
   }

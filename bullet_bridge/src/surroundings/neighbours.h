@@ -44,7 +44,8 @@ class NeighbourSearch {
     excluded_.insert(std::upper_bound(excluded_.begin(), excluded_.end(), &body), &body);
   }
   /// Ends the exclusion of a body, which may have been deleted.
-  void include(const btRigidBody& body) noexcept { std::erase(excluded_, &body); }
+  /// The body may have been deleted.
+  void include(const btRigidBody* body) noexcept { std::erase(excluded_, body); }
 
   /// Once per host step; `horizon` is T [s]. Omits bodies that the host removed from its world. The
   /// result is valid until the next call.

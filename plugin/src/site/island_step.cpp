@@ -36,7 +36,8 @@ void IslandStep::addProxy(Peer& peer, const Vec3& start_W) {
   const BodyIndex index = *peer.user.body;
   peer.proxy.sphere =
       std::make_unique<SphereBody>(site_.host_world.world(), proxy.radius, proxy.mass, start_W);
-  site_.surroundings.exclude(peer.proxy.sphere->rigid());
+  peer.proxy.address = &peer.proxy.sphere->rigid();
+  site_.surroundings.exclude(*peer.proxy.address);
   peer.proxy.body.bullet = &peer.proxy.sphere->haptic();
   peer.proxy.body.index = index;
   site_.surroundings.addSphere(index, proxy.radius);

@@ -1,5 +1,7 @@
 #include "site/object_watch.h"
 
+#include <utility>
+
 #include "tandem/bullet_bridge/shapes.h"
 
 #include "bullet_bridge/src/bodies/body_look.h"
@@ -26,8 +28,10 @@ bool ObjectWatch::findChanged() {
   for (Peer& peer : peers_) {
     if (!peer.proxy.sphere) continue;
     SiteBody& body = peer.proxy.body;
+    const bool is_alive = peer.proxy.sphere->isAlive();
+    if (!is_alive) surroundings_.forgetExcluded(std::exchange(peer.proxy.address, nullptr));
     // The island moves it on, without a body in Bullet.
-    body.is_leaving = !peer.proxy.sphere->isAlive() || !body.bullet->isInWorld();
+    body.is_leaving = !is_alive || !body.bullet->isInWorld();
     is_missing |= body.is_leaving;
   }
   log_.setMissing(is_missing);

@@ -10,9 +10,10 @@ namespace tandem {
 
 /// The Bullet body of a remote user. Empty if the scheme has none.
 struct Proxy {
-  std::unique_ptr<SphereBody> sphere;  ///< if forces move it
-  KinematicSphere* held = nullptr;     ///< if prescribed, in a native model
-  SiteBody body;                       ///< island body of the sphere
+  std::unique_ptr<SphereBody> sphere;    ///< if forces move it
+  KinematicSphere* held = nullptr;       ///< if prescribed, in a native model
+  SiteBody body;                         ///< island body of the sphere
+  const btRigidBody* address = nullptr;  ///< of the sphere's body, also once it is deleted
 
   /// Null if there is none or the host has deleted it.
   [[nodiscard]] btRigidBody* findRigid() const noexcept {

@@ -225,7 +225,7 @@ void Surroundings::leaveAll() {
 
 void Surroundings::releaseBody(BodyIndex index, btRigidBody& rigid, bool is_present) {
   obstacles_.removeBody(index);
-  search_.include(rigid);
+  search_.include(&rigid);
   filterProxies(rigid, is_present, false);
 }
 

@@ -40,6 +40,8 @@ class Surroundings {
   void addBody(BodyIndex index, btRigidBody& rigid) { obstacles_.addBody(index, rigid); }
   /// Excludes a body that the island holds whenever it can.
   void exclude(const btRigidBody& rigid) { search_.exclude(rigid); }
+  /// Forgets an excluded body that was deleted: another may be made at its address.
+  void forgetExcluded(const btRigidBody* rigid) noexcept { search_.include(rigid); }
   /// Allocates.
   void makeRoom();
   /// @}
