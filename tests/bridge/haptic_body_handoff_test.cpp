@@ -124,6 +124,37 @@ TEST(HandOff, AdditionalDampingOfTheBodyIsNoImpulseOfTheSolver) {
   EXPECT_NEAR(body.state().p_W.x(), 1e-4, byWidth(1e-18, 1e-11));
 }
 
+// The solver finds an impulse that `end` holds already, and the pose that it leads to.
+TEST(HandOff, TellsThePoseThatTheSolverLedTo) {
+  constexpr double kStep = 1.0 / 60.0, kMass = 0.2;
+  BulletRig rig(Vec3(0.0, 0.0, -9.81));
+  btRigidBody& ours = rig.addCube(kMass, 0.02, Vec3::Zero());
+  btPoint2PointConstraint pin(ours, btVector3(0, 0, 0));
+  rig.world.addConstraint(&pin);
+  HapticBody body(rig.world, ours);
+  const double weight = kMass * 9.81;
+  // Without the pin it falls; a foreseen force holds it in part.
+  for (const double held : {0.0, 0.5, 1.0}) {
+    const double fall = (held - 1.0) * 9.81;
+    RigidState end;
+    end.v_W.z() = fall * kStep;
+    end.p_W.z() = 0.5 * fall * kStep * kStep;
+    const Momentum mean{Vec3(0.0, 0.0, 0.5 * held * weight * kStep), Vec3::Zero()};
+    HostChange change;
+    test::Listener listener([&](double h) { body.handOff(end, h, mean); },
+                            [&](double) { change = body.restore(); });
+    const HostWorld attached(rig.world, listener);
+    rig.step(kStep);
+    EXPECT_NEAR(change.impulse_W.z(), 0.5 * weight * kStep, byWidth(1e-12, 1e-7));
+    EXPECT_TRUE(change.moved);
+    EXPECT_NEAR(change.offset_W.z(), -end.p_W.z(), byWidth(1e-12, 1e-7));
+    EXPECT_NEAR(body.state().p_W.z(), end.p_W.z(), byWidth(1e-15, 1e-8));
+    body.place({});
+    EXPECT_EQ(body.state().p_W, Vec3::Zero());
+  }
+  rig.world.removeConstraint(&pin);
+}
+
 // A body of the island hits one of Bullet's, off centre and with friction. restore() gives back the
 // momentum that the native body gains.
 TEST(HandOff, ReturnsTheMomentumExchangedWithANativeNeighbour) {

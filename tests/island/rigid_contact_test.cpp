@@ -271,5 +271,19 @@ TEST(RigidContact, WakesARestingBodyByAForce) {
   EXPECT_GT(scene.island.state(0).v_W.x(), 0.1 * 9.81 * kTick);
 }
 
+// A host's engine moves a body and does not know the island's contacts.
+TEST(RigidContact, AShiftGoesNoDeeperIntoIt) {
+  for (const double gap : {5e-4, 0.0, -1e-4}) {
+    RigidIsland scene({Vec3(0.0, 0.0, kRadius + gap)}, true, false);
+    const Quat turn(Eigen::AngleAxisd(0.01, Vec3::UnitZ()));
+    scene.island.shift(0, Vec3(0.01, 0.0, -0.002), turn);
+    EXPECT_NEAR(scene.island.state(0).p_W.x(), 0.01, 1e-15);
+    EXPECT_NEAR(scene.island.state(0).p_W.z(), kRadius + std::min(gap, 0.0), 1e-12);
+    EXPECT_NEAR(scene.island.state(0).q_WB.angularDistance(turn), 0.0, 1e-12);
+    scene.island.shift(0, Vec3(0.0, 0.0, 0.003), Quat::Identity());
+    EXPECT_NEAR(scene.island.state(0).p_W.z(), kRadius + std::min(gap, 0.0) + 0.003, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace tandem

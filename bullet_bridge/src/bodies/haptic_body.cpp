@@ -69,6 +69,11 @@ constexpr double kTooLittleToWake = 5e-5;
 /// Above this speed Bullet's sleep timer is reset [m/s, rad/s].
 constexpr double kTiredSpeed = 1e-4;
 
+/// Farthest that Bullet's rounding moves a body at `p_W` from where it is led [m].
+double computeRoundedWay(const Vec3& p_W) {
+  return 1e-5 + 4.0 * static_cast<double>(std::numeric_limits<btScalar>::epsilon()) * p_W.norm();
+}
+
 /// True if Bullet's numbers hold the state, and the velocity that leads to it in a step.
 bool fitsBullet(const RigidState& state) {
   const double most = 1e-6 * static_cast<double>(std::numeric_limits<btScalar>::max());
@@ -239,7 +244,7 @@ HostChange HapticBody::takeHostChanges(double dt) noexcept {
   return isFinite(change) ? change : HostChange{};
 }
 
-void HapticBody::handOff(const RigidState& end, double dt) noexcept {
+void HapticBody::handOff(const RigidState& end, double dt, const Momentum& foreseen) noexcept {
   // A state that is not finite never reaches a host's body.
   if (!isInWorld() || !(dt > 0.0) || !fitsBullet(end)) return;
   handed_.asleep = isAsleep() && !hasLeftItsRest(end);
@@ -263,8 +268,13 @@ void HapticBody::handOff(const RigidState& end, double dt) noexcept {
   const auto step = static_cast<btScalar>(dt);
   const btVector3 by_force = body_.getTotalForce() * body_.getInvMass() * step;
   const btVector3 by_torque = body_.getTotalTorque() * body_.getInvInertiaTensorWorld() * step;
-  const btVector3 v = toBullet(Vec3((end.p_W - start.p_W) / dt)) - by_force;
-  const btVector3 w = toBullet(Vec3(computeRotationVector(start.q_WB, end.q_WB) / dt)) - by_torque;
+  btVector3 v = toBullet(Vec3((end.p_W - start.p_W) / dt)) - by_force;
+  btVector3 w = toBullet(Vec3(computeRotationVector(start.q_WB, end.q_WB) / dt)) - by_torque;
+  handed_.is_foreseen = !foreseen.isZero();
+  if (handed_.is_foreseen) {
+    v -= toBullet(foreseen.linear_W) * body_.getInvMass();
+    w -= body_.getInvInertiaTensorWorld() * toBullet(foreseen.angular_W);
+  }
   body_.setLinearVelocity(v);
   body_.setAngularVelocity(w);
   if (has_additional_damping_) body_.applyDamping(step);
@@ -294,8 +304,28 @@ HostChange HapticBody::restore() noexcept {
   const double speed = handed_.end.v_W.norm() + fromBullet(handed_.expected_v).norm();
   const double turning = handed_.end.w_W.norm() + fromBullet(handed_.expected_w).norm();
   if (speed > kTiredSpeed || turning > kTiredSpeed) body_.setDeactivationTime(0);
+  if (!isAsleep()) readShift(change);
   setPoseAndVelocity(handed_.end);
   return isFinite(change) ? change : HostChange{};
+}
+
+/// Reads how the pose that Bullet's solver led to differs from the one handed off.
+void HapticBody::readShift(HostChange& change) const noexcept {
+  const RigidState& end = handed_.end;
+  const RigidState met = state();
+  const bool is_pushed = handed_.is_foreseen || change.impulse_W != Vec3::Zero() ||
+                         change.angular_impulse_W != Vec3::Zero();
+  // Continuous collision detection stops a body without an impulse.
+  if (!is_pushed && (met.p_W - end.p_W).norm() < computeRoundedWay(end.p_W)) return;
+  change.moved = true;
+  change.offset_W = met.p_W - end.p_W;
+  change.rotation_W = met.q_WB * end.q_WB.conjugate();
+}
+
+void HapticBody::place(const RigidState& state) noexcept {
+  if (!isInWorld() || !fitsBullet(state)) return;
+  handed_.end = state;
+  setPoseAndVelocity(state);
 }
 
 bool HapticBody::standsAt(const RigidState& state) const noexcept {
@@ -375,6 +405,8 @@ bool HapticBody::wakeIfHit(HostChange& change) noexcept {
   change.impulse_W = fromBullet(body_.getLinearVelocity()) * mass();
   change.angular_impulse_W =
       computeAngularMomentum(handed_.end.q_WB, fromBullet(body_.getAngularVelocity()));
+  handed_.is_foreseen = false;
+  readShift(change);
   standStill();
   keepAwake();
   // Weight for later sub-steps of this stepSimulation(), which clears it at its end.

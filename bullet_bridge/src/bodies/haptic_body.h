@@ -8,6 +8,7 @@
 #include "tandem/coordination/types.h"
 
 #include "bodies/body_look.h"
+#include "bodies/momentum.h"
 
 class btDiscreteDynamicsWorld;
 
@@ -56,9 +57,9 @@ class HapticBody {
   HapticBody& operator=(const HapticBody&) = delete;
 
   [[nodiscard]] btRigidBody& body() const noexcept { return body_; }
-  [[nodiscard]] bool isInWorld() const noexcept;
   /// The body was deleted: the destructor restores nothing, not even a body made at its address.
   void noteDeletion() noexcept { is_gone_ = true; }
+  [[nodiscard]] bool isInWorld() const noexcept;
   [[nodiscard]] double mass() const noexcept;  ///< of this copy [kg]
   /// Principal moments of this copy, in B [kg m^2]; 0 about an axis that Bullet keeps fixed.
   [[nodiscard]] Vec3 inertia() const noexcept;
@@ -85,13 +86,20 @@ class HapticBody {
 
   /// Pre-tick. Sets the velocities that carry the body to `end` in one step of dt [s], whatever
   /// forces Bullet is about to add. Wakes a sleeping body if `end` is too far from its rest
-  /// position.
-  void handOff(const RigidState& end, double dt) noexcept;
+  /// position. `end` may hold impulses that Bullet's solver is foreseen to give: Bullet starts
+  /// without them, and finds them itself. `foreseen` is their mean over the step: it led the body
+  /// to `end`.
+  void handOff(const RigidState& end, double dt, const Momentum& foreseen = {}) noexcept;
 
-  /// Post-tick. Returns the impulses by which Bullet's solver changed the velocity (contact with
-  /// moving neighbours). Then sets pose and velocity to the `end` of handOff(), in the order that
-  /// keeps motion state and interpolation right.
+  /// Post-tick. Returns the impulses of Bullet's solver (contact with moving neighbours, joints),
+  /// the foreseen ones too, and how the pose that it led to differs from the `end` of handOff().
+  /// Then sets pose and velocity to this `end`, in the order that keeps motion state and
+  /// interpolation right.
   HostChange restore() noexcept;
+
+  /// Post-tick, after restore() or wakeIfHit(). Sets the state that the island made of the solver's
+  /// change instead of the `end` of handOff().
+  void place(const RigidState& state) noexcept;
 
   /// True if `state` is that of the last handOff() within 1e-12 m (and 1e-12 of the quaternion). It
   /// must also be slower than 1e-9 m/s and rad/s. With Sleep::kAsHost a parked body stands until it
@@ -144,12 +152,14 @@ class HapticBody {
     RigidState end;
     Quat q_WB_start;                   // orientation when Bullet's solver acted
     btVector3 expected_v, expected_w;  // velocities after the step if only known forces act
+    bool is_foreseen = false;          // `end` holds impulses of Bullet's solver
     int flags = 0;
     bool pending = false;
     bool asleep = false;  // Bullet received no velocity
   };
 
   void scaleMass(double share);
+  void readShift(HostChange& change) const noexcept;
   [[nodiscard]] bool hasItsMass() const noexcept;
   void takeDamping() noexcept;
   void replaceMissingWeight() noexcept;
@@ -175,6 +185,7 @@ class HapticBody {
   btVector3 inverse_inertia_;  // with the mass share
   Original original_;
   BodyLook look_;
+  bool is_gone_ = false;
   Handed handed_;
   btTransform known_pose_;
   btVector3 known_v_, known_w_;
@@ -185,7 +196,6 @@ class HapticBody {
 /// Switches Bullet's own contact between two objects off or back on, and drops their cached contact
 /// points. Calls are counted: two times off needs two times on. The host's own filtering is
 /// untouched. Only `keeper` stores the filter. If `other` leaves its world and is deleted,
-  bool is_gone_ = false;
 /// keeper.setIgnoreCollisionCheck(&other, false) removes it. Not during collision detection;
 /// pre-tick and post-tick are fine.
 void filterNativeContact(btDiscreteDynamicsWorld& world, btCollisionObject& keeper,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "island/island_impl.h"
+#include "island/shift.h"
 #include "same_state.h"
 #include "tandem_assert.h"
 
@@ -19,6 +20,20 @@ void Island::setState(BodyIndex body, const RigidState& state) noexcept {
     notePlacing(impl_->model, body, state, impl_->states);
   b.state = state;
   impl_->disturb(body);
+}
+
+void Island::shift(BodyIndex body, const Vec3& offset_W, const Quat& rotation_W) noexcept {
+  IslandModel& model = impl_->model;
+  RigidState next = model.bodies[body].state;
+  Vec3 allowed_W = offset_W;
+  if (model.finder && impl_->prepared && model.bodies[body].is_active) {
+    for (std::size_t b = 0; b < impl_->states.size(); ++b) impl_->states[b] = model.bodies[b].state;
+    allowed_W =
+        limitShift(*model.finder, body, offset_W, rotation_W, impl_->states, impl_->touching);
+  }
+  next.p_W += allowed_W;
+  next.q_WB = (rotation_W * next.q_WB).normalized();
+  setState(body, next);
 }
 
 void Island::noteArrival(BodyIndex body) noexcept {

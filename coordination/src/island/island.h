@@ -137,6 +137,8 @@ class Island {
   /// are let in gently (TouchMemory). The same holds for bodies and obstacles that come. A
   /// prescribed body never jumps.
   void setState(BodyIndex body, const RigidState& state) noexcept;
+  /// Moves a body as something outside of the island has moved it, but into no rigid contact.
+  void shift(BodyIndex body, const Vec3& offset_W, const Quat& rotation_W) noexcept;
   /// A prescribed body jumps with its next state: a device is back.
   void noteArrival(BodyIndex body) noexcept;
   void setTarget(CouplerIndex coupler, const RigidState& target) noexcept;

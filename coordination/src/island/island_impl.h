@@ -26,6 +26,7 @@ struct Island::Impl {
   std::optional<SpatialMotion> spatial;
   std::vector<Wrench> wrenches;
   States states;
+  std::vector<RigidContact> touching;  ///< working memory of shift()
   IslandCatchUp catch_up;
   bool prepared = false;
   bool asleep = false;

@@ -123,6 +123,7 @@ void Island::prepare() {
   }
   impl.wrenches.resize(impl.model.bodies.size());
   impl.states.resize(impl.model.bodies.size());
+  if (impl.model.finder) impl.touching.reserve(kMaxRigidContacts);
   for (ModelBody& body : impl.model.bodies) body.is_asleep = false;
   impl.model.memory.makeRoom(kMostRemembered);
   if (impl.model.remembers_touches) impl.model.faces.makeRoom(kMostRemembered);

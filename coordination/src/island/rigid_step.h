@@ -10,6 +10,9 @@
 
 namespace tandem {
 
+/// Most rigid contact points solved together.
+inline constexpr std::size_t kMaxRigidContacts = 512;
+
 /// Keeps rigid bodies apart over one inner step. It applies sequential impulses with Coulomb
 /// friction at the contacts found after the step's smooth motion.
 ///

@@ -20,9 +20,6 @@ constexpr double kTimeToRest = 0.05;
 /// RigidStep is of first order. The inner step never gets shorter than this share of its setting.
 constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 0.5;
 
-/// Most rigid contact points solved together.
-constexpr std::size_t kMaxRigidContacts = 512;
-
 /// Most touches of spheres on obstacles; one fingertip never touches more.
 constexpr std::size_t kMaxObstacleTouches = 64;
 

@@ -49,6 +49,9 @@ void HandOffStep::after(double dt) noexcept {
   // With a haptic thread the island's mirror is as old as Bullet's step.
   site_.surroundings.look(dt, step_end_, site_.desk.isOpen() ? dt : 0.0);
   site_.desk.run([&] { goOut(dt); });
+  site_.bodies.forEachPresent([](SiteBody& body) {
+    if (body.step.shift.moved) body.bullet->place(body.step.end);
+  });
   giveBack();
   lookFarther();
   ++site_.log.counters.searches;
@@ -135,14 +138,15 @@ void HandOffStep::handOff(double dt) noexcept {
       site_.rest.unpark(body);
     }
     if (site_.clock.hasJumped()) bullet.setState(computeStart(body.step.end, dt));
-    bullet.handOff(body.step.end, dt);
+    bullet.handOff(body.step.end, dt, body.step.foreseen.mean);
     ++site_.log.counters.bodies_handed_off;
   });
 }
 
-/// Reads the impulses of Bullet's solver: contact with moving bodies that the island does not hold.
+/// Reads what Bullet's solver did: joints, and contact with bodies that the island does not hold.
 void HandOffStep::takeBack(SiteBody& body) noexcept {
-  HostChange change;
+  HostChange& change = body.step.shift;
+  change = {};
   HapticBody& bullet = *body.bullet;
   body.step.was_parked = bullet.isParked();
   body.step.was_near_awake = body.step.was_parked && !bullet.isAsleep();
@@ -151,7 +155,10 @@ void HandOffStep::takeBack(SiteBody& body) noexcept {
   } else if (bullet.wakeIfHit(change)) {
     site_.rest.noteWoken(body);
   }
-  body.step.hit = {dropRounding(change.impulse_W), dropRounding(change.angular_impulse_W)};
+  const Momentum& foreseen = body.step.foreseen.sum;
+  body.step.reaction = {dropRounding(change.impulse_W), dropRounding(change.angular_impulse_W)};
+  body.step.hit = {dropRounding(change.impulse_W - foreseen.linear_W),
+                   dropRounding(change.angular_impulse_W - foreseen.angular_W)};
 }
 
 /// A new neighbour may meet stretched springs. With a haptic thread the obstacles found now act

@@ -135,6 +135,7 @@ void HandOffStep::findEnds() noexcept {
   site_.bodies.forEach([&](SiteBody& body) {
     body.step.end = states ? (*states)[static_cast<std::size_t>(body.index)]
                            : site_.timeline.stateAt(body.index, step_end_);
+    body.step.foreseen = site_.forces.takeForeseen(body, step_end_);
     body.step.is_ghost = site_.island.isGhost(body.index);
     body.step.may_park = body.load.isSettled();
   });
@@ -143,7 +144,7 @@ void HandOffStep::findEnds() noexcept {
 /// The way out: the island takes solver impulses, neighbours and obstacles.
 void HandOffStep::goOut(double dt) noexcept {
   site_.clock.endStep(dt);
-  site_.bodies.forEach([&](SiteBody& body) { receive(body); });
+  site_.bodies.forEach([&](SiteBody& body) { receive(body, dt); });
   site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
   if (!site_.ticksInHostStep()) site_.surroundings.steerDriven(false);
   if (!site_.desk.isOpen()) makeRoomFor(dt);
@@ -154,9 +155,9 @@ void HandOffStep::goOut(double dt) noexcept {
   if (site_.island.isAsleep()) site_.surroundings.mirror();
 }
 
-void HandOffStep::receive(SiteBody& body) noexcept {
+void HandOffStep::receive(SiteBody& body, double dt) noexcept {
   if (!body.step.was_parked) site_.forces.forgetLate(body);
-  site_.forces.give(body, body.step.hit);
+  site_.forces.takeReaction(body, dt);
   body.seen = body.step.end;
 }
 

@@ -52,7 +52,7 @@ class HandOffStep final : public IslandStep {
   void moveBody(const SiteBody& body, const HostChange& change) noexcept;
   void findEnds() noexcept;
   void goOut(double dt) noexcept;
-  void receive(SiteBody& body) noexcept;
+  void receive(SiteBody& body, double dt) noexcept;
 
   double step_end_ = 0.0;  ///< of the host's present step [s]
   bool is_alone_ = false;  ///< nobody ticks: all bodies are Bullet's

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_bridge/src/bodies/rotation_vector.h"
+
 namespace tandem {
 namespace {
 
@@ -22,7 +24,9 @@ void HostForces::setWeight(SiteBody& body, const Vec3& f_gravity_W) noexcept {
 }
 
 void HostForces::renew(const SiteBody& body) noexcept {
-  setWrench(body.index, body.load.f_gravity_W + body.load.f_host_W, body.load.t_host_W);
+  const HostLoad& load = body.load;
+  setWrench(body.index, load.f_gravity_W + load.f_host_W + load.foresight.force(),
+            load.t_host_W + load.foresight.torque());
 }
 
 void HostForces::setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept {
@@ -56,12 +60,56 @@ void HostForces::pass(double dt, bool is_behind) noexcept {
   are_on_ = true;
 }
 
-void HostForces::give(SiteBody& body, const Momentum& momentum) noexcept {
-  if (momentum.isZero()) return;
+void HostForces::push(const SiteBody& body, const Momentum& momentum) noexcept {
   const RigidState before = island_.state(body.index);
   island_.applyImpulse(body.index, momentum.linear_W, momentum.angular_W);
   energy_.countImpulse(before, island_.state(body.index), momentum);
+}
+
+void HostForces::give(SiteBody& body, const Momentum& momentum) noexcept {
+  if (momentum.isZero()) return;
+  push(body, momentum);
   if (timeline_.time() > clock_.time()) body.load.note({timeline_.time(), momentum});
+}
+
+/// Bullet's solver acted when the host step ended. Ticks that have run since missed its impulses.
+void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
+  HandOver& step = body.step;
+  if (!island_.body(body.index).is_rigid) {
+    // A proxy is led by springs, which a move would stretch.
+    step.shift = {};
+    return give(body, step.hit);
+  }
+  if (!step.hit.isZero() || step.shift.moved) {
+    const RigidState before = island_.state(body.index);
+    push(body, step.hit);
+    const RigidState after = island_.state(body.index);
+    const Vec3 dv_W = after.v_W - before.v_W, dw_W = after.w_W - before.w_W;
+    const double since = std::max(0.0, timeline_.time() - clock_.time());
+    island_.shift(body.index, step.shift.offset_W + since * dv_W,
+                  makeRotation(since * dw_W) * step.shift.rotation_W);
+    // Rigid contacts may have held the body back.
+    const Vec3 offset_W = island_.state(body.index).p_W - after.p_W - since * dv_W;
+    const auto change = [&](RigidState state, double time) {
+      const double until = time - clock_.time();
+      state.p_W += offset_W + until * dv_W;
+      state.q_WB = (makeRotation(until * dw_W) * step.shift.rotation_W * state.q_WB).normalized();
+      state.v_W += dv_W;
+      state.w_W += dw_W;
+      return state;
+    };
+    timeline_.changeKeptAfter(clock_.time() + kClockTolerance, body.index, change);
+    step.end = change(step.end, clock_.time());
+    step.shift.moved = true;
+  }
+  const bool was_none = body.load.foresight.isNone();
+  const Momentum kick = body.load.foresight.expect(timeline_.time(), dt, step.reaction);
+  if (was_none && kick.isZero()) return;
+  const RigidState before = island_.state(body.index);
+  push(body, kick);
+  step.end.v_W += island_.state(body.index).v_W - before.v_W;
+  step.end.w_W += island_.state(body.index).w_W - before.w_W;
+  renew(body);
 }
 
 Momentum HostForces::computeOwed(const SiteBody& body) noexcept {
@@ -97,6 +145,7 @@ void HostForces::end() noexcept {
   settle();
   bodies_.forEach([&](SiteBody& body) {
     body.load.f_host_W = body.load.t_host_W = Vec3::Zero();
+    body.load.foresight.end(timeline_.time());
     setWrench(body.index, body.load.f_gravity_W, Vec3::Zero());
   });
 }

@@ -20,7 +20,7 @@ namespace tandem {
 /// forces end. For the thread that ticks; real-time safe.
 class HostForces {
  public:
-  HostForces(Island& island, const Timeline& timeline, const HostClock& clock, const Bodies& bodies,
+  HostForces(Island& island, Timeline& timeline, const HostClock& clock, const Bodies& bodies,
              EnergyPort& energy) noexcept
       : island_(island), timeline_(timeline), clock_(clock), bodies_(bodies), energy_(energy) {}
 
@@ -32,6 +32,13 @@ class HostForces {
   /// Takes the host's changes for its step of `dt`, which has just begun. `is_behind`: the ticks of
   /// this step have not run yet.
   void pass(double dt, bool is_behind) noexcept;
+  /// Takes what Bullet's solver did to a body in the host step of `dt` that has ended: momentum
+  /// that was not foreseen, the pose that it led to, and the force that goes on.
+  void takeReaction(SiteBody& body, double dt) noexcept;
+  /// Momentum that was given for Bullet's solver in the host step up to `end` [s].
+  [[nodiscard]] Foresight::Given takeForeseen(SiteBody& body, double end) noexcept {
+    return body.load.foresight.take(clock_.time(), end);
+  }
   /// Gives a body momentum from the host's side, at once.
   void give(SiteBody& body, const Momentum& momentum) noexcept;
   /// Momentum that the host's body still lacks: impulses that reached the island after the host's
@@ -55,10 +62,11 @@ class HostForces {
 
  private:
   void end() noexcept;
+  void push(const SiteBody& body, const Momentum& momentum) noexcept;
   void setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
 
   Island& island_;
-  const Timeline& timeline_;
+  Timeline& timeline_;
   const HostClock& clock_;
   const Bodies& bodies_;
   EnergyPort& energy_;

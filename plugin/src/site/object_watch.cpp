@@ -45,9 +45,7 @@ void ObjectWatch::leaveAll() {
 
 void ObjectWatch::leave(SharedObject& object) {
   object.body.is_leaving = true;
-  // Nothing is taken back from it after this step.
-  object.body.step.hit = {};
-  object.body.step.was_parked = true;
+  object.body.step.forgetReaction();
   are_leaving_ = true;
   ++left_;
   ++log_.counters.objects_left;

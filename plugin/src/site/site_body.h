@@ -4,17 +4,9 @@
 
 #include "bullet_bridge/src/bodies/haptic_body.h"
 #include "coordination/src/island/island.h"
+#include "site/foresight.h"
 
 namespace tandem {
-
-/// Linear and angular momentum about a centre of mass, in W [N s, N m s].
-struct Momentum {
-  Vec3 linear_W = Vec3::Zero(), angular_W = Vec3::Zero();
-
-  [[nodiscard]] bool isZero() const noexcept {
-    return linear_W == Vec3::Zero() && angular_W == Vec3::Zero();
-  }
-};
 
 /// Momentum that an island body received at a time that the host has not reached yet.
 struct LateMomentum {
@@ -28,14 +20,19 @@ struct HostLoad {
   Vec3 f_host_W = Vec3::Zero(), t_host_W = Vec3::Zero();  ///< host force applied now
   Momentum owed;                                          ///< of the host's forces, not yet given
   std::vector<LateMomentum> late;                         ///< not yet in Bullet's state; reserved
+  Foresight foresight;                                    ///< of Bullet's contacts and joints
 
   /// Allocates.
-  void makeRoom() { late.reserve(kMostLate); }
+  void makeRoom() {
+    late.reserve(kMostLate);
+    foresight.makeRoom();
+  }
   /// Without room it is added to the latest entry.
   void note(const LateMomentum& momentum) noexcept;
-  /// True if no force of the host acts and none is owed.
+  /// True if no force of the host acts, and none is owed or foreseen.
   [[nodiscard]] bool isSettled() const noexcept {
-    return f_host_W == Vec3::Zero() && t_host_W == Vec3::Zero() && owed.isZero();
+    return f_host_W == Vec3::Zero() && t_host_W == Vec3::Zero() && owed.isZero() &&
+           foresight.isNone();
   }
 
  private:
@@ -49,15 +46,25 @@ struct HandOver {
   HostChange change;
   Vec3 f_gravity_W = Vec3::Zero();
   // Answered by the island.
-  RigidState end;         ///< at the end of the step
-  bool is_ghost = false;  ///< collides with nothing
-  bool may_park = false;  ///< the host's forces are settled
+  RigidState end;             ///< at the end of the step
+  Foresight::Given foreseen;  ///< in the step, for Bullet's contacts and joints
+  bool is_ghost = false;      ///< collides with nothing
+  bool may_park = false;      ///< the host's forces are settled
   // Read by the host's thread on the way out.
   bool stands = false;          ///< it is where it was a step ago
   bool was_parked = false;      ///< parked when Bullet's step ended
   bool was_near_awake = false;  ///< parked, but Bullet woke it: an awake body is near
-  Momentum hit;                 ///< impulse of Bullet's solver
+  Momentum reaction;            ///< impulse of Bullet's solver
+  Momentum hit;                 ///< part of it that was not foreseen
+  HostChange shift;             ///< pose that it led to
   int steps_stood = 0;          ///< host steps without motion or impact
+
+  /// Nothing is taken back from a body that leaves after this step.
+  void forgetReaction() noexcept {
+    reaction = hit = {};
+    shift = {};
+    was_parked = true;
+  }
 };
 
 /// Reads mass, inertia and state of a body that the island takes.

@@ -84,13 +84,13 @@ class Snapshots {
     return pick([&](double t) { return t > time; }, [](double t, double u) { return t < u; });
   }
 
-  /// Calls `visit` with the states of each moment later than `time`.
+  /// Calls `visit` with the states and the time of each moment later than `time`.
   template <typename Visit>
   void forEachAfter(double time, Visit visit) noexcept {
     for (Snapshot& s : ring_) {
       if (!(s.time > time)) continue;
       giveOwnStates(s);
-      visit(s.states);
+      visit(s.states, s.time);
     }
   }
 

@@ -70,9 +70,7 @@ void Surroundings::findMissing() {
   for (Neighbour& neighbour : neighbours_) {
     if (!neighbour.rigid || neighbour.body.is_leaving) continue;
     if (neighbour.isInWorld() && !neighbour.hasChanged()) continue;
-    // Nothing is taken back from it after this step.
-    neighbour.body.step.hit = {};
-    neighbour.body.step.was_parked = true;
+    neighbour.body.step.forgetReaction();
     leave(neighbour);
   }
 }

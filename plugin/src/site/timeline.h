@@ -80,9 +80,14 @@ class Timeline {
   template <typename Change>
   void changeAfter(double time, BodyIndex body, Change change) noexcept {
     island_.setState(body, change(island_.state(body)));
-    snapshots_.forEachAfter(time, [&](std::vector<RigidState>& states) {
+    changeKeptAfter(time, body, [&](const RigidState& state, double) { return change(state); });
+  }
+  /// Replaces the body's states kept for later than `time` by `change` of each and its time [s].
+  template <typename Change>
+  void changeKeptAfter(double time, BodyIndex body, Change change) noexcept {
+    snapshots_.forEachAfter(time, [&](std::vector<RigidState>& states, double kept) {
       RigidState& state = states[static_cast<std::size_t>(body)];
-      state = change(state);
+      state = change(state, kept);
     });
   }
   /// Sets the start state of a body that entered the island during the tick.
