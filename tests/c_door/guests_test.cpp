@@ -94,6 +94,28 @@ TEST(Guest, TurnsAsTheIslandHasIt) {
   EXPECT_NEAR(guest.now.angular_velocity[2], 2.0, byDoorWidth(1e-12, 1e-5));
 }
 
+// The engine's own floor carries the cube, and only the engine knows of it.
+TEST(Guest, StandsOnTheEnginesFloor) {
+  for (const double rate : {60.0, 240.0}) {
+    Guest guest;
+    const double gravity[3] = {0.0, 0.0, -9.81}, step = 1.0 / rate;
+    ok(tandem_world_set_gravity(guest.world, gravity));
+    double lowest = 0.0;
+    for (int i = 0; i < 120; ++i) {
+      TandemState given{};
+      ok(tandem_world_begin_step(guest.world, step, gravity, 1, &guest.cube, &guest.now, &given));
+      guest.now = given;
+      guest.now.velocity[2] += step * gravity[2];
+      guest.now.velocity[2] = std::max(guest.now.velocity[2], -guest.now.position[2] / step);
+      guest.now.position[2] += step * guest.now.velocity[2];
+      ok(tandem_world_end_step(guest.world, 1, &guest.cube, &guest.now, &guest.now));
+      lowest = std::min(lowest, guest.now.position[2]);
+    }
+    EXPECT_GT(lowest, -1e-6) << rate;
+    EXPECT_LT(guest.now.position[2], 1e-6) << rate;
+  }
+}
+
 // A change of velocity by the engine in its step enters the island in the next step, once.
 TEST(Guest, KeepsTheMomentumOfAHit) {
   Guest guest;

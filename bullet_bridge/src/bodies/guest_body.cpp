@@ -68,6 +68,10 @@ RigidState GuestBody::takeBack(const RigidState& now) noexcept {
   const Vec3 dv_W = computeChange(now.v_W, expected_.v_W, speed_);
   const Vec3 dw_W = computeChange(now.w_W, expected_.w_W, expected_.w_W.norm());
   if (dv_W != Vec3::Zero() || dw_W != Vec3::Zero()) {
+    RigidState met = told_;
+    met.p_W = now.p_W;
+    met.q_WB = now.q_WB;
+    putBody(world_, body_, met);
     pushBody(body_, dv_W, turnAlong(dw_W, start_.q_WB));
     told_ = readState(body_);
   }

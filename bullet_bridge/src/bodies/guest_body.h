@@ -28,9 +28,9 @@ class GuestBody {
   ///   v = (x1 - x0) / dt - g dt        w = rotation vector from q0 to q1 / dt
   [[nodiscard]] RigidState handOff(double dt, const Vec3& host_gravity_W) noexcept;
 
-  /// Applies other effects of the host's engine, visible in `now`, to our body as an impulse. It
-  /// keeps the change of velocity, and of angular momentum at the body's inertia. Returns the state
-  /// that the host must set.
+  /// Applies other effects of the host's engine, visible in `now`, to our body: the pose that they
+  /// led to, and an impulse. It keeps the change of velocity, and of angular momentum at the body's
+  /// inertia. Returns the state that the host must set.
   [[nodiscard]] RigidState takeBack(const RigidState& now) noexcept;
 
  private:

@@ -183,8 +183,8 @@ TandemResult tandem_world_step(TandemWorld* world, double dt, int max_substeps, 
    to velocities; null: none.
 
    end: the engine may have changed these velocities further, by contacts with bodies of its own.
-   That change goes to the island as an impulse. `after` receives the state to set: the island's
-   state with that impulse.
+   That change goes to the island as an impulse and a move. `after` receives the state to set: the
+   island's state with both.
 
    The engine must move bodies by the velocity after its forces, x += v dt, as most do
    (semi-implicit Euler). It must not add damping or gyroscopic terms. An impulse is a change of
