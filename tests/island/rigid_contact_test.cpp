@@ -271,6 +271,17 @@ TEST(RigidContact, WakesARestingBodyByAForce) {
   EXPECT_GT(scene.island.state(0).v_W.x(), 0.1 * 9.81 * kTick);
 }
 
+// A float's host step may end just behind a tick: the first step after the push is tiny.
+TEST(RigidContact, ATinyStepDoesNotSendAPushedBodyToRestAgain) {
+  RigidIsland scene({Vec3(0, 0, kRadius), Vec3(0.5, 0, kRadius)}, true);
+  scene.world.friction = 0.3;
+  scene.run(0.2);
+  scene.island.setExternalWrench(0, Vec3(0.5 * kWeight, 0, -kWeight), Vec3::Zero());
+  scene.island.advance(4e-8);
+  scene.run(0.1);
+  EXPECT_GT(scene.island.state(0).v_W.x(), 0.1 * 9.81 * 0.1);
+}
+
 // A host's engine moves a body and does not know the island's contacts.
 TEST(RigidContact, AShiftGoesNoDeeperIntoIt) {
   for (const double gap : {5e-4, 0.0, -1e-4}) {

@@ -351,7 +351,10 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
     const bool is_rigid = body.is_active && body.settings.is_rigid;
     const bool moves = body.isDynamic() || body.disturbed || body.state.v_W != Vec3::Zero() ||
                        body.state.w_W != Vec3::Zero();
-    if (body.disturbed || !is_rigid) resting_[b] = 0;
+    if (body.disturbed || !is_rigid) {
+      resting_[b] = 0;
+      still_[b] = 0.0;  // or a tiny first step would let it rest again, against any force
+    }
     body.disturbed = false;
     awake_[b] = is_rigid && moves && !resting_[b];
     reach_[b] = is_rigid ? allowance_[b] + kRigidWatchDistance : -1.0;
