@@ -49,9 +49,10 @@ void Island::setTarget(CouplerIndex coupler, const RigidState& target) noexcept 
 
 void Island::setExternalWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept {
   ModelBody& b = impl_->model.bodies[body];
-  const Vec3 t_felt_W = b.rotates() ? t_W : Vec3::Zero();
-  if (b.f_external_W == f_W && b.t_external_W == t_felt_W) return;
-  b.f_external_W = f_W;
+  const Vec3 f_felt_W = b.factors.feltForce(f_W);
+  const Vec3 t_felt_W = b.rotates() ? b.factors.feltTorque(t_W) : Vec3::Zero();
+  if (b.f_external_W == f_felt_W && b.t_external_W == t_felt_W) return;
+  b.f_external_W = f_felt_W;
   b.t_external_W = t_felt_W;
   impl_->disturb(body);
 }
@@ -61,10 +62,11 @@ void Island::applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& ang
   if (impl_->model.bodies[body].is_ghost) return;
   impl_->disturb(body);
   ModelBody& b = impl_->model.bodies[body];
-  b.state.v_W += b.inverse_mass * impulse_W;
+  b.state.v_W += b.inverse_mass / b.factors.linear * impulse_W;
   if (!b.rotates()) return;
   const Quat& q = b.state.q_WB;
-  b.state.w_W += q * b.inverse_inertia_B.cwiseProduct(q.conjugate() * angular_W);
+  const Vec3 inverse_inertia_B = b.inverse_inertia_B / b.factors.angular;
+  b.state.w_W += q * inverse_inertia_B.cwiseProduct(q.conjugate() * angular_W);
 }
 
 void Island::setCouplerShare(CouplerIndex coupler, double share) noexcept {
@@ -122,10 +124,8 @@ void Island::fill(BodyIndex slot, const IslandBody& body) noexcept {
 
 void Island::clear(BodyIndex slot) noexcept {
   TANDEM_ASSERT(impl_->spatial || !impl_->prepared);
-  ModelBody cleared;
-  cleared.is_slot = impl_->model.bodies[slot].is_slot;
-  cleared.is_active = false;
-  impl_->model.bodies[slot] = cleared;
+  ModelBody& body = impl_->model.bodies[slot];
+  body = ModelBody::makeEmpty(body.is_slot);
   impl_->model.memory.forget(slot);
   impl_->model.faces.forget(slot);
   wake();

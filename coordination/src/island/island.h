@@ -30,12 +30,20 @@ struct IslandBody {
   Motion motion = Motion::kDynamic;
   double mass = 0.0;              ///< [kg], > 0 if dynamic
   Vec3 inertia_B = Vec3::Zero();  ///< principal moments [kg m^2]; zero: no rotation about that axis
-  double damping = 0.0;           ///< b of the force -b v [N s/m], >= 0
-  double angular_damping = 0.0;   ///< rate of the damping w' = -rate w [1/s], >= 0
-  bool feels_obstacles = false;   ///< the sphere touches obstacles of Island::setObstacles
-  bool touches_spheres = true;    ///< in a slot: spheres with `feels_obstacles` touch it
-  bool is_rigid = false;          ///< a ContactFinder finds its rigid contacts
+  /// Scale of accelerations along, and angular ones about, the axes of W, >= 0. An axis with 0
+  /// keeps its velocity, whatever pushes. A guided island knows no factors.
+  Vec3 linear_factor = Vec3::Ones(), angular_factor = Vec3::Ones();
+  double damping = 0.0;          ///< b of the force -b v [N s/m], >= 0
+  double angular_damping = 0.0;  ///< rate of the damping w' = -rate w [1/s], >= 0
+  bool feels_obstacles = false;  ///< the sphere touches obstacles of Island::setObstacles
+  bool touches_spheres = true;   ///< in a slot: spheres with `feels_obstacles` touch it
+  bool is_rigid = false;         ///< a ContactFinder finds its rigid contacts
   RigidState start;
+
+  /// False if all factors are one.
+  [[nodiscard]] bool hasFactors() const noexcept {
+    return linear_factor != Vec3::Ones() || angular_factor != Vec3::Ones();
+  }
 };
 
 /// A spring-damper from a body to a target, which stays until set again. The angular part turns the
@@ -142,9 +150,11 @@ class Island {
   /// A prescribed body jumps with its next state: a device is back.
   void noteArrival(BodyIndex body) noexcept;
   void setTarget(CouplerIndex coupler, const RigidState& target) noexcept;
-  /// External force and torque about the centre of mass, in W, until set again [N, N m].
+  /// External force and torque about the centre of mass, in W, until set again [N, N m]. An axis
+  /// with factor 0 ignores them.
   void setExternalWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
-  /// Adds linear and angular momentum at once [N s, N m s].
+  /// Adds linear and angular momentum at once, whatever the factors: v += J / m, w += I^-1 L
+  /// [N s, N m s].
   void applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& angular_W) noexcept;
   /// Scales a coupler's original gains, linear and angular, by a share in 0 to 1, until set again.
   /// A share of 1 changes nothing, to the bit.
@@ -211,7 +221,7 @@ class Island {
   /// The settings as added, times the share.
   [[nodiscard]] const CouplerSettings& presentGains(CouplerIndex coupler) const noexcept;
   [[nodiscard]] double contactShare(BodyIndex body) const noexcept;
-  /// The last external force set; the torque is zero for a body that does not rotate.
+  /// The last external force set, without axes of factor 0; no torque if the body does not rotate.
   [[nodiscard]] const Vec3& externalForce(BodyIndex body) const noexcept;
   [[nodiscard]] const Vec3& externalTorque(BodyIndex body) const noexcept;
   [[nodiscard]] double extraDamping(BodyIndex body) const noexcept;

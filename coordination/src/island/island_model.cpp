@@ -28,6 +28,20 @@ Vec3 computeArms(const Shape& shape, double bounding_radius) noexcept {
   return Vec3::Constant(square);
 }
 
+MassFactors computeFactors(const IslandBody& settings) noexcept {
+  MassFactors factors;
+  const auto split = [](const Vec3& all, double& largest, Vec3& shares) {
+    largest = all.maxCoeff() > 0.0 ? all.maxCoeff() : 1.0;
+    shares = all / largest;
+    return shares == Vec3::Ones();
+  };
+  factors.way_is_even = split(settings.linear_factor, factors.linear, factors.way_W);
+  Vec3 turn_W;
+  factors.turn_is_even = split(settings.angular_factor, factors.angular, turn_W);
+  factors.turn_root_W = turn_W.cwiseSqrt();
+  return factors;
+}
+
 }  // namespace
 
 ModelBody ModelBody::make(const IslandBody& settings, bool is_guided) noexcept {
@@ -35,15 +49,24 @@ ModelBody ModelBody::make(const IslandBody& settings, bool is_guided) noexcept {
   body.settings = settings;
   body.state = settings.start;
   body.bounding_radius = computeBoundingRadius(settings.shape);
+  if (is_guided) body.settings.linear_factor = body.settings.angular_factor = Vec3::Ones();
   if (!body.isDynamic()) return body;
-  body.inverse_mass = body.mobility = 1.0 / settings.mass;
+  if (body.settings.hasFactors()) body.factors = computeFactors(settings);
+  body.inverse_mass = body.mobility = body.factors.linear / settings.mass;
   if (is_guided) return body;
   for (int axis = 0; axis < 3; ++axis)
     if (settings.inertia_B[axis] > 0.0)
-      body.inverse_inertia_B[axis] = 1.0 / settings.inertia_B[axis];
+      body.inverse_inertia_B[axis] = body.factors.angular / settings.inertia_B[axis];
   const double radius = body.bounding_radius;
   body.mobility += std::min(body.inverse_inertia_B.maxCoeff() * radius * radius,
                             body.inverse_inertia_B.dot(computeArms(settings.shape, radius)));
+  return body;
+}
+
+ModelBody ModelBody::makeEmpty(bool is_slot) noexcept {
+  ModelBody body;
+  body.is_slot = is_slot;
+  body.is_active = false;
   return body;
 }
 

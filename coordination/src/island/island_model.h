@@ -11,12 +11,35 @@
 /// Data shared by the island's laws of motion. Private to coordination.
 namespace tandem {
 
+/// Factors of a body (IslandBody), relative to the largest. With S = diag(turn_root_W) a torque t
+/// accelerates by S I^-1 S t: symmetric, so that no contact makes energy.
+struct MassFactors {
+  double linear = 1.0, angular = 1.0;  ///< largest factor; 1 if all are 0
+  Vec3 way_W = Vec3::Ones(), turn_root_W = Vec3::Ones();
+  bool way_is_even = true, turn_is_even = true;  ///< all are one: a body like any other
+
+  [[nodiscard]] bool areEven() const noexcept { return way_is_even && turn_is_even; }
+  /// The part of force or torque that can move the body.
+  [[nodiscard]] Vec3 feltForce(const Vec3& f_W) const noexcept {
+    return way_is_even ? f_W : keep(way_W, f_W);
+  }
+  [[nodiscard]] Vec3 feltTorque(const Vec3& t_W) const noexcept {
+    return turn_is_even ? t_W : keep(turn_root_W, t_W);
+  }
+
+ private:
+  [[nodiscard]] static Vec3 keep(const Vec3& shares, const Vec3& v) noexcept {
+    return (shares.array() > 0.0).select(v, 0.0);
+  }
+};
+
 /// A body with values derived from its settings, its present state and its external forces.
 struct ModelBody {
   IslandBody settings;
   RigidState state;
-  double inverse_mass = 0.0;              ///< 0: forces do not move it [1/kg]
-  Vec3 inverse_inertia_B = Vec3::Zero();  ///< 0: does not rotate [1/(kg m^2)]
+  double inverse_mass = 0.0;              ///< along the freest axis; 0: not moved by forces [1/kg]
+  Vec3 inverse_inertia_B = Vec3::Zero();  ///< times the largest factor; 0: does not rotate
+  MassFactors factors;
   double bounding_radius = 0.0;
   double mobility = 0.0;  ///< upper bound of velocity per impulse at its surface [1/kg]
   Vec3 f_external_W = Vec3::Zero();
@@ -34,6 +57,9 @@ struct ModelBody {
   /// body does not rotate.
   [[nodiscard]] static ModelBody make(const IslandBody& settings, bool is_guided) noexcept;
 
+  /// Makes an empty slot, or the place of a body that was taken out.
+  [[nodiscard]] static ModelBody makeEmpty(bool is_slot) noexcept;
+
   [[nodiscard]] bool isDynamic() const {
     return is_active && !is_ghost && settings.motion == Motion::kDynamic;
   }
@@ -45,6 +71,10 @@ struct ModelBody {
     const Vec3& i = settings.inertia_B;
     return i.x() == i.y() && i.y() == i.z();
   }
+  /// Without torque its angular velocity stays.
+  [[nodiscard]] bool turnsSteadily() const { return isRound() || !factors.turn_is_even; }
+  /// Decay of its velocity by its own damping, which acts alike along all axes [1/s].
+  [[nodiscard]] double decay() const { return damping() * inverse_mass / factors.linear; }
 };
 
 struct ModelCoupler {

@@ -38,7 +38,11 @@ void checkBody(const IslandBody& body, bool is_guided) {
   if (body.motion != Motion::kDynamic) return;
   checkPositive("body mass", body.mass);
   if (is_guided) return;
-  for (int axis = 0; axis < 3; ++axis) checkNotNegative("body inertia", body.inertia_B[axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    checkNotNegative("body inertia", body.inertia_B[axis]);
+    checkNotNegative("body linear factor", body.linear_factor[axis]);
+    checkNotNegative("body angular factor", body.angular_factor[axis]);
+  }
 }
 
 }  // namespace
@@ -68,10 +72,7 @@ BodyIndex Island::addBody(const IslandBody& body) {
 BodyIndex Island::addSlot() {
   if (impl_->model.settings.guide)
     throw std::invalid_argument("a guided island has no slots; leave the guide off");
-  ModelBody slot;
-  slot.is_slot = true;
-  slot.is_active = false;
-  impl_->model.bodies.push_back(slot);
+  impl_->model.bodies.push_back(ModelBody::makeEmpty(true));
   impl_->model.slots.push_back(bodyCount() - 1);
   impl_->prepared = false;
   return bodyCount() - 1;

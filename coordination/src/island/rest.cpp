@@ -71,10 +71,12 @@ bool seemsAtRest(const ModelBody& before, const RigidState& after, double dt) no
 bool isSettled(const IslandModel& model, BodyIndex b, const Wrench& wrench) noexcept {
   const ModelBody& body = model.bodies[b];
   if (!body.isDynamic()) return true;
-  Freedom way{body.settings.mass, 0.0, body.damping(), wrench.f_W.norm(), body.state.v_W.norm()};
-  const double inertia = body.settings.inertia_B.maxCoeff();
-  Freedom turn{inertia, 0.0, body.settings.angular_damping * inertia, wrench.t_W.norm(),
-               body.state.w_W.norm()};
+  const MassFactors& factors = body.factors;
+  Freedom way{body.settings.mass / factors.linear, 0.0, body.damping(),
+              factors.feltForce(wrench.f_W).norm(), body.state.v_W.norm()};
+  const double inertia = body.settings.inertia_B.maxCoeff() / factors.angular;
+  Freedom turn{inertia, 0.0, body.settings.angular_damping * inertia,
+               factors.feltTorque(wrench.t_W).norm(), body.state.w_W.norm()};
   for (const int c : model.present_couplers) {
     const ModelCoupler& coupler = model.couplers[c];
     if (coupler.follower != b) continue;

@@ -15,6 +15,13 @@ void makeTangents(const PlainVec& n, PlainVec& s, PlainVec& t) noexcept {
   t = cross(n, s);
 }
 
+/// An impulse along a direction that factors lock would be huge. A row that moves less than this
+/// share of a free body of the same mass counts as locked: its normal is within 6 degrees of the
+/// locked axis.
+constexpr double kLocked = 0.01;
+/// Share of its determinant below which friction acts along one tangent only.
+constexpr double kOneTangent = 1e-12, kOneTangentWithFactors = 1e-4;
+
 }  // namespace
 
 RigidMover::RigidMover(const ModelBody& body, const RigidState& state) noexcept
@@ -24,7 +31,13 @@ RigidMover::RigidMover(const ModelBody& body, const RigidState& state) noexcept
       radius_squared(body.bounding_radius * body.bounding_radius),
       ready(true) {
   const Eigen::Matrix3d R = state.q_WB.toRotationMatrix();
-  const Eigen::Matrix3d inverse = R * body.inverse_inertia_B.asDiagonal() * R.transpose();
+  Eigen::Matrix3d inverse = R * body.inverse_inertia_B.asDiagonal() * R.transpose();
+  const MassFactors& factors = body.factors;
+  is_free = factors.way_is_even;
+  inverse_mass_W = is_free ? PlainVec(inverse_mass, inverse_mass, inverse_mass)
+                           : inverse_mass * PlainVec(factors.way_W);
+  if (!factors.turn_is_even)
+    inverse = factors.turn_root_W.asDiagonal() * inverse * factors.turn_root_W.asDiagonal();
   inertia_x = PlainVec(Vec3(inverse.row(0)));
   inertia_y = PlainVec(Vec3(inverse.row(1)));
   inertia_z = PlainVec(Vec3(inverse.row(2)));
@@ -48,18 +61,26 @@ void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& a
     axis.surface = dot(axis.direction, surface_W);
   }
   const double normal = mobility(0, 0);
-  inverse_normal = normal > 0.0 ? 1.0 / normal : 0.0;
+  const bool are_free = a->is_free && (!b_moves_ || b->is_free);
+  const double free_normal = a->inverse_mass + (b_moves_ ? b->inverse_mass : 0.0);
+  const bool is_locked = !are_free && normal < kLocked * free_normal;
+  inverse_normal = normal > 0.0 && !is_locked ? 1.0 / normal : 0.0;
   normal_to_s_ = mobility(1, 0);
   normal_to_t_ = mobility(2, 0);
   const double ss = mobility(1, 1), st = mobility(1, 2), tt = mobility(2, 2);
   const double determinant = ss * tt - st * st;
-  // A body that can neither slide nor rotate needs no friction.
-  if (determinant > 1e-12 * (ss * ss + tt * tt)) {
+  const double sum = ss + tt;
+  slide_ = sum > 0.0 ? 1.0 / sum : 0.0;
+  if (determinant > (are_free ? kOneTangent : kOneTangentWithFactors) * (ss * ss + tt * tt)) {
     stick_ss_ = tt / determinant;
     stick_st_ = -st / determinant;
     stick_tt_ = ss / determinant;
+  } else {
+    // Factors lock one tangent, or a mixture: the other has all the mobility.
+    stick_ss_ = slide_ * slide_ * ss;
+    stick_st_ = slide_ * slide_ * st;
+    stick_tt_ = slide_ * slide_ * tt;
   }
-  slide_ = ss + tt > 0.0 ? 1.0 / (ss + tt) : 0.0;
 }
 
 }  // namespace tandem

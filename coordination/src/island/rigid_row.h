@@ -15,6 +15,8 @@ struct RigidMover {
   PlainVec shift, turn;     ///< change of pose by this step's impulses [m], [rad]
   PlainVec v_last, w_last;  ///< velocities at the last measurement
   double inverse_mass = 0.0, radius_squared = 0.0;
+  PlainVec inverse_mass_W;                   ///< along the axes of W: with linear factors
+  bool is_free = true;                       ///< no linear factors
   PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
   bool ready = false;                        ///< set up for this step
 
@@ -95,11 +97,11 @@ class RigidRow {
   /// Applies an impulse to both bodies.
   void apply(const Local& change) noexcept {
     const PlainVec linear = toWorld(change);
-    a->v = a->v + a->inverse_mass * linear;
+    a->v = a->v + multiplyEach(a->inverse_mass_W, linear);
     a->w =
         a->w + change.n * axis_[0].turn_a + change.s * axis_[1].turn_a + change.t * axis_[2].turn_a;
     if (!b_moves_) return;
-    b->v = b->v - b->inverse_mass * linear;
+    b->v = b->v - multiplyEach(b->inverse_mass_W, linear);
     b->w = b->w -
            (change.n * axis_[0].turn_b + change.s * axis_[1].turn_b + change.t * axis_[2].turn_b);
   }
@@ -107,10 +109,10 @@ class RigidRow {
   /// Shifts the poses of both bodies by an impulse times a time [N s^2].
   void shift(const Local& by) noexcept {
     const PlainVec linear = toWorld(by);
-    a->shift = a->shift + a->inverse_mass * linear;
+    a->shift = a->shift + multiplyEach(a->inverse_mass_W, linear);
     a->turn = a->turn + by.n * axis_[0].turn_a + by.s * axis_[1].turn_a + by.t * axis_[2].turn_a;
     if (!b_moves_) return;
-    b->shift = b->shift - b->inverse_mass * linear;
+    b->shift = b->shift - multiplyEach(b->inverse_mass_W, linear);
     b->turn = b->turn - (by.n * axis_[0].turn_b + by.s * axis_[1].turn_b + by.t * axis_[2].turn_b);
   }
 
@@ -136,9 +138,13 @@ class RigidRow {
 
   /// Velocity along i per impulse along j.
   [[nodiscard]] double mobility(int i, int j) const noexcept {
-    const double of_a = (i == j ? a->inverse_mass : 0.0) + dot(axis_[i].arm_a, axis_[j].turn_a);
+    const double of_a = wayOf(*a, i, j) + dot(axis_[i].arm_a, axis_[j].turn_a);
     if (!b_moves_) return of_a;
-    return of_a + (i == j ? b->inverse_mass : 0.0) + dot(axis_[i].arm_b, axis_[j].turn_b);
+    return of_a + wayOf(*b, i, j) + dot(axis_[i].arm_b, axis_[j].turn_b);
+  }
+  [[nodiscard]] double wayOf(const RigidMover& mover, int i, int j) const noexcept {
+    if (mover.is_free) return i == j ? mover.inverse_mass : 0.0;
+    return dot(axis_[i].direction, multiplyEach(mover.inverse_mass_W, axis_[j].direction));
   }
 
   Axis axis_[3];

@@ -165,7 +165,7 @@ void RigidStep::startFromKnown(const States& after, double h) noexcept {
 void RigidStep::takeBack(BodyIndex body, const States& after, const Known& known,
                          const Vec3& impulse_W, double h) noexcept {
   RigidMover& mover = movers_[body];
-  const PlainVec dv = mover.inverse_mass * PlainVec(impulse_W);
+  const PlainVec dv = multiplyEach(mover.inverse_mass_W, PlainVec(impulse_W));
   const PlainVec dw =
       mover.turnBy(cross(PlainVec(Vec3(known.p_W - after[body].p_W)), PlainVec(impulse_W)));
   mover.v = mover.v + dv;

@@ -45,14 +45,20 @@ void SmoothForces::addMover(const IslandModel& model, BodyIndex b, bool is_alone
   mover.turns = body.rotates();
   mover.radius = body.bounding_radius;
   mover.is_round = body.isRound();
+  const MassFactors& factors = body.factors;
+  if (!factors.areEven()) mover.factors = &factors;
   mover.needs_rotation = mover.turns && !mover.is_round;
   mover.inertia_B = PlainVec(body.settings.inertia_B);
+  if (factors.angular != 1.0) mover.inertia_B = mover.inertia_B / factors.angular;
   mover.inverse_inertia_B = PlainVec(body.inverse_inertia_B);
   mover.t_rest_W = PlainVec(body.t_external_W);
   mover.turn_rate = limitDamping(body.settings.angular_damping, 1.0);
   if (!is_alone) {
     mover.inverse_mass = body.inverse_mass;
-    mover.damping = limitDamping(body.damping(), body.inverse_mass);
+    if (mover.factors == nullptr)
+      mover.damping = limitDamping(body.damping() / factors.linear, body.inverse_mass);
+    else
+      mover.decay = limitDamping(body.decay(), 1.0);
     mover.f_rest_W = PlainVec(body.f_external_W);
   }
   frame_of_[b] = static_cast<int>(frames_.size());
@@ -298,7 +304,10 @@ void SmoothForces::computeRates(const double* y, double* k) const noexcept {
     const Frame& frame = frames_[i];
     double* rates = k + mover.offset;
     frame.v.store(rates);
-    (mover.inverse_mass * frame.f_W).store(rates + 3);
+    if (mover.factors == nullptr)
+      (mover.inverse_mass * frame.f_W).store(rates + 3);
+    else
+      accelerateByFactors(mover, frame, rates);
     if (!mover.turns) continue;
     // q' = w q / 2
     const double* q = y + mover.offset + kQ;
@@ -309,7 +318,9 @@ void SmoothForces::computeRates(const double* y, double* k) const noexcept {
     rates[kQ + 3] = -0.5 * (w.x * q[0] + w.y * q[1] + w.z * q[2]);
     // Euler's equation in B: I w' = t - w x I w.
     PlainVec alpha;
-    if (mover.is_round) {
+    if (mover.factors != nullptr && !mover.factors->turn_is_even) {
+      alpha = turnByFactors(mover, frame);
+    } else if (mover.is_round) {
       alpha = mover.inverse_inertia_B.x * frame.t_W;
     } else {
       const PlainVec w_B = frame.R_WB.toBody(w), t_B = frame.R_WB.toBody(frame.t_W);
@@ -319,6 +330,20 @@ void SmoothForces::computeRates(const double* y, double* k) const noexcept {
     (alpha - mover.turn_rate * w).store(rates + kW);
     rates[kWayAndTurn - 1] = 0.0;
   }
+}
+
+[[gnu::noinline]] void SmoothForces::accelerateByFactors(const Mover& mover, const Frame& frame,
+                                                         double* rates) noexcept {
+  const PlainVec felt_W = multiplyEach(PlainVec(mover.factors->way_W), frame.f_W);
+  (mover.inverse_mass * felt_W - mover.decay * frame.v).store(rates + 3);
+}
+
+/// With uneven factors there is no gyroscopic torque: it would turn the body about a fixed axis.
+[[gnu::noinline]] PlainVec SmoothForces::turnByFactors(const Mover& mover,
+                                                       const Frame& frame) noexcept {
+  const PlainVec root_W(mover.factors->turn_root_W);
+  const PlainVec t_B = frame.R_WB.toBody(multiplyEach(root_W, frame.t_W));
+  return multiplyEach(root_W, frame.R_WB.toWorld(multiplyEach(mover.inverse_inertia_B, t_B)));
 }
 
 }  // namespace tandem

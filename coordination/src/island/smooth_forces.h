@@ -61,9 +61,11 @@ class SmoothForces {
     PlainVec p_rest, f_rest_W;  ///< force = f_rest + f_held + stiffness (p_rest - p) - damping v
     PlainVec inertia_B, inverse_inertia_B, t_rest_W;
     PlainVec f_held_W, t_held_W;
-    double turn_damping = 0.0;  ///< sum over couplers [N m s/rad]
-    double turn_rate = 0.0;     ///< IslandBody::angular_damping [1/s]
-    double radius = 0.0;        ///< bounding radius [m]
+    double turn_damping = 0.0;             ///< sum over couplers [N m s/rad]
+    double turn_rate = 0.0;                ///< IslandBody::angular_damping [1/s]
+    double radius = 0.0;                   ///< bounding radius [m]
+    const MassFactors* factors = nullptr;  ///< null: even
+    double decay = 0.0;                    ///< with factors: of its velocity by own damping [1/s]
   };
 
   /// Allocates.
@@ -131,6 +133,8 @@ class SmoothForces {
                                            Look look) noexcept;
   void push(Contact& contact, Look look) noexcept;
   void computeRates(const double* y, double* k) const noexcept;
+  static void accelerateByFactors(const Mover& mover, const Frame& frame, double* rates) noexcept;
+  [[nodiscard]] static PlainVec turnByFactors(const Mover& mover, const Frame& frame) noexcept;
 
   double period_;
   int size_ = 0;

@@ -96,7 +96,9 @@ void SpatialMotion::prepareAlone(const IslandModel& model, BodyIndex b) noexcept
   const ModelBody& body = model.bodies[b];
   Alone& alone = alone_motion_[b];
   alone = {};
-  double stiffness = 0.0, damping = body.damping();
+  double stiffness = 0.0;
+  // Uneven factors leave the body's own damping alone: it acts apart.
+  double damping = body.factors.way_is_even ? body.damping() / body.factors.linear : 0.0;
   for (const ModelCoupler& coupler : model.couplers) {
     if (coupler.follower != b) continue;
     stiffness += coupler.now.linear.stiffness;
@@ -171,8 +173,9 @@ void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& co
     const ModelBody& body = model.bodies[b];
     counters.resting_bodies += resting_[b] != 0;
     const bool turning = body.rotates() && !resting_[b] && needsTurning(model, b);
-    // A round body without torque keeps its axis: exact. All other rotation is integrated.
-    turns_[b] = turning && alone_[b] && body.isRound() && !alone_motion_[b].is_tied_to_turn &&
+    // A round body without torque keeps its axis: exact. So does one with uneven factors. All other
+    // rotation is integrated.
+    turns_[b] = turning && alone_[b] && body.turnsSteadily() && !alone_motion_[b].is_tied_to_turn &&
                 body.t_external_W == Vec3::Zero();
     together_[b] = body.isDynamic() && !resting_[b] && (!alone_[b] || (turning && !turns_[b]));
     counters.exact_bodies += alone_[b] != 0;
@@ -238,13 +241,31 @@ void SpatialMotion::advanceAlone(const IslandModel& model, double dt) noexcept {
     if (body.settings.motion == Motion::kPrescribed) states_[b] = extrapolate(body, dt);
     if (!alone_[b]) continue;
     const Alone& alone = alone_motion_[b];
+    if (turns_[b]) turnAlone(body, dt, states_[b]);
+    if (!body.factors.way_is_even) [[unlikely]] {
+      goAloneByFactors(body, alone, f_W_[b], dt, states_[b]);
+      continue;
+    }
     const OscillatorMap map =
         is_period ? alone.map : computeOscillatorMap(alone.stiffness, alone.damping, dt);
     const Vec3 a_W = body.inverse_mass * f_W_[b];
     const Vec3& v_W = body.state.v_W;
     states_[b].p_W = body.state.p_W + map.velocity_to_way * v_W + map.acceleration_to_way * a_W;
     states_[b].v_W = map.velocity_to_velocity * v_W + map.acceleration_to_velocity() * a_W;
-    if (turns_[b]) turnAlone(body, dt, states_[b]);
+  }
+}
+
+/// Each axis of W has a mass of its own.
+[[gnu::noinline]] void SpatialMotion::goAloneByFactors(const ModelBody& body, const Alone& alone,
+                                                       const Vec3& f_W, double dt,
+                                                       RigidState& state) noexcept {
+  for (int i = 0; i < 3; ++i) {
+    const double share = body.factors.way_W[i];
+    const OscillatorMap map =
+        computeOscillatorMap(share * alone.stiffness, share * alone.damping + body.decay(), dt);
+    const double a = share * body.inverse_mass * f_W[i], v = body.state.v_W[i];
+    state.p_W[i] = body.state.p_W[i] + map.velocity_to_way * v + map.acceleration_to_way * a;
+    state.v_W[i] = map.velocity_to_velocity * v + map.acceleration_to_velocity() * a;
   }
 }
 

@@ -55,7 +55,7 @@ class SpatialMotion {
  private:
   /// Exact motion of a body while it is alone.
   struct Alone {
-    double stiffness = 0.0, damping = 0.0;  ///< sum over its couplers, per mass
+    double stiffness = 0.0, damping = 0.0;  ///< sum over its couplers, per mass of its freest axis
     OscillatorMap map;                      ///< over a haptic period
     bool is_tied_to_turn = false;           ///< some coupler rotates it
   };
@@ -66,6 +66,8 @@ class SpatialMotion {
   void addTouch(const IslandModel& model, const Touch& touch) noexcept;
   [[nodiscard]] bool needsTurning(const IslandModel& model, BodyIndex b) const noexcept;
   void advanceAlone(const IslandModel& model, double dt) noexcept;
+  static void goAloneByFactors(const ModelBody& body, const Alone& alone, const Vec3& f_W,
+                               double dt, RigidState& state) noexcept;
   void turnAlone(const ModelBody& body, double dt, RigidState& state) const noexcept;
   /// True if bodies that advanced alone have met, or a sleeper near them was woken.
   [[nodiscard]] bool mustRepeat(IslandModel& model, double dt) noexcept;
