@@ -87,6 +87,12 @@ bool isFinite(const HostChange& change) {
          change.rotation_W.coeffs().allFinite();
 }
 
+Vec3 readFactor(const btVector3& factor) {
+  const Vec3 read = fromBullet(factor);
+  const auto isSane = [](double one) { return std::isfinite(one) && one >= 0.0 ? one : 0.0; };
+  return read.unaryExpr(isSane);
+}
+
 void checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& body,
                      double mass_share) {
   std::ostringstream message;
@@ -185,6 +191,9 @@ bool HapticBody::isInWorld() const noexcept {
 double HapticBody::mass() const noexcept { return 1.0 / static_cast<double>(body_.getInvMass()); }
 
 Vec3 HapticBody::inertia() const noexcept { return fromBullet(body_.getLocalInertia()); }
+
+Vec3 HapticBody::linearFactor() const noexcept { return readFactor(body_.getLinearFactor()); }
+Vec3 HapticBody::angularFactor() const noexcept { return readFactor(body_.getAngularFactor()); }
 
 Vec3 HapticBody::gravityForce() const noexcept {
   return fromBullet(body_.getGravity() * (btScalar(1) / body_.getInvMass()) *
@@ -419,6 +428,13 @@ void HapticBody::applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexce
   if (!isInWorld()) return;
   body_.applyCentralImpulse(toBullet(Vec3(f_W * dt)));
   body_.applyTorqueImpulse(toBullet(Vec3(t_W * dt)));
+}
+
+void HapticBody::addMomentum(const Vec3& linear_W, const Vec3& angular_W) noexcept {
+  if (!isInWorld()) return;
+  body_.setLinearVelocity(body_.getLinearVelocity() + toBullet(linear_W) * body_.getInvMass());
+  body_.setAngularVelocity(body_.getAngularVelocity() +
+                           body_.getInvInertiaTensorWorld() * toBullet(angular_W));
 }
 
 void HapticBody::remember() noexcept {

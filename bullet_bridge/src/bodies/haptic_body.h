@@ -63,6 +63,10 @@ class HapticBody {
   [[nodiscard]] double mass() const noexcept;  ///< of this copy [kg]
   /// Principal moments of this copy, in B [kg m^2]; 0 about an axis that Bullet keeps fixed.
   [[nodiscard]] Vec3 inertia() const noexcept;
+  /// Bullet's factors of accelerations along and about the axes of W; 0 where the host's is no
+  /// finite number >= 0.
+  [[nodiscard]] Vec3 linearFactor() const noexcept;
+  [[nodiscard]] Vec3 angularFactor() const noexcept;
   /// Weight of this copy as Bullet applies it, in W [N]; 0 along axes with zero linear factor.
   [[nodiscard]] Vec3 gravityForce() const noexcept;
   [[nodiscard]] RigidState state() const noexcept;  ///< present state of the btRigidBody
@@ -130,6 +134,9 @@ class HapticBody {
 
   /// Pre-tick, impulse mode: applies the impulse of a force and torque over dt [s].
   void applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexcept;
+
+  /// Adds momentum at once, whatever the factors: the island has applied them already.
+  void addMomentum(const Vec3& linear_W, const Vec3& angular_W) noexcept;
 
   /// Stores the present state, so that only later changes by the host are reported.
   void remember() noexcept;

@@ -56,12 +56,6 @@ class Visitor final : public btBroadphaseAabbCallback {
   Visit visit_;
 };
 
-/// True if all axes are free. The island knows no factors: it would turn a figure that stands.
-bool movesFreely(const btRigidBody& body) {
-  const btVector3 ones(1, 1, 1);
-  return body.getLinearFactor() == ones && body.getAngularFactor() == ones;
-}
-
 template <typename Body>
 bool contains(const std::vector<Body*>& bodies, const btRigidBody* body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
@@ -141,8 +135,7 @@ bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
   if (!body.hasContactResponse() || std::binary_search(excluded_.begin(), excluded_.end(), &body))
     return false;
   if (body.isKinematicObject()) return shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
-  return isMovedByForces(body) && movesFreely(body) &&
-         !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
+  return isMovedByForces(body) && !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
          (shape.isConvex() || shape.isCompound());
 }
 

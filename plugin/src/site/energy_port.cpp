@@ -5,10 +5,15 @@
 namespace tandem {
 namespace {
 
+/// Velocity of a body without factors that has the same energy. A locked axis gives none.
+Vec3 computeFreeVelocity(const Vec3& v_W, const Vec3& factor) noexcept {
+  return (factor.array() > 0.0).select(v_W.array() / factor.array().sqrt(), 0.0);
+}
+
 double computeKineticEnergy(const IslandBody& body, const RigidState& state) noexcept {
-  const Vec3 w_B = state.q_WB.conjugate() * state.w_W;
-  return 0.5 * body.mass * state.v_W.squaredNorm() +
-         0.5 * body.inertia_B.dot(w_B.cwiseProduct(w_B));
+  const Vec3 v_W = computeFreeVelocity(state.v_W, body.linear_factor);
+  const Vec3 w_B = state.q_WB.conjugate() * computeFreeVelocity(state.w_W, body.angular_factor);
+  return 0.5 * body.mass * v_W.squaredNorm() + 0.5 * body.inertia_B.dot(w_B.cwiseProduct(w_B));
 }
 
 }  // namespace

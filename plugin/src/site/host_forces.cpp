@@ -12,6 +12,17 @@ namespace {
 /// awake [N s, N m s].
 constexpr double kNoMomentum = 1e-15;
 
+Vec3 undoFactor(const Vec3& felt_W, const Vec3& factor) noexcept {
+  return (factor.array() > 0.0).select(felt_W.array() / factor.array(), 0.0);
+}
+
+/// Momentum, or its rate, before the factors that Bullet has applied: the island applies its own.
+Momentum undoFactors(const IslandBody& body, const Momentum& felt) noexcept {
+  if (!body.hasFactors()) return felt;
+  return {undoFactor(felt.linear_W, body.linear_factor),
+          undoFactor(felt.angular_W, body.angular_factor)};
+}
+
 }  // namespace
 
 Vec3 dropRounding(const Vec3& momentum) noexcept {
@@ -31,7 +42,8 @@ void HostForces::renew(const SiteBody& body) noexcept {
 
 void HostForces::setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept {
   if (f_W != Vec3::Zero() || t_W != Vec3::Zero()) energy_.noteWorldForce();
-  island_.setExternalWrench(body, f_W, t_W);
+  const Momentum push = undoFactors(island_.body(body), {f_W, t_W});
+  island_.setExternalWrench(body, push.linear_W, push.angular_W);
 }
 
 void HostForces::pass(double dt, bool is_behind) noexcept {
@@ -63,7 +75,8 @@ void HostForces::pass(double dt, bool is_behind) noexcept {
 void HostForces::push(const SiteBody& body, const Momentum& momentum) noexcept {
   const RigidState before = island_.state(body.index);
   island_.applyImpulse(body.index, momentum.linear_W, momentum.angular_W);
-  energy_.countImpulse(before, island_.state(body.index), momentum);
+  energy_.countImpulse(before, island_.state(body.index),
+                       undoFactors(island_.body(body.index), momentum));
 }
 
 void HostForces::give(SiteBody& body, const Momentum& momentum) noexcept {

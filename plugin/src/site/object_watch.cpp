@@ -76,7 +76,7 @@ void ObjectWatch::giveBack() {
     object.body.bullet = nullptr;
     // A missing body may come back; its mass is restored then.
     if (!object.is_there) continue;
-    object.bullet->applyWrench(object.owed.linear_W, object.owed.angular_W, 1.0);
+    object.bullet->addMomentum(object.owed.linear_W, object.owed.angular_W);
     object.bullet.reset();
   }
 }

@@ -67,10 +67,12 @@ struct HandOver {
   }
 };
 
-/// Reads mass, inertia and state of a body that the island takes.
+/// Reads mass, inertia, factors and state of a body that the island takes.
 inline void readBody(const HapticBody& bullet, IslandBody& own) noexcept {
   own.mass = bullet.mass();
   own.inertia_B = bullet.inertia();
+  own.linear_factor = bullet.linearFactor();
+  own.angular_factor = bullet.angularFactor();
   own.start = bullet.state();
 }
 

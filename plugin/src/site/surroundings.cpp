@@ -243,7 +243,7 @@ void Surroundings::giveBack() {
   for (Neighbour* neighbour : leaving_) {
     ++log_.counters.demoted;
     if (neighbour->bullet && neighbour->isInWorld())
-      neighbour->bullet->applyWrench(neighbour->owed.linear_W, neighbour->owed.angular_W, 1.0);
+      neighbour->bullet->addMomentum(neighbour->owed.linear_W, neighbour->owed.angular_W);
     neighbour->becomeEmpty();
   }
   leaving_.clear();
