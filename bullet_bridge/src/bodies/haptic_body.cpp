@@ -93,8 +93,10 @@ Vec3 readFactor(const btVector3& factor) {
   return read.unaryExpr(isSane);
 }
 
-void checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& body,
-                     double mass_share) {
+}  // namespace
+
+void HapticBody::checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& body,
+                                 double mass_share) {
   std::ostringstream message;
   if (findInWorld(world, &body) < 0) {
     message << "the body is not in this Bullet world; call addRigidBody() before attaching it";
@@ -111,8 +113,6 @@ void checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& bo
   }
   throw Error(message.str());
 }
-
-}  // namespace
 
 HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double mass_share,
                        Sleep sleep)

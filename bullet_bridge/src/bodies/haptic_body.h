@@ -50,6 +50,10 @@ class HapticBody {
  public:
   /// Throws tandem::Error if the body is not in the world, is static or kinematic, or has no mass.
   /// Also throws if `mass_share` is not in (0, 1].
+  static void checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& body,
+                              double mass_share = 1.0);
+
+  /// Throws as checkAttachable() does.
   HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double mass_share = 1.0,
              Sleep sleep = Sleep::kNever);
   ~HapticBody();

@@ -18,7 +18,7 @@ bool ObjectWatch::findChanged() {
   bool is_missing = false;
   for (SharedObject& object : bodies_.objects) {
     if (!object.body.is_held || object.body.is_leaving) {
-      is_missing |= !object.is_there;
+      is_missing |= object.rigid && !object.is_there;
       continue;
     }
     object.is_there = object.bullet->isInWorld();
@@ -41,6 +41,24 @@ bool ObjectWatch::findChanged() {
 void ObjectWatch::leaveAll() {
   for (SharedObject& object : bodies_.objects)
     if (object.body.is_held && !object.body.is_leaving) leave(object);
+}
+
+void ObjectWatch::leaveOne(SharedObject& object) {
+  if (!object.body.is_held || object.body.is_leaving) return;
+  object.is_there = object.bullet->isInWorld();
+  leave(object);
+}
+
+void ObjectWatch::forget(SharedObject& object) noexcept {
+  object.bullet.reset();
+  object.rigid = nullptr;
+  object.is_there = object.is_sent = false;
+  --left_;
+}
+
+void ObjectWatch::expect(SharedObject& object, btRigidBody& rigid) noexcept {
+  object.rigid = &rigid;
+  ++left_;
 }
 
 void ObjectWatch::leave(SharedObject& object) {
@@ -85,7 +103,7 @@ bool ObjectWatch::findReturned() {
   if (left_ == 0) return false;
   bool is_any_new = false;
   for (SharedObject& object : bodies_.objects) {
-    if (object.body.is_held || object.body.is_leaving || object.is_new) continue;
+    if (!object.rigid || object.body.is_held || object.body.is_leaving || object.is_new) continue;
     int hint = -1;
     object.is_there = findRigidBody(world_, object.rigid, hint) != nullptr;
     if (!object.is_there) continue;

@@ -47,6 +47,12 @@ class ObjectWatch {
   bool findChanged();
   /// Marks all objects.
   void leaveAll();
+  /// Marks an object if it is held. forget() follows when it was given back.
+  void leaveOne(SharedObject& object);
+  /// Lets go of the body of an object that is not held: it never returns.
+  void forget(SharedObject& object) noexcept;
+  /// Expects `rigid` for an object that has no body. findReturned() holds it.
+  void expect(SharedObject& object, btRigidBody& rigid) noexcept;
   /// True if some object is marked, and not given back yet.
   [[nodiscard]] bool areLeaving() const noexcept { return are_leaving_; }
   /// True if some object is left to Bullet.
@@ -81,7 +87,7 @@ class ObjectWatch {
   Surroundings& surroundings_;
   SiteLog& log_;
   bool are_leaving_ = false;
-  int left_ = 0;  ///< objects that the island does not hold
+  int left_ = 0;  ///< objects that the island does not hold, and that may return
 };
 
 }  // namespace tandem

@@ -14,7 +14,7 @@ namespace tandem {
 
 /// A body of the host of which every peer has a copy.
 struct SharedObject {
-  btRigidBody* rigid = nullptr;        ///< the host's body
+  btRigidBody* rigid = nullptr;        ///< the host's body; null after unshare()
   std::unique_ptr<HapticBody> bullet;  ///< `body` points to it
   IslandBody settings;                 ///< island body, as it was held last
   SiteBody body;

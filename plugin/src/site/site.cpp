@@ -10,6 +10,8 @@ Site::Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticD
 Site::~Site() = default;
 
 ObjectId Site::share(btRigidBody& body, double damping) { return impl_->share(body, damping); }
+void Site::share(ObjectId id, btRigidBody& body) { impl_->share(id, body); }
+void Site::unshare(ObjectId id) { impl_->unshare(id); }
 void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
   impl_->connect(remote, link, start_W);
 }
@@ -37,6 +39,9 @@ const RigidState& Site::hip() const noexcept { return impl_->island.state(impl_-
 int Site::objectCount() const noexcept { return static_cast<int>(impl_->bodies.objects.size()); }
 const RigidState& Site::object(ObjectId id) const noexcept {
   return impl_->island.state(impl_->bodies.objects[id].body.index);
+}
+bool Site::isShared(ObjectId id) const noexcept {
+  return impl_->bodies.objects[id].rigid != nullptr;
 }
 bool Site::isHeld(ObjectId id) const noexcept {
   const SiteBody& body = impl_->bodies.objects[id].body;

@@ -20,6 +20,8 @@ struct Site::Impl final : HostStepListener, SiteParts {
 
   // Set-up: site_set_up.cpp
   ObjectId share(btRigidBody& rigid, double damping);
+  void share(ObjectId id, btRigidBody& rigid);
+  void unshare(ObjectId id);
   void connect(PeerId id, Link& link, const Vec3& start_W);
   /// A haptic thread ticks from now on.
   void beginLive();
@@ -38,6 +40,7 @@ struct Site::Impl final : HostStepListener, SiteParts {
 
  private:
   void checkOpenToSetUp();
+  SharedObject& findObject(ObjectId id);
   void checkShareable(const btRigidBody& rigid) const;
   void tieObjects();
   void finishSetUp();

@@ -3,6 +3,7 @@
 
 #include "tandem/bullet_bridge/shapes.h"
 
+#include "bullet_bridge/src/world/world_access.h"
 #include "site/site_impl.h"
 
 namespace tandem {
@@ -38,8 +39,6 @@ void Site::Impl::checkOpenToSetUp() {
 }
 
 void Site::Impl::checkShareable(const btRigidBody& rigid) const {
-  if (bodies.objects.size() == kMaxSharedObjects)
-    throw Error("a site shares at most " + std::to_string(kMaxSharedObjects) + " objects");
   for (const SharedObject& object : bodies.objects)
     if (object.rigid == &rigid)
       throw Error("the body is shared already, as object " + std::to_string(object.id) +
@@ -51,6 +50,8 @@ void Site::Impl::checkShareable(const btRigidBody& rigid) const {
 
 ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
   checkOpenToSetUp();
+  if (bodies.objects.size() == kMaxSharedObjects)
+    throw Error("a site shares at most " + std::to_string(kMaxSharedObjects) + " objects");
   checkShareable(rigid);
   const Shape shape = getShareableShape(rigid);
   host_step->leaveNeighbours();  // the body may be a neighbour
@@ -68,6 +69,46 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
   tieObjects();
   finishSetUp();
   return bodies.objects.back().id;
+}
+
+SharedObject& Site::Impl::findObject(ObjectId id) {
+  if (settings.guide || settings.contact_model != ContactModel::kIsland)
+    throw Error(
+        "with a guide or a native model the objects stay as they were set up; destroy the site and "
+        "make a new one");
+  if (host_world.hasEnded() || has_given_back_)
+    throw Error("this site has stopped and holds no object; destroy it and make a new one");
+  if (id >= bodies.objects.size())
+    throw Error("there is no object " + std::to_string(id) + "; this site has " +
+                std::to_string(bodies.objects.size()));
+  return bodies.objects[id];
+}
+
+void Site::Impl::unshare(ObjectId id) {
+  SharedObject& object = findObject(id);
+  if (!object.rigid) return;
+  rest.disturb();
+  objects.leaveOne(object);
+  desk.run([&] {
+    surroundings.takeObstacles();
+    objects.takeLeaving();
+  });
+  objects.giveBack();
+  desk.run([&] { objects.forget(object); });
+}
+
+void Site::Impl::share(ObjectId id, btRigidBody& rigid) {
+  SharedObject& object = findObject(id);
+  int hint = -1;
+  if (object.rigid && findRigidBody(host_world.world(), object.rigid, hint))
+    throw Error("object " + std::to_string(id) + " has a body in the world; unshare it first");
+  checkShareable(rigid);
+  static_cast<void>(getShareableShape(rigid));
+  HapticBody::checkAttachable(host_world.world(), rigid);
+  host_step->checkObject(1.0 / static_cast<double>(rigid.getInvMass()) / settings.peers);
+  host_step->leaveNeighbours();  // the body may be a neighbour
+  unshare(id);
+  objects.expect(object, rigid);
 }
 
 void Site::Impl::connect(PeerId id, Link& link, const Vec3& start_W) {

@@ -110,6 +110,19 @@ class Site {
   /// Throws tandem::Error with the reason for a body that cannot be shared.
   ObjectId share(btRigidBody& body, double damping = 0.0);
 
+  /// Gives a shared object back to Bullet, with its own mass and the velocity that it has. Peers
+  /// let go of their copies after 16 packets without it, and the other objects stay shared. At any
+  /// time between two steps of the host, also with a HapticLoop; the body may be deleted at once.
+  /// Does nothing if it is not shared. A body that was taken out of the world before keeps its m/N.
+  /// Throws tandem::Error for an unknown id, and with a guide or a native model.
+  void unshare(ObjectId id);
+
+  /// Shares a body for an object that was unshared, or whose body is not in the world: the same or
+  /// another. It keeps the object's damping. Peers meet it as they meet one that comes back. At any
+  /// time between two steps of the host; it is held from the next step on. Throws tandem::Error
+  /// with the reason if the body cannot be shared, and as unshare() does.
+  void share(ObjectId id, btRigidBody& body);
+
   /// Connects a remote user whose device starts at `start_W`. The scheme chooses the user's
   /// stand-in.
   void connect(PeerId remote, Link& link, const Vec3& start_W);
@@ -150,6 +163,8 @@ class Site {
   [[nodiscard]] const RigidState& hip() const noexcept;
   [[nodiscard]] const RigidState& object(ObjectId id) const noexcept;
   [[nodiscard]] int objectCount() const noexcept;
+  /// False after unshare().
+  [[nodiscard]] bool isShared(ObjectId id) const noexcept;
   /// False while a shared object is left to Bullet, because the island cannot hold its body: it is
   /// not in the world, static, kinematic, without contact response, or has DISABLE_SIMULATION.
   /// Peers follow it there, but do not move it. For the thread that steps the world.
@@ -158,6 +173,7 @@ class Site {
   /// Null if the scheme has no body for a remote user.
   [[nodiscard]] const RigidState* proxy(int remote) const noexcept;
   [[nodiscard]] btRigidBody* proxyBody(int remote) const noexcept;
+  /// The host's body of an object that isShared().
   [[nodiscard]] btRigidBody& objectBody(ObjectId id) const noexcept;
   /// State of a remote as of the latest tick; always live if SiteSettings::link_loss is off.
   [[nodiscard]] LinkState linkState(int remote) const noexcept;
