@@ -91,6 +91,10 @@ std::vector<std::string> describeSurprises(const btRigidBody& body, btScalar lin
          << " N s/m are not used by the island, whose contacts have their own gains";
     warnings.push_back(line.str());
   }
+  if (body.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION |
+                                  btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION))
+    warnings.emplace_back(
+        "anisotropic friction is not used by the island: friction is the same in all directions");
   return warnings;
 }
 

@@ -258,6 +258,11 @@ void ContactSearch::search(Pair& pair, std::vector<RigidContact>& contacts) noex
           fromBullet((point.getPositionWorldOnA() + point.getPositionWorldOnB()) * btScalar(0.5));
       contact.friction = static_cast<double>(point.m_combinedFriction);
       contact.restitution = static_cast<double>(point.m_combinedRestitution);
+      // Bullet's solver uses spinning friction only together with rolling friction.
+      if (point.m_combinedRollingFriction > 0) {
+        contact.rolling = static_cast<double>(point.m_combinedRollingFriction);
+        contact.spinning = static_cast<double>(point.m_combinedSpinningFriction);
+      }
       contact.min_bounce_speed = min_bounce_speed_;
       contacts.push_back(contact);
     }

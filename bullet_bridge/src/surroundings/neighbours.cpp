@@ -56,6 +56,13 @@ class Visitor final : public btBroadphaseAabbCallback {
   Visit visit_;
 };
 
+/// True if the island knows all laws of the body's contact. Others stay Bullet's.
+bool hasPlainContact(const btRigidBody& body) {
+  return !body.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION |
+                                      btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION) &&
+         (body.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING) == 0;
+}
+
 template <typename Body>
 bool contains(const std::vector<Body*>& bodies, const btRigidBody* body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
@@ -135,7 +142,8 @@ bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
   if (!body.hasContactResponse() || std::binary_search(excluded_.begin(), excluded_.end(), &body))
     return false;
   if (body.isKinematicObject()) return shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
-  return isMovedByForces(body) && !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
+  return isMovedByForces(body) && hasPlainContact(body) &&
+         !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
          (shape.isConvex() || shape.isCompound());
 }
 

@@ -19,10 +19,10 @@ namespace tandem {
 ///
 /// The private origin is near the first body, so a float Bullet resolves tens of nanometres
 /// anywhere. Friction, restitution and margins are those of the host's objects at the last
-/// update(). Rolling friction and contact stiffness are ignored. Simple shapes are copied when they
-/// come near. Meshes, height fields, compounds and other shapes are shared with the host. They must
-/// not change while attached, and must live until the commit() after their object left the world.
-/// With a haptic thread that is the end of the host's next step.
+/// update(). Rolling and spinning friction act, contact stiffness and anisotropic friction do not.
+/// Simple shapes are copied when they come near. Meshes, height fields, compounds and other shapes
+/// are shared with the host. They must not change while attached, and must live until the commit()
+/// after their object left the world. With a haptic thread that is the end of the host's next step.
 ///
 /// Native contact of an island body with a candidate or another island body is filtered meanwhile.
 /// Kinematic objects are no candidates: they can be bodies. Bullet's global contact callbacks also

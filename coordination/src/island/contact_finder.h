@@ -24,6 +24,8 @@ struct RigidContact {
   double friction = 0.0;          ///< Coulomb's friction coefficient of the pair
   double restitution = 0.0;       ///< restitution coefficient of the pair
   double min_bounce_speed = 0.0;  ///< restitution acts above this approach speed [m/s]
+  /// Greatest torque against rolling, and against spinning about n, per normal force [m].
+  double rolling = 0.0, spinning = 0.0;
 };
 
 /// Finds rigid contacts between bodies of the island, and with fixed surfaces.

@@ -83,4 +83,28 @@ void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& a
   }
 }
 
+/// As a turn about n and one about a tangent, each as if it acted alone.
+[[gnu::noinline]] void RigidRow::resistTurning() noexcept {
+  const PlainVec &n = axis_[0].direction, &s = axis_[1].direction, &t = axis_[2].direction;
+  const auto mobility = [&](const PlainVec& axis) {
+    return dot(axis, a->turnBy(axis)) + (b_moves_ ? dot(axis, b->turnBy(axis)) : 0.0);
+  };
+  const auto divide = [](double value, double by) { return by > 0.0 ? value / by : 0.0; };
+  const PlainVec w = b_moves_ ? a->w - b->w : a->w;
+  const double freest = std::max(mobility(s), mobility(t));
+  const double spin_limit = spinning * impulse.n, roll_limit = rolling * impulse.n;
+  Local twist{twist_.n - divide(dot(n, w), mobility(n)), twist_.s - divide(dot(s, w), freest),
+              twist_.t - divide(dot(t, w), freest)};
+  twist.n = std::clamp(twist.n, -spin_limit, spin_limit);
+  const double size = std::hypot(twist.s, twist.t);
+  if (size > roll_limit) {
+    twist.s *= roll_limit / size;
+    twist.t *= roll_limit / size;
+  }
+  const PlainVec change = toWorld({twist.n - twist_.n, twist.s - twist_.s, twist.t - twist_.t});
+  twist_ = twist;
+  a->w = a->w + a->turnBy(change);
+  if (b_moves_) b->w = b->w - b->turnBy(change);
+}
+
 }  // namespace tandem

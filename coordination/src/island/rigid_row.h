@@ -92,6 +92,8 @@ class RigidRow {
       impulse.t = t;
     }
     apply(change);
+    if (rolling > 0.0 || spinning > 0.0) [[unlikely]]
+      resistTurning();
   }
 
   /// Applies an impulse to both bodies.
@@ -123,10 +125,11 @@ class RigidRow {
   }
 
   RigidMover *a = nullptr, *b = nullptr;
-  Local impulse;                ///< total of this step [N s]
-  double wanted = 0.0;          ///< least normal velocity [m/s]
-  double friction = 0.0;        ///< Coulomb's coefficient
-  double inverse_normal = 0.0;  ///< impulse per normal velocity [kg]
+  Local impulse;                         ///< total of this step [N s]
+  double wanted = 0.0;                   ///< least normal velocity [m/s]
+  double friction = 0.0;                 ///< Coulomb's coefficient
+  double rolling = 0.0, spinning = 0.0;  ///< RigidContact
+  double inverse_normal = 0.0;           ///< impulse per normal velocity [kg]
 
  private:
   struct Axis {
@@ -135,6 +138,9 @@ class RigidRow {
     PlainVec turn_a, turn_b;  ///< angular velocity per impulse
     double surface = 0.0;     ///< velocity of a fixed surface [m/s]
   };
+
+  /// Removes rolling and spinning, within what the normal impulse allows.
+  void resistTurning() noexcept;
 
   /// Velocity along i per impulse along j.
   [[nodiscard]] double mobility(int i, int j) const noexcept {
@@ -151,6 +157,7 @@ class RigidRow {
   double normal_to_s_ = 0.0, normal_to_t_ = 0.0;
   double stick_ss_ = 0.0, stick_st_ = 0.0, stick_tt_ = 0.0;
   double slide_ = 0.0;
+  Local twist_;           ///< angular impulse against rolling and spinning [N m s]
   bool b_moves_ = false;  ///< b is not a fixed surface
 };
 

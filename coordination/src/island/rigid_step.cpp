@@ -103,6 +103,8 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
     point.row.setUp(mover(contact.a), mover(contact.b), PlainVec(arm_a), PlainVec(arm_b),
                     PlainVec(contact.n_W), PlainVec(contact.v_W));
     point.row.friction = contact.friction;
+    point.row.rolling = contact.rolling;
+    point.row.spinning = contact.spinning;
     if (!point.row.canMove()) {
       points_.pop_back();
       continue;
