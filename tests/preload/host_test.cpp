@@ -141,14 +141,24 @@ TEST_P(PreloadedHost, LetsGoOfAnObjectThatLeavesAndTakesItAgain) {
   const Outcome outcome = preloaded("removed", folder_.write("push.toml", kPush));
   EXPECT_EQ(outcome.status, 0);
   expectWords(outcome.err,
-              {"shares moving body 1", "was taken out of world 1", "shares moving body 3"});
+              {"shares moving body 1", "was taken out of world 1: waiting for it to come back",
+               "shares moving body 3", "world 1 ends after"});
   EXPECT_NE(outcome.out.find("mass 0.200000"), std::string::npos);
+}
+
+// The host takes all bodies out before it deletes its world.
+TEST_P(PreloadedHost, SaysAtItsEndThatItEnds) {
+  const Outcome outcome = preloaded("plain", folder_.write("push.toml", kPush));
+  EXPECT_EQ(outcome.status, 0);
+  expectLines(outcome.err, 3);
+  expectWords(outcome.err, {"shares moving body 1", "world 1 ends after 60 steps with the object"});
+  EXPECT_EQ(outcome.err.find("taken out"), std::string::npos) << outcome.err;
 }
 
 TEST_P(PreloadedHost, AttachesAgainWhenTheProgramTakesTheCallback) {
   const Outcome outcome = preloaded("callback", folder_.write("push.toml", kPush));
   EXPECT_EQ(outcome.status, 0);
-  expectWords(outcome.err, {"has set a tick callback of its own", "was taken out of world 1"});
+  expectWords(outcome.err, {"has set a tick callback of its own", "world 1 ends after 60 steps"});
   double x = 0.0;
   ASSERT_EQ(std::sscanf(outcome.out.c_str(), "hash %*s cube %lf", &x), 1);
   EXPECT_GT(x, 0.02);

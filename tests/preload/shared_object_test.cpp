@@ -60,6 +60,38 @@ TEST(SharedObject, WaitsUntilItIsThereAndLetsGoWhenItLeaves) {
   EXPECT_EQ(shared.site(), nullptr);
 }
 
+// A program takes its bodies out at its end, too: the next step tells whether it runs on.
+TEST(SharedObject, SaysThatItWasTakenOutInTheNextStepOnly) {
+  BulletRig rig;
+  btRigidBody& cube = rig.addCube(0.2);
+  SharedObject shared(makeConfig());
+  shared.setWorld(rig.world);
+  const auto takeOut = [&] {
+    shared.objectLeaves(&cube);
+    rig.world.removeRigidBody(&cube);
+  };
+  const auto hear = [](const auto& act) {
+    testing::internal::CaptureStderr();
+    act();
+    return testing::internal::GetCapturedStderr();
+  };
+  step(shared, rig);
+  EXPECT_EQ(hear(takeOut), "");
+  EXPECT_NE(hear([&] { step(shared, rig); }).find("taken out of world 1: waiting for it to come"),
+            std::string::npos);
+  EXPECT_EQ(hear([&] { step(shared, rig); }), "");
+  rig.world.addRigidBody(&cube);
+  step(shared, rig);
+  takeOut();
+  rig.world.addRigidBody(&cube);
+  EXPECT_NE(hear([&] { step(shared, rig); }).find("taken out of world 1, and is back"),
+            std::string::npos);
+  takeOut();
+  EXPECT_NE(hear([&] { shared.endWorld(); }).find("world 1 ends after 3 steps with the object"),
+            std::string::npos);
+  rig.world.addRigidBody(&cube);
+}
+
 TEST(SharedObject, LeavesAloneWhatWasThereBesides) {
   BulletRig rig;
   btRigidBody& cube = rig.addCube(0.2);

@@ -66,11 +66,20 @@ void SharedObject::beforeStep() noexcept {
 
 void SharedObject::lookForObject() {
   const ObjectChoice choice = chooseObject(*world_, config_, leave_alone_);
+  if (!is_leaving_told_) reportLeaving(choice.body != nullptr);
   if (choice.body) return attach(choice);
   if (is_waiting_told_) return;
   is_waiting_told_ = true;
   say("world %d does not have the object of the config yet: waiting for it; its moving bodies: %s",
       config_.world, listObjects(*world_).c_str());
+}
+
+// The next step tells that the program runs on: at its end it takes all bodies out, which is no
+// news.
+void SharedObject::reportLeaving(bool is_back) {
+  is_leaving_told_ = true;
+  say("the object was taken out of world %d%s", config_.world,
+      is_back ? ", and is back" : ": waiting for it to come back");
 }
 
 void SharedObject::attach(const ObjectChoice& choice) {
@@ -150,6 +159,7 @@ void SharedObject::objectLeaves(const void* object) noexcept {
 }
 
 void SharedObject::letGo() noexcept {
+  last_ticks_ = site_->tickCount();
   site_.reset();
   device_.reset();
   has_left_ = false;
@@ -161,7 +171,7 @@ void SharedObject::letGo() noexcept {
   }
   std::erase(leave_alone_, body_);
   body_ = nullptr;
-  say("the object was taken out of world %d: waiting for it to come back", config_.world);
+  is_leaving_told_ = false;
 }
 
 void SharedObject::giveUp(const char* why) noexcept {
@@ -173,8 +183,8 @@ void SharedObject::giveUp(const char* why) noexcept {
 }
 
 void SharedObject::endWorld() noexcept {
-  const bool was_shared = site_ != nullptr;
-  const unsigned long long ticks = was_shared ? site_->tickCount() : 0;
+  const bool was_shared = site_ || !is_leaving_told_;
+  const unsigned long long ticks = site_ ? site_->tickCount() : last_ticks_;
   site_.reset();
   remote_.reset();
   log_.reset();

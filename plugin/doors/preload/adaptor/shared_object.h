@@ -39,6 +39,7 @@ class SharedObject {
 
  private:
   void lookForObject();
+  void reportLeaving(bool is_back);
   void attach(const ObjectChoice& choice);
   void lookForTheSame(const ObjectChoice& choice);
   void attachAgainIfUnseated();
@@ -58,7 +59,9 @@ class SharedObject {
   HostTime time_, site_time_;
   std::uint64_t steps_ = 0, seen_steps_ = 0;
   std::uint32_t reported_status_ = 0;
+  std::uint64_t last_ticks_ = 0;  ///< of the stay that ended last
   bool is_in_step_ = false, has_left_ = false, is_waiting_told_ = false, has_given_up_ = false;
+  bool is_leaving_told_ = true;  ///< false: the object left after the last step
 };
 
 }  // namespace tandem::preload
