@@ -436,7 +436,7 @@ class WhatGoesWrong(unittest.TestCase):
 
     def test_second_site_and_unknown_words(self):
         with Client() as client, tandem.Site(far_hand(), client=client.id):
-            with self.assertRaisesRegex(tandem.TandemError, "close"):
+            with self.assertRaisesRegex(tandem.TandemError, "^there is a site already: `close`"):
                 tandem.Site(far_hand(), client=client.id)
         with Client() as client:
             with self.assertRaisesRegex(tandem.TandemError, "no word colour"):

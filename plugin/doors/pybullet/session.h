@@ -107,6 +107,7 @@ class Session {
     TandemLink* handle = nullptr;
   };
 
+  void requireNoSite() const;
   void requireOpen() const;
   void requireSite() const;
   void requireFree(int body) const;

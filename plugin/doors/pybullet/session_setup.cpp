@@ -17,6 +17,10 @@ Session::Session(const B3Functions& functions, b3::Client client) : engine_(func
 
 Session::~Session() { sayFarewell(1); }
 
+void Session::requireNoSite() const {
+  if (site_) throw Refusal(kWrongOrder, "there is a site already: `close` first");
+}
+
 void Session::requireOpen() const {
   if (!site_) throw Refusal(kWrongOrder, "there is no site yet: `device`, then `site`");
 }
@@ -35,13 +39,13 @@ void Session::requireFree(int body) const {
 }
 
 void Session::takeDevice(DeviceHandle device, bool is_moved) {
-  if (site_) throw Refusal(kWrongOrder, "the site has its device: `close` first");
+  requireNoSite();
   device_ = std::move(device);
   device_is_moved_ = is_moved;
 }
 
 void Session::openSite(const TandemSiteSettings& settings) {
-  if (site_) throw Refusal(kWrongOrder, "there is a site already: `close` first");
+  requireNoSite();
   if (!device_) throw Refusal(kWrongOrder, "a site needs a device: `device` first");
   const EngineParameters parameters = askParameters();
   TandemWorld* world = nullptr;
