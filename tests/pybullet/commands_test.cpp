@@ -22,16 +22,20 @@ constexpr int kBad = -10, kOrder = -11, kServer = -12;
 
 class WrongCommand : public ::testing::TestWithParam<Wrong> {};
 
-// Body 0 is a cube, 1 a floor, 2 has joints, 3 maximal coordinates, 4 a mesh, 5 is off its centre.
+// Body 0 is a cube, 1 a floor, 2 has joints, 3 maximal coordinates, 4 a mesh, 5 is off its centre,
+// 6 is soft.
 TEST_P(WrongCommand, IsRefusedWithTheRemedy) {
   PluginHost host;
   StubBody jointed = makeStubCube(), maximal = makeStubCube(), mesh = makeStubCube(),
-           off = makeStubCube();
+           off = makeStubCube(), soft = makeStubCube();
   jointed.links = 2;
   maximal.is_multibody = false;
   mesh.shape = {makeStubShape(b3::kMesh, Vec3::Ones())};
   off.shape[0].frame[0] = 0.1;
-  for (const StubBody& body : {makeStubCube(), makeStubFloor(), jointed, maximal, mesh, off}) {
+  soft.is_soft = true;
+  soft.is_multibody = false;
+  for (const StubBody& body :
+       {makeStubCube(), makeStubFloor(), jointed, maximal, mesh, off, soft}) {
     host.engine.add(body);
   }
   host.command(kFarHand);
@@ -71,7 +75,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"share body=3", kServer, "maximal coordinates"},
         Wrong{"share body=4", kServer, "shape=hull"},
         Wrong{"share body=5", kServer, "centre of mass"},
-        Wrong{"share body=6", kServer, "no rigid body of this number"},
+        Wrong{"share body=6", kServer, "body 6 is a soft body: Tandem can have rigid bodies only"},
+        Wrong{"share body=6 shape=sphere size=1", kServer, "is a soft body"},
+        Wrong{"obstacle body=6", kServer, "is a soft body"},
+        Wrong{"share body=7", kServer, "no rigid body of this number"},
         Wrong{"share body=-1", kServer, "no rigid body of this number"},
         Wrong{"obstacle body=0", kServer, "moves"},
         Wrong{"device kind=moved", kOrder, "there is a site already: `close` first"},

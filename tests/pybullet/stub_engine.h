@@ -20,6 +20,7 @@ struct StubBody {
   double linear_damping = 0.04, angular_damping = 0.04;    // PyBullet's defaults
   double friction = 0.5, restitution = 0.0;
   bool is_multibody = true;
+  bool is_soft = false;
   bool may_sleep = true;
   int links = 0;
   RigidState state;

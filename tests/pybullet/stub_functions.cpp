@@ -177,7 +177,9 @@ int b3GetDynamicsInfo(b3::Status status, b3::DynamicsInfo* info) {
   info->friction = body.friction;
   info->restitution = body.is_multibody ? body.restitution : 0.77;  // stale value of another answer
   info->activation_state = body.may_sleep ? 1 : b3::kNeverSleeps;
-  info->body_type = body.is_multibody ? b3::kMultiBody : b3::kRigidBody;
+  info->body_type = body.is_soft        ? b3::kSoftBody
+                    : body.is_multibody ? b3::kMultiBody
+                                        : b3::kRigidBody;
   info->linear_damping = body.linear_damping;
   info->angular_damping = body.angular_damping;
   return 1;

@@ -70,6 +70,7 @@ struct DynamicsInfo {
 };
 inline constexpr int kRigidBody = 1;  // body_type: a btRigidBody ("maximal coordinates")
 inline constexpr int kMultiBody = 2;
+inline constexpr int kSoftBody = 3;
 inline constexpr int kNeverSleeps = 4;  // activation_state
 
 /// Activation bits of the change-dynamics command, which differ from those in DynamicsInfo.

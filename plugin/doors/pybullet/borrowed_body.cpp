@@ -37,6 +37,10 @@ BorrowedBody::BorrowedBody(const Engine& engine, int body) : body_(body) {
     throw Refusal(kPyBulletSays,
                   "body " + std::to_string(body) + ": PyBullet has no rigid body of this number");
   }
+  if (facts->is_soft) {
+    throw Refusal(kPyBulletSays, "body " + std::to_string(body) +
+                                     " is a soft body: Tandem can have rigid bodies only");
+  }
   before_ = *facts;
   mass_ = before_.mass;
   inertia_ = Vec3(before_.inertia);

@@ -60,6 +60,7 @@ std::optional<BodyFacts> Engine::readFacts(int body) const {
   facts.linear_damping = info.linear_damping;
   facts.angular_damping = info.angular_damping;
   facts.is_multibody = info.body_type == b3::kMultiBody;
+  facts.is_soft = info.body_type == b3::kSoftBody;
   // For a btRigidBody the answer holds an old value.
   if (facts.is_multibody) facts.restitution = info.restitution;
   facts.may_sleep = info.activation_state != b3::kNeverSleeps;

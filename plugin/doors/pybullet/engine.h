@@ -17,6 +17,7 @@ struct BodyFacts {
   double restitution = 0.0;     // 0 for a btRigidBody: unknown to PyBullet's interface
   double linear_damping = 0.0;  // v (1 - d)^dt, or -m d v for a multibody
   double angular_damping = 0.0;
+  bool is_soft = false;
   bool is_multibody = true;  // else a btRigidBody, "maximal coordinates"
   bool may_sleep = false;
   int links = 0;  // besides the base
