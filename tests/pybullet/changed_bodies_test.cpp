@@ -30,6 +30,7 @@ TEST(RemovedBody, IsNotMistakenForTheNextOfItsNumber) {
     EXPECT_EQ(shared.host.engine.add(other), shared.cube);
     shared.host.step(2);
     EXPECT_EQ(shared.host.read()[kHasEnded], 1.0) << at_once;
+    EXPECT_NE(shared.host.warnings().find("another has its number"), std::string::npos);
     shared.host.command("close");
     EXPECT_EQ(shared.body().mass, 3.0);
     EXPECT_EQ(shared.body().linear_damping, 0.04);
@@ -90,6 +91,66 @@ TEST(ChangedBody, MayBeGivenBothDampingsAtOnce) {
     EXPECT_EQ(body.restitution, 0.0) << number;
   }
   EXPECT_EQ(pressed.host.engine.bodies.at(pressed.cube).mass, cube.mass);
+}
+
+// All that changeDynamics() may set of a multibody, in one call: it is still the same body.
+TEST(ChangedBody, MayBeGivenEverythingAtOnce) {
+  Pressed pressed;
+  pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
+  for (const int number : {pressed.cube, pressed.floor}) {
+    StubBody& body = pressed.host.engine.bodies.at(number);
+    if (number == pressed.cube) body.mass = 1.0;
+    body.linear_damping = body.angular_damping = 0.1;
+    body.friction = 0.9;
+    body.restitution = 0.3;
+  }
+  pressed.host.step(4);
+  EXPECT_EQ(pressed.host.read()[kHasEnded], 0.0) << pressed.host.warnings();
+  for (const char* says : {"body 0: damping was set", "body 0: friction or restitution was set",
+                           "body 0: mass was set", "body 1: friction or restitution was set"}) {
+    EXPECT_NE(pressed.host.warnings().find(says), std::string::npos) << says;
+  }
+  EXPECT_EQ(pressed.host.warnings().find("was removed"), std::string::npos);
+  pressed.host.command("close");
+  for (const int number : {pressed.cube, pressed.floor}) {
+    const StubBody& body = pressed.host.engine.bodies.at(number);
+    EXPECT_EQ(body.linear_damping, 0.1) << number;
+    EXPECT_EQ(body.angular_damping, 0.1) << number;
+    EXPECT_EQ(body.friction, 0.9) << number;
+    EXPECT_EQ(body.restitution, 0.3) << number;
+    EXPECT_EQ(body.contact_threshold, 1e18) << number;
+  }
+  EXPECT_EQ(pressed.host.engine.bodies.at(pressed.cube).mass, 0.2);
+}
+
+TEST(ChangedBody, KeepsTheUsersContactThreshold) {
+  for (const double threshold : {0.01, 0.0}) {
+    SharedCube shared;
+    shared.body().contact_threshold = threshold;
+    shared.host.step(2);
+    EXPECT_NEAR(shared.body().contact_threshold, threshold, 1e-7 * threshold);
+    shared.host.command("close");
+    EXPECT_EQ(shared.body().contact_threshold, threshold);
+  }
+}
+
+// PyBullet tells less of a body with maximal coordinates. The message says that it may be the same.
+TEST(ChangedBody, IsNotKnownAgainWithMaximalCoordinates) {
+  StubBody cube = makeStubCube();
+  cube.is_multibody = false;
+  PluginHost host;
+  host.engine.add(cube);
+  host.command(kFarHand);
+  host.command("site");
+  host.command("share body=0 shape=box size=0.02,0.02,0.02");
+  StubBody& body = host.engine.bodies.at(0);
+  body.linear_damping = body.angular_damping = 0.1;
+  body.friction = 0.9;
+  host.step(2);
+  EXPECT_EQ(host.read()[kHasEnded], 1.0);
+  EXPECT_NE(host.warnings().find("or its friction and both dampings were set at once"),
+            std::string::npos)
+      << host.warnings();
 }
 
 // PyBullet does not report the restitution of a body with maximal coordinates: it stays unchanged.

@@ -314,6 +314,27 @@ class WhatGoesWrong(unittest.TestCase):
                 for place in (0, 1, 2) if maximal else (0, 1, 2, 5):
                     self.assertEqual(after[place], before[place])
 
+    def test_everything_set_in_one_call(self):
+        with Client() as client:
+            cube, floor = client.add_cube(), client.add_floor()
+            with tandem.Site(far_hand(), client=client.id) as site:
+                site.share(cube)
+                site.obstacles()
+                site.step()
+                for body, mass in ((cube, 1.0), (floor, 0.0)):
+                    p.changeDynamics(body, -1, mass=mass, lateralFriction=0.9, restitution=0.3,
+                                     linearDamping=0.1, angularDamping=0.1,
+                                     physicsClientId=client.id)
+                for _ in range(4):
+                    site.step()
+                said = "\n".join(site.warnings())
+                self.assertFalse(site.read().has_ended, said)
+                for words in ("mass was set", "damping was set", "friction or restitution was"):
+                    self.assertIn(f"body {cube}: {words}", said)
+            after = client.dynamics(cube)
+            self.assertAlmostEqual(after[0], 0.2)
+            self.assertEqual((after[1], after[5]), (0.9, 0.3))
+
     def test_obstacles_of_all_kinds(self):
         """Markers without a collision shape and what is attached are left out; the rest is tried."""
         with Client() as client:

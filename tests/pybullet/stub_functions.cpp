@@ -24,9 +24,10 @@ struct Order {
   int other = -1;
   bool has_position = false, has_orientation = false, has_velocity = false, has_spin = false;
   bool has_mass = false, has_inertia = false, has_linear = false, has_angular = false;
-  bool has_friction = false, has_restitution = false;
+  bool has_friction = false, has_restitution = false, has_threshold = false;
   RigidState state;
   double mass = 0.0, linear = 0.0, angular = 0.0, friction = 0.0, restitution = 0.0;
+  double threshold = 0.0;
   Vec3 inertia{0, 0, 0};
   int activation = 0;
   bool collides = true;
@@ -72,6 +73,7 @@ void change(StubBody& body, const Order& by) {
   if (by.has_angular) body.angular_damping = by.angular;
   if (by.has_friction) body.friction = by.friction;
   if (by.has_restitution) body.restitution = by.restitution;
+  if (by.has_threshold) body.contact_threshold = by.threshold;
   if (by.activation & b3::kEnableSleeping) body.may_sleep = true;
   if (by.activation & b3::kDisableSleeping) body.may_sleep = false;
 }
@@ -175,7 +177,9 @@ int b3GetDynamicsInfo(b3::Status status, b3::DynamicsInfo* info) {
   info->mass = body.mass;
   std::copy_n(body.inertia.data(), 3, info->inertia);
   info->friction = body.friction;
-  info->restitution = body.is_multibody ? body.restitution : 0.77;  // stale value of another answer
+  // Stale values of another answer.
+  info->restitution = body.is_multibody ? body.restitution : 0.77;
+  info->contact_threshold = body.is_multibody ? body.contact_threshold : 0.77;
   info->activation_state = body.may_sleep ? 1 : b3::kNeverSleeps;
   info->body_type = body.is_soft        ? b3::kSoftBody
                     : body.is_multibody ? b3::kMultiBody
@@ -220,6 +224,13 @@ int b3ChangeDynamicsInfoSetRestitution(b3::Command command, int body, int, doubl
   toOrder(command).body = body;
   toOrder(command).has_restitution = true;
   toOrder(command).restitution = restitution;
+  return 0;
+}
+int b3ChangeDynamicsInfoSetContactProcessingThreshold(b3::Command command, int body, int,
+                                                      double distance) {
+  toOrder(command).body = body;
+  toOrder(command).has_threshold = true;
+  toOrder(command).threshold = distance;
   return 0;
 }
 int b3ChangeDynamicsInfoSetActivationState(b3::Command command, int body, int bits) {

@@ -51,7 +51,8 @@ struct PluginArguments {
   double floats[128];
 };
 
-/// Answer about the dynamics of a link. `later` is room for members of newer versions.
+/// Answer about the dynamics of a link. Members that a kind of body lacks hold an old value;
+/// `later` is room for members of newer versions.
 struct DynamicsInfo {
   double mass;
   double inertia[3];
@@ -66,7 +67,9 @@ struct DynamicsInfo {
   int body_type;
   double angular_damping;
   double linear_damping;
-  char later[512];
+  double swept_sphere_radius;
+  double contact_threshold;  // of a multibody: larger distances make no contact constraint [m]
+  char later[496];
 };
 inline constexpr int kRigidBody = 1;  // body_type: a btRigidBody ("maximal coordinates")
 inline constexpr int kMultiBody = 2;
@@ -115,6 +118,7 @@ inline constexpr int kCapsule = 7;  // distance of the spheres' centres, radius;
 static_assert(sizeof(PluginContext) == 96 && offsetof(PluginContext, command_processor) == 88);
 static_assert(offsetof(PluginArguments, floats) == 1544);
 static_assert(offsetof(DynamicsInfo, linear_damping) == 152);
+static_assert(offsetof(DynamicsInfo, contact_threshold) == 168);
 static_assert(offsetof(SimulationParameters, real_time) == 64);
 static_assert(sizeof(CollisionShapeData) == 1120);
 

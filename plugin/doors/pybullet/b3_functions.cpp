@@ -54,6 +54,7 @@ std::string findB3Functions(const void* caller, B3Functions& functions) {
   in.find(functions.change_angular_damping, "b3ChangeDynamicsInfoSetAngularDamping");
   in.find(functions.change_friction, "b3ChangeDynamicsInfoSetLateralFriction");
   in.find(functions.change_restitution, "b3ChangeDynamicsInfoSetRestitution");
+  in.find(functions.change_contact_threshold, "b3ChangeDynamicsInfoSetContactProcessingThreshold");
   in.find(functions.change_activation, "b3ChangeDynamicsInfoSetActivationState");
   in.find(functions.make_parameter_request, "b3InitRequestPhysicsParamCommand");
   in.find(functions.get_parameters, "b3GetStatusPhysicsSimulationParameters");

@@ -35,6 +35,7 @@ struct B3Functions {
   int (*change_angular_damping)(b3::Command, int body, double damping) = nullptr;
   int (*change_friction)(b3::Command, int body, int link, double friction) = nullptr;
   int (*change_restitution)(b3::Command, int body, int link, double restitution) = nullptr;
+  int (*change_contact_threshold)(b3::Command, int body, int link, double distance) = nullptr;
   int (*change_activation)(b3::Command, int body, int bits) = nullptr;
 
   b3::Command (*make_parameter_request)(b3::Client) = nullptr;

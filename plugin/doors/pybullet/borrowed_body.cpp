@@ -60,7 +60,9 @@ void BorrowedBody::borrow(const Engine& engine, double share) {
 BorrowedBody::Marks BorrowedBody::findMarks(const BodyFacts& facts) const {
   return {facts.linear_damping == mark_, facts.angular_damping == mark_,
           facts.friction == addMark(before_.friction, mark_),
-          before_.is_multibody && facts.restitution == addMark(before_.restitution, mark_)};
+          before_.is_multibody && facts.restitution == addMark(before_.restitution, mark_),
+          before_.contact_threshold > 0.0 &&
+              facts.contact_threshold == addMark(before_.contact_threshold, mark_)};
 }
 
 void BorrowedBody::putMarks(const Engine& engine) const {
@@ -69,13 +71,18 @@ void BorrowedBody::putMarks(const Engine& engine) const {
   if (before_.is_multibody) {
     engine.writeRestitution(body_, addMark(before_.restitution, mark_));
   }
+  // A mark in place of 0 would let contacts act only where bodies overlap.
+  if (before_.contact_threshold > 0.0) {
+    engine.writeContactThreshold(body_, addMark(before_.contact_threshold, mark_));
+  }
 }
 
 void BorrowedBody::renewMarks(const Engine& engine, const BodyFacts& facts, const Marks& has,
                               std::string& notice) {
   const bool has_damping = has.linear_damping && has.angular_damping;
   const bool has_surface = has.friction && (has.restitution || !before_.is_multibody);
-  if (has_damping && has_surface) return;
+  const bool has_threshold = has.contact_threshold || !(before_.contact_threshold > 0.0);
+  if (has_damping && has_surface && has_threshold) return;
   const std::string name = "body " + std::to_string(body_);
   if (!has_damping) {
     addLine(notice, name + ": damping was set while attached; it acts again after close");
@@ -89,15 +96,17 @@ void BorrowedBody::renewMarks(const Engine& engine, const BodyFacts& facts, cons
   if (!has.angular_damping) before_.angular_damping = facts.angular_damping;
   if (!has.friction) before_.friction = facts.friction;
   if (!has.restitution) before_.restitution = facts.restitution;
+  if (!has_threshold) before_.contact_threshold = facts.contact_threshold;
   putMarks(engine);
 }
 
-bool BorrowedBody::isThere(const Engine& engine, std::string& notice) {
+BorrowedBody::Presence BorrowedBody::look(const Engine& engine, std::string& notice) {
   const std::optional<BodyFacts> facts = engine.readFacts(body_);
-  if (!facts) return false;
+  if (!facts) return Presence::kRemoved;
   const Marks has = findMarks(*facts);
-  if (!has.linear_damping && !has.angular_damping && !has.friction && !has.restitution) {
-    return false;
+  if (!has.linear_damping && !has.angular_damping && !has.friction && !has.restitution &&
+      !has.contact_threshold) {
+    return Presence::kUnmarked;
   }
   renewMarks(engine, *facts, has, notice);
   if (std::abs(facts->mass - mass_) > 1e-6 * mass_) {
@@ -106,16 +115,19 @@ bool BorrowedBody::isThere(const Engine& engine, std::string& notice) {
                         ": mass was set while attached, and has been put back; close before you "
                         "change it");
   }
-  return true;
+  return Presence::kSame;
 }
 
 bool BorrowedBody::giveBack(const Engine& engine) {
   std::string notice;
-  if (!isThere(engine, notice)) return false;
+  if (look(engine, notice) != Presence::kSame) return false;
   if (mass_ != before_.mass) engine.writeMass(body_, before_.mass, before_.inertia);
   engine.writeDamping(body_, before_.linear_damping, before_.angular_damping);
   engine.writeFriction(body_, before_.friction);
   if (before_.is_multibody) engine.writeRestitution(body_, before_.restitution);
+  if (before_.contact_threshold > 0.0) {
+    engine.writeContactThreshold(body_, before_.contact_threshold);
+  }
   // PyBullet does not tell whether a multibody may sleep.
   if (!before_.is_multibody && before_.may_sleep) engine.letSleep(body_, true);
   return true;

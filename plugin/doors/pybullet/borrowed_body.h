@@ -12,12 +12,18 @@ namespace tandem::pybullet {
 /// and their original values.
 ///
 /// PyBullet reuses the number of a removed body. A borrowed body therefore carries unique marks:
-/// two dampings too small (1e-30) to damp, and the low bits (1e-7) of friction and, if PyBullet
-/// tells it, restitution. The user may set any of these meanwhile. While one mark is left it is the
-/// same body.
+/// two dampings too small (1e-30) to damp, and the low bits (1e-7) of friction and, of a multibody,
+/// restitution and contact processing threshold. The user may set any of these meanwhile. While one
+/// mark is left it is the same body.
 class BorrowedBody {
  public:
-  /// Only reads the body. Throws Refusal if it does not exist.
+  enum class Presence {
+    kSame,      ///< still the borrowed body
+    kRemoved,   ///< PyBullet has no body of this number
+    kUnmarked,  ///< another body, or all marks were overwritten at once
+  };
+
+  /// Only reads the body. Throws Refusal if it does not exist or is soft.
   BorrowedBody(const Engine& engine, int body);
 
   int number() const { return body_; }
@@ -27,10 +33,10 @@ class BorrowedBody {
   /// `share` of 0 keeps mass, inertia and sleeping.
   void borrow(const Engine& engine, double share);
 
-  /// True if this is still the borrowed body. Removes a damping or mass that the user has set
-  /// meanwhile, keeps friction and restitution, and reports each in `notice`. giveBack() restores
-  /// the user's damping, friction and restitution.
-  bool isThere(const Engine& engine, std::string& notice);
+  /// Removes a damping or mass that the user has set meanwhile, keeps friction and restitution, and
+  /// reports each in `notice`. giveBack() restores the user's values. Leaves a body without a mark
+  /// alone.
+  Presence look(const Engine& engine, std::string& notice);
 
   /// Undoes borrow(). Returns false if this is another body.
   bool giveBack(const Engine& engine);
@@ -40,7 +46,7 @@ class BorrowedBody {
 
  private:
   struct Marks {
-    bool linear_damping, angular_damping, friction, restitution;
+    bool linear_damping, angular_damping, friction, restitution, contact_threshold;
   };
   Marks findMarks(const BodyFacts& facts) const;
   void putMarks(const Engine& engine) const;

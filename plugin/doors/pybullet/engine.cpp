@@ -61,8 +61,11 @@ std::optional<BodyFacts> Engine::readFacts(int body) const {
   facts.angular_damping = info.angular_damping;
   facts.is_multibody = info.body_type == b3::kMultiBody;
   facts.is_soft = info.body_type == b3::kSoftBody;
-  // For a btRigidBody the answer holds an old value.
-  if (facts.is_multibody) facts.restitution = info.restitution;
+  // For a btRigidBody the answer holds old values.
+  if (facts.is_multibody) {
+    facts.restitution = info.restitution;
+    facts.contact_threshold = info.contact_threshold;
+  }
   facts.may_sleep = info.activation_state != b3::kNeverSleeps;
   return facts;
 }
@@ -91,6 +94,12 @@ void Engine::writeFriction(int body, double friction) const {
 void Engine::writeRestitution(int body, double restitution) const {
   const b3::Command command = b3_.make_dynamics_change(client_);
   b3_.change_restitution(command, body, kBase, restitution);
+  b3_.submit(client_, command);
+}
+
+void Engine::writeContactThreshold(int body, double distance) const {
+  const b3::Command command = b3_.make_dynamics_change(client_);
+  b3_.change_contact_threshold(command, body, kBase, distance);
   b3_.submit(client_, command);
 }
 

@@ -17,8 +17,9 @@ struct BodyFacts {
   double restitution = 0.0;     // 0 for a btRigidBody: unknown to PyBullet's interface
   double linear_damping = 0.0;  // v (1 - d)^dt, or -m d v for a multibody
   double angular_damping = 0.0;
+  double contact_threshold = 0.0;  // [m]; 0 for a btRigidBody: unknown, too
+  bool is_multibody = true;        // else a btRigidBody, "maximal coordinates", or soft
   bool is_soft = false;
-  bool is_multibody = true;  // else a btRigidBody, "maximal coordinates"
   bool may_sleep = false;
   int links = 0;  // besides the base
 };
@@ -46,6 +47,7 @@ class Engine {
   void writeDamping(int body, double linear, double angular) const;
   void writeFriction(int body, double friction) const;
   void writeRestitution(int body, double restitution) const;
+  void writeContactThreshold(int body, double distance) const;
   void letSleep(int body, bool may_sleep) const;
 
   /// Switches contact between the bases of two bodies, whatever their groups and masks.

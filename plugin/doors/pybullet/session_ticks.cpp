@@ -60,12 +60,22 @@ void Session::runSafely(void (Session::*part)()) noexcept {
 
 bool Session::isSame(BorrowedBody& body) {
   std::string notice;
-  const bool is_there = body.isThere(engine_, notice);
+  const BorrowedBody::Presence presence = body.look(engine_, notice);
   if (!notice.empty()) warn(notice);
-  if (!is_there) {
-    end("body " + std::to_string(body.number()) + " was removed from PyBullet while attached");
+  if (presence == BorrowedBody::Presence::kSame) return true;
+  std::string why =
+      "body " + std::to_string(body.number()) + " was removed from PyBullet while attached";
+  if (presence == BorrowedBody::Presence::kUnmarked) {
+    why += " and another has its number";
+    // PyBullet tells too little of these to know them again.
+    if (!body.before().is_multibody) {
+      why +=
+          ", or its friction and both dampings were set at once: with maximal coordinates, leave "
+          "one of them for the next step";
+    }
   }
-  return is_there;
+  end(why);
+  return false;
 }
 
 // Checks one body per step, so that the cost does not grow with their number.
