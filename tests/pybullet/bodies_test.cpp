@@ -176,5 +176,31 @@ TEST(WrongTimeStep, IsNoticed) {
       << shared.host.warnings();
 }
 
+TEST(DeformableWorld, EndsTheSiteWithTheRemedy) {
+  SharedCube shared;
+  shared.body().state.v_W.x() = 0.1;
+  shared.host.engine.is_deformable = true;
+  shared.host.step(3);
+  EXPECT_EQ(shared.host.read()[kHasEnded], 1.0);
+  const std::string said = shared.host.warnings();
+  EXPECT_NE(said.find("PyBullet's world is deformable"), std::string::npos) << said;
+  EXPECT_NE(said.find("without RESET_USE_DEFORMABLE_WORLD: the site has ended"), std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("0.000000 s"), std::string::npos) << said;
+}
+
+// Its velocity is kept, but nothing moves it. Another reason is no deformable world.
+TEST(HeldBody, IsNamed) {
+  SharedCube shared;
+  shared.body().state.v_W.x() = 0.1;
+  shared.host.engine.moves_for = 1e-12;
+  shared.host.step(3);
+  EXPECT_EQ(shared.host.read()[kHasEnded], 0.0);
+  const std::string said = shared.host.warnings();
+  EXPECT_NE(said.find("body 0 has a velocity, but PyBullet did not move it"), std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("0.000000 s"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace tandem::test

@@ -335,6 +335,18 @@ class WhatGoesWrong(unittest.TestCase):
             self.assertAlmostEqual(after[0], 0.2)
             self.assertEqual((after[1], after[5]), (0.9, 0.3))
 
+    def test_deformable_world(self):
+        with Client() as client:
+            p.resetSimulation(p.RESET_USE_DEFORMABLE_WORLD, physicsClientId=client.id)
+            with tandem.Site(far_hand(), client=client.id) as site:
+                cube = client.add_cube()
+                site.share(cube)
+                p.resetBaseVelocity(cube, (0.1, 0, 0), physicsClientId=client.id)
+                for _ in range(3):
+                    site.step()
+                self.assertTrue(site.read().has_ended)
+                self.assertIn("without RESET_USE_DEFORMABLE_WORLD", site.warnings()[-1])
+
     def test_obstacles_of_all_kinds(self):
         """Markers without a collision shape and what is attached are left out; the rest is tried."""
         with Client() as client:

@@ -34,12 +34,16 @@ int StubEngine::add(const StubBody& body) {
   return number;
 }
 
-void StubEngine::move(StubBody& body, double dt) const {
+void StubEngine::accelerate(StubBody& body, double dt) const {
   if (body.mass == 0.0) return;
   damp(body, dt);
   turnFreely(body, dt);
   body.state.v_W += dt * gravity + body.hit / body.mass;
   body.hit.setZero();
+}
+
+void StubEngine::move(StubBody& body, double dt) const {
+  if (body.mass == 0.0) return;
   const double moved = moves_for > 0.0 ? moves_for : dt;
   body.state.p_W += moved * body.state.v_W;
   turn(body.state, moved);
@@ -53,11 +57,16 @@ void StubEngine::step(Tick pre_tick, Tick post_tick, void* user_pointer) {
     context.client = client();
     context.user_pointer = user_pointer;
     if (pre_tick) pre_tick(&context);
-    for (auto& [number, body] : bodies) move(body, dt);
+    for (auto& [number, body] : bodies) accelerate(body, dt);
+    const auto moveAll = [&] {
+      for (auto& [number, body] : bodies) move(body, dt);
+    };
+    if (!is_deformable) moveAll();
     b3::PluginContext after{};
     after.client = client();
     after.user_pointer = user_pointer;
     if (post_tick) post_tick(&after);
+    if (is_deformable) moveAll();
   }
 }
 

@@ -37,7 +37,8 @@ class StubEngine {
   double time_step = 1.0 / 240.0;
   int substeps = 0;
   Vec3 gravity = Vec3::Zero();
-  double moves_for = 0.0;  // time that bodies really move for; 0: the step
+  bool is_deformable = false;  // its world calls the post-tick before it moves the bodies
+  double moves_for = 0.0;      // time that bodies really move for; 0: the step
   std::map<int, StubBody> bodies;
   std::set<std::pair<int, int>> without_contact;
   int commands = 0;  // commands submitted so far
@@ -54,6 +55,7 @@ class StubEngine {
   void step(Tick pre_tick = nullptr, Tick post_tick = nullptr, void* user_pointer = nullptr);
 
  private:
+  void accelerate(StubBody& body, double dt) const;
   void move(StubBody& body, double dt) const;
 };
 

@@ -93,7 +93,8 @@ class Session {
   struct Moving {
     BorrowedBody body;
     TandemBody id;
-    TandemState set;  // state that PyBullet was told last
+    TandemState set;         // state that PyBullet was told last
+    bool has_stood = false;  // did not move in the last step, despite its velocity
   };
   struct Standing {
     BorrowedBody body;
@@ -123,7 +124,8 @@ class Session {
   void sayFarewell(int rounds);
   void lookAtOne();
   bool isSame(BorrowedBody& body);
-  void watchStep(const TandemState& before, const TandemState& after);
+  void watchStep(Moving& one, const TandemState& after);
+  void explainStanding(Moving& one, const TandemState& now);
   void warn(const std::string& text);
   void end(const std::string& why);
   void runSafely(void (Session::*part)()) noexcept;

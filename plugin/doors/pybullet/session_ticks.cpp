@@ -33,6 +33,13 @@ bool areNear(const TandemState& a, const TandemState& b) {
          areNear(a.angular_velocity, b.angular_velocity, 3);
 }
 
+/// Time in which a body at velocity `v` covers the way between two states [s].
+double computeTimeMoved(const TandemState& from, const TandemState& to, const double v[3]) {
+  double along = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) along += (to.position[i] - from.position[i]) * v[i];
+  return along / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
 }  // namespace
 
 void Session::warn(const std::string& text) {
@@ -125,6 +132,7 @@ void Session::begin() {
       return end("body " + std::to_string(one.body.number()) +
                  " was removed from PyBullet while attached");
     }
+    if (one.has_stood) explainStanding(one, now_[i]);
     if (!areNear(now_[i], one.set)) isSame(one.body);
   }
   if (!ended_.empty()) return;
@@ -143,17 +151,34 @@ void Session::begin() {
 
 // Warns if PyBullet's motion does not fit the step: Bullet moves a body by its new velocity times
 // dt.
-void Session::watchStep(const TandemState& before, const TandemState& after) {
+void Session::watchStep(Moving& one, const TandemState& after) {
+  if (has_warned_of_step_) return;
   const double* const v = after.velocity;
-  const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  if (has_warned_of_step_ || std::sqrt(v2) * parameters_.step < 1e-6) return;
-  double along = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) along += (after.position[i] - before.position[i]) * v[i];
-  const double step = along / v2;
+  if (std::hypot(v[0], v[1], v[2]) * parameters_.step < 1e-6) return;
+  const double step = computeTimeMoved(one.set, after, v);
   if (std::abs(step - parameters_.step) < 1e-3 * parameters_.step) return;
+  one.has_stood = std::abs(step) < 1e-3 * parameters_.step;
+  if (one.has_stood) return;  // the next step shows why
   has_warned_of_step_ = true;
   warn("PyBullet moved a body for " + std::to_string(step) + " s in a step of " +
        std::to_string(parameters_.step) + " s: where shared bodies are is not exact");
+}
+
+// A deformable world calls the post-tick before it moves its bodies, and moves them after it.
+void Session::explainStanding(Moving& one, const TandemState& now) {
+  one.has_stood = false;
+  const double* const v = one.set.velocity;
+  if (std::hypot(v[0], v[1], v[2]) * parameters_.step < 1e-6) return;
+  const double moved = computeTimeMoved(one.set, now, v) / parameters_.step;
+  if (moved > 0.5 && moved < 1.5) {
+    return end(
+        "PyBullet's world is deformable and moves bodies when its step is over, so nothing can be "
+        "shared in it: `resetSimulation` without RESET_USE_DEFORMABLE_WORLD");
+  }
+  has_warned_of_step_ = true;
+  warn("body " + std::to_string(one.body.number()) +
+       " has a velocity, but PyBullet did not move it: is it static or kinematic now? It is not "
+       "where it is felt");
 }
 
 void Session::finish() {
@@ -162,7 +187,7 @@ void Session::finish() {
       return end("body " + std::to_string(moving_[i].body.number()) +
                  " was removed from PyBullet while attached");
     }
-    watchStep(moving_[i].set, now_[i]);
+    watchStep(moving_[i], now_[i]);
   }
   check(tandem_world_end_step(world_.get(), ids_.size(), ids_.data(), now_.data(), told_.data()));
   for (std::size_t i = 0; i < moving_.size(); ++i) {
