@@ -347,6 +347,16 @@ class WhatGoesWrong(unittest.TestCase):
                 self.assertTrue(site.read().has_ended)
                 self.assertIn("without RESET_USE_DEFORMABLE_WORLD", site.warnings()[-1])
 
+    def test_links_of_a_mesh_whose_peer_is_away(self):
+        with tempfile.TemporaryDirectory() as folder, Client() as client:
+            key = os.path.join(folder, "pair.key")
+            tandem.create_key(key, client.id)
+            with tandem.Site(far_hand(), client=client.id) as site:
+                ways = site.mesh(1, "127.0.0.1:0", [tandem.Peer(2, "127.0.0.1:7999", key)])
+                site.connect(2, ways[2])
+                site.step()
+                self.assertEqual(site.read().links, ("calling",))
+
     def test_obstacles_of_all_kinds(self):
         """Markers without a collision shape and what is attached are left out; the rest is tried."""
         with Client() as client:

@@ -78,6 +78,9 @@ TEST(TwoUsers, CarryPacketsByHand) {
   EXPECT_EQ(first.host.read()[kStatus], 0.0);
 }
 
+// Codes of `links`: the link's states, and behind them the phases of a mesh's peer.
+constexpr double kCalling = 6.0, kDifferent = 8.0, kLeft = 10.0;
+
 // Sealed datagrams over loopback; each step receives, and sends due datagrams.
 TEST(TwoUsers, MeetOverAMesh) {
   const std::string key = testing::TempDir() + "tandem_pybullet_pair.key";
@@ -97,6 +100,7 @@ TEST(TwoUsers, MeetOverAMesh) {
   first.connect(2, "0.03,0,0");
   second.connect(1, "-0.03,0,0");
   first.host.command("hand force=5,0,0");
+  EXPECT_EQ(first.host.read().back(), kCalling);
   const auto phase = [&] {
     return static_cast<int>(first.host.ask("mesh_status peer=2").doubles().at(0));
   };
@@ -108,12 +112,42 @@ TEST(TwoUsers, MeetOverAMesh) {
   }
   EXPECT_EQ(phase(), TANDEM_PEER_LIVE) << first.host.ask("mesh_explain peer=2").bytes;
   EXPECT_GE(first.host.read()[14], 20);
+  EXPECT_LE(first.host.read().back(), TANDEM_LINK_REJOINING);
   second.host.command("close");  // sends BYE
   for (int step = 0; step < kPatience && phase() == TANDEM_PEER_LIVE; ++step) {
     first.host.step();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(phase(), TANDEM_PEER_LEFT);
+  EXPECT_EQ(first.host.read().back(), kLeft);
+  std::remove(key.c_str());
+}
+
+TEST(TwoUsers, AreNotLiveWithDifferentAgreements) {
+  const std::string key = testing::TempDir() + "tandem_pybullet_different.key";
+  std::remove(key.c_str());
+  User first(1, -0.03), second(2, 0.03);
+  first.host.command("key path=\"" + key + "\"");
+  const std::string there = "127.0.0.1:" + std::to_string(10000 + getpid() % 10000);
+  first.host.command("peer id=2 address=" + there + " key=\"" + key + "\"");
+  first.host.command("agree key=object.mass value=0.2");
+  first.host.command("mesh self=1 bind=127.0.0.1:0");
+  second.host.command("peer id=1 key=\"" + key + "\"");
+  second.host.command("agree key=object.mass value=0.3");
+  second.host.command("mesh self=2 bind=" + there);
+  first.host.command("link kind=mesh peer=2");
+  second.host.command("link kind=mesh peer=1");
+  first.connect(2, "0.03,0,0");
+  second.connect(1, "-0.03,0,0");
+  constexpr int kPatience = 20000;
+  for (int step = 0; step < kPatience && first.host.read().back() != kDifferent; ++step) {
+    EXPECT_NE(first.host.read().back(), TANDEM_LINK_LIVE);
+    first.host.step();
+    second.host.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(first.host.read().back(), kDifferent);
+  EXPECT_NE(first.host.ask("mesh_explain peer=2").bytes.find("object.mass"), std::string::npos);
   std::remove(key.c_str());
 }
 

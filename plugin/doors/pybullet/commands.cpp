@@ -172,7 +172,7 @@ void Commands::read(Words& words, Reply& reply) {
   reply.put(static_cast<double>(all.proxies.size()));
   for (const TandemState& state : all.objects) reply.put(state);
   for (const TandemState& state : all.proxies) reply.put(state);
-  for (const TandemLinkState state : all.links) reply.put(static_cast<double>(state));
+  for (const int state : all.links) reply.put(static_cast<double>(state));
 }
 
 void Commands::warnings(Words& words, Reply& reply) {

@@ -36,7 +36,7 @@ using MeshHandle = std::unique_ptr<TandemMesh, MeshDeleter>;
 struct SessionReading {
   TandemReading reading{};
   std::vector<TandemState> objects, proxies;
-  std::vector<TandemLinkState> links;
+  std::vector<int> links;  // TandemLinkState, or a mesh peer's phase, see Session::tellLink()
   bool has_ended = false;
 };
 
@@ -106,6 +106,7 @@ class Session {
     LinkHandle manual;
     std::unique_ptr<SimulatedEnd> simulated;
     TandemLink* handle = nullptr;
+    std::uint32_t mesh_peer = 0;  // 0: no link of the mesh
   };
 
   void requireNoSite() const;
@@ -126,6 +127,7 @@ class Session {
   bool isSame(BorrowedBody& body);
   void watchStep(Moving& one, const TandemState& after);
   void explainStanding(Moving& one, const TandemState& now);
+  int tellLink(std::size_t remote, TandemLinkState state) const;
   void warn(const std::string& text);
   void end(const std::string& why);
   void runSafely(void (Session::*part)()) noexcept;
@@ -143,6 +145,7 @@ class Session {
   std::vector<Standing> standing_;
   std::size_t next_look_ = 0;
   std::vector<TandemBody> proxies_;
+  std::vector<std::uint32_t> mesh_peers_;  // of the remotes; 0: no peer of the mesh
   std::vector<std::pair<int, int>> without_contact_;
   std::vector<TandemBody> ids_;
   std::vector<TandemState> now_, told_;

@@ -43,6 +43,7 @@ int Session::addMeshLink(std::uint32_t peer) {
   if (!mesh_) throw Refusal(kWrongOrder, "a link of kind mesh needs a mesh: `mesh` first");
   OpenLink link;
   check(tandem_mesh_link(mesh_.get(), peer, &link.handle));
+  link.mesh_peer = peer;
   return keepLink(std::move(link));
 }
 
@@ -70,7 +71,19 @@ int Session::connect(std::uint32_t peer, int link, const double start[3]) {
   check(tandem_site_connect(site_.get(), peer, links_[static_cast<std::size_t>(link)].handle, start,
                             &proxy));
   proxies_.push_back(proxy);
+  mesh_peers_.push_back(links_[static_cast<std::size_t>(link)].mesh_peer);
   return static_cast<int>(proxies_.size()) - 1;
+}
+
+// The site counts a peer as live at its start until it is heard. So the phase of a mesh's peer that
+// is not live stands in the place of the link's state, behind the states.
+int Session::tellLink(std::size_t remote, TandemLinkState state) const {
+  const std::uint32_t peer = mesh_peers_[remote];
+  if (peer == 0) return state;
+  const TandemPeerPhase phase = meshStatus(peer).phase;
+  if (phase == TANDEM_PEER_LIVE) return state;
+  constexpr int kFirstPhase = TANDEM_LINK_REJOINING + 1;
+  return kFirstPhase + static_cast<int>(phase);
 }
 
 void Session::sayFarewell(int rounds) {

@@ -206,7 +206,8 @@ void Session::close() {
   device_.reset();
   links_.clear();
   mesh_.reset();
-  moving_.clear(), standing_.clear(), proxies_.clear(), without_contact_.clear();
+  moving_.clear(), standing_.clear(), proxies_.clear(), mesh_peers_.clear();
+  without_contact_.clear();
   ids_.clear(), now_.clear(), told_.clear();
   warnings_.clear();
   ended_.clear();

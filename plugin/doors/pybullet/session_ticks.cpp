@@ -203,8 +203,10 @@ void Session::read(SessionReading& out) const {
   out.objects.resize(reading.object_count);
   out.proxies.resize(reading.remote_count);
   out.links.resize(reading.remote_count);
+  std::vector<TandemLinkState> links(reading.remote_count);
   check(tandem_site_read(site_.get(), &reading, out.objects.size(), out.objects.data(),
-                         out.proxies.size(), out.proxies.data(), out.links.data()));
+                         out.proxies.size(), out.proxies.data(), links.data()));
+  for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i] = tellLink(i, links[i]);
   out.has_ended = !ended_.empty();
   if (out.has_ended) std::fill_n(reading.force, 3, 0.0);
 }

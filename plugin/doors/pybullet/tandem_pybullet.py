@@ -40,7 +40,8 @@ _CLOSED, _NO_MEMORY, _BAD_COMMAND, _WRONG_ORDER = -1, -6, -10, -11
 State = namedtuple("State", "position orientation velocity angular_velocity")
 
 #: State of a site at one moment. `force`: on the hand [N]; `hip`: position of the hand [m]; `status`:
-#: names of STATUS_BITS. `proxies` and `links` have an entry per remote; links are names of LINK_STATES.
+#: names of STATUS_BITS. `proxies` and `links` have an entry per remote; links are names of LINK_STATES,
+#: or of PHASES while a mesh's peer is not live.
 Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash packets_sent "
                                 "packets_taken has_ended objects proxies links")
 
@@ -256,7 +257,7 @@ class Site:
                        tuple(name for i, name in enumerate(STATUS_BITS) if bits >> i & 1),
                        int(numbers[11]) << 32 | int(numbers[12]), int(numbers[13]),
                        int(numbers[14]), bool(numbers[15]), states[:objects], states[objects:],
-                       tuple(LINK_STATES[int(state)] for state in links))
+                       tuple((LINK_STATES + PHASES)[int(state)] for state in links))
 
     def states(self):
         """States of the shared bodies in the haptic island."""
