@@ -22,11 +22,13 @@ inline void PrintTo(const ExampleScene& scene, std::ostream* out) { *out << scen
 
 /// Stacks, slopes and shapes in a btDiscreteDynamicsWorld.
 [[nodiscard]] std::vector<ExampleScene> rigidScenes();
+/// The scenes of Bullet's BenchmarkDemo that need no data.
+[[nodiscard]] std::vector<ExampleScene> benchmarkScenes();
 
 /// All of them.
 [[nodiscard]] inline std::vector<ExampleScene> exampleScenes() {
   std::vector<ExampleScene> all;
-  for (const auto& some : {rigidScenes()})
+  for (const auto& some : {rigidScenes(), benchmarkScenes()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
