@@ -24,11 +24,13 @@ inline void PrintTo(const ExampleScene& scene, std::ostream* out) { *out << scen
 [[nodiscard]] std::vector<ExampleScene> rigidScenes();
 /// The scenes of Bullet's BenchmarkDemo that need no data.
 [[nodiscard]] std::vector<ExampleScene> benchmarkScenes();
+/// Joints, motors and vehicles in a btDiscreteDynamicsWorld.
+[[nodiscard]] std::vector<ExampleScene> jointScenes();
 
 /// All of them.
 [[nodiscard]] inline std::vector<ExampleScene> exampleScenes() {
   std::vector<ExampleScene> all;
-  for (const auto& some : {rigidScenes(), benchmarkScenes()})
+  for (const auto& some : {rigidScenes(), benchmarkScenes(), jointScenes()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
