@@ -26,11 +26,12 @@ inline void PrintTo(const ExampleScene& scene, std::ostream* out) { *out << scen
 [[nodiscard]] std::vector<ExampleScene> benchmarkScenes();
 /// Joints, motors and vehicles in a btDiscreteDynamicsWorld.
 [[nodiscard]] std::vector<ExampleScene> jointScenes();
+[[nodiscard]] std::vector<ExampleScene> constraintScenes();
 
 /// All of them.
 [[nodiscard]] inline std::vector<ExampleScene> exampleScenes() {
   std::vector<ExampleScene> all;
-  for (const auto& some : {rigidScenes(), benchmarkScenes(), jointScenes()})
+  for (const auto& some : {rigidScenes(), benchmarkScenes(), jointScenes(), constraintScenes()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
