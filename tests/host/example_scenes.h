@@ -27,11 +27,14 @@ inline void PrintTo(const ExampleScene& scene, std::ostream* out) { *out << scen
 /// Joints, motors and vehicles in a btDiscreteDynamicsWorld.
 [[nodiscard]] std::vector<ExampleScene> jointScenes();
 [[nodiscard]] std::vector<ExampleScene> constraintScenes();
+/// Scenes in a btMultiBodyDynamicsWorld.
+[[nodiscard]] std::vector<ExampleScene> multiBodyScenes();
 
 /// All of them.
 [[nodiscard]] inline std::vector<ExampleScene> exampleScenes() {
   std::vector<ExampleScene> all;
-  for (const auto& some : {rigidScenes(), benchmarkScenes(), jointScenes(), constraintScenes()})
+  for (const auto& some : {rigidScenes(), benchmarkScenes(), jointScenes(), constraintScenes(),
+                           multiBodyScenes()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
