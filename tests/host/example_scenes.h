@@ -29,12 +29,14 @@ inline void PrintTo(const ExampleScene& scene, std::ostream* out) { *out << scen
 [[nodiscard]] std::vector<ExampleScene> constraintScenes();
 /// Scenes in a btMultiBodyDynamicsWorld.
 [[nodiscard]] std::vector<ExampleScene> multiBodyScenes();
+/// Scenes in a btSoftRigidDynamicsWorld.
+[[nodiscard]] std::vector<ExampleScene> softScenes();
 
 /// All of them.
 [[nodiscard]] inline std::vector<ExampleScene> exampleScenes() {
   std::vector<ExampleScene> all;
   for (const auto& some : {rigidScenes(), benchmarkScenes(), jointScenes(), constraintScenes(),
-                           multiBodyScenes()})
+                           multiBodyScenes(), softScenes()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
