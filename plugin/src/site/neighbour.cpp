@@ -15,10 +15,15 @@ double computeDecay(double damping) {
 }  // namespace
 
 void Neighbour::becomeEmpty() {
-  const BodyIndex index = body.index;
-  *this = {};
-  body.index = index;
-  body.load.makeRoom();
+  rigid = nullptr;
+  shape = nullptr;
+  settings = {};
+  bullet.reset();
+  driven.reset();
+  linear_damping = angular_damping = 0.0;
+  owed = {};
+  is_new = false;
+  body.becomeEmpty();
 }
 
 bool Neighbour::hasChanged() const noexcept {

@@ -85,6 +85,16 @@ struct SiteBody {
   RigidState seen;          ///< Bullet's state for the haptic thread, which must not read Bullet
   HostLoad load;
   HandOver step;
+
+  /// Empties it for another body. It must not be held, which a haptic thread may be reading.
+  void becomeEmpty() {
+    bullet = nullptr;
+    is_leaving = false;
+    seen = {};
+    load = {};
+    load.makeRoom();
+    step = {};
+  }
 };
 
 inline void HostLoad::note(const LateMomentum& momentum) noexcept {
