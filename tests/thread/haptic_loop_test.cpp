@@ -191,6 +191,34 @@ TEST(HapticLoop, ABodyMayBeDeletedWithItsShape) {
   EXPECT_EQ(live.site->status(), kTickOk);
 }
 
+TEST(HapticLoop, AnObjectIsUnsharedAndItsBodyDeletedAtOnce) {
+  LiveSite live(1, Vec3(0.0, 1.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(0.1);
+  for (int round = 0; round < 3; ++round) {
+    auto shape =
+        std::make_unique<btBoxShape>(btVector3(btScalar(0.02), btScalar(0.02), btScalar(0.02)));
+    auto& rigid = live.rig.addBody(*shape, 0.2, Vec3(0.0, 0.0, 0.05));
+    auto owned = std::move(live.rig.bodies.back());
+    live.rig.bodies.pop_back();
+    live.site->unshare(0);
+    EXPECT_EQ(live.cube->getInvMass(), btScalar(1) / btScalar(0.2));
+    live.site->share(0, rigid);
+    live.host(0.1);
+    EXPECT_TRUE(live.site->isHeld(0));
+    live.site->unshare(0);
+    live.rig.world.removeRigidBody(&rigid);
+    owned.reset();
+    shape.reset();
+    live.site->share(0, *live.cube);
+    live.host(0.1);
+    EXPECT_TRUE(live.site->isHeld(0));
+  }
+  loop.stop();
+  EXPECT_EQ(live.site->status(), kTickOk);
+  expectSafe(live.watched);
+}
+
 TEST(HapticLoop, AnyThreadMayLookBetweenTicks) {
   LiveSite live(1, Vec3(0.0, 1.0, 0.0));
   HapticLoop loop(*live.site, kModest);

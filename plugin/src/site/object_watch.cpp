@@ -58,6 +58,7 @@ void ObjectWatch::forget(SharedObject& object) noexcept {
 
 void ObjectWatch::expect(SharedObject& object, btRigidBody& rigid) noexcept {
   object.rigid = &rigid;
+  object.is_there = true;
   ++left_;
 }
 
