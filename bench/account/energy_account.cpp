@@ -83,18 +83,25 @@ void EnergyAccount::findPairs() {
     now_.pairs.push_back({sphere, other, obstacle});
     measure(now_.pairs.back());
   };
+  const auto meet = [&](BodyIndex sphere, const CollisionFilter& other) {
+    return island_.body(sphere).filter.meets(other);
+  };
   for (const IslandContact& contact : island_.contacts())
-    if (!scene_.guide || !isBlocked(contact)) add(contact.sphere, contact.other, nullptr);
+    if ((!scene_.guide || !isBlocked(contact)) &&
+        meet(contact.sphere, island_.body(contact.other).filter))
+      add(contact.sphere, contact.other, nullptr);
   if (scene_.guide) return;
   for (BodyIndex b = 0; b < island_.bodyCount(); ++b) {
     if (!island_.isActive(b) || !island_.body(b).feels_obstacles) continue;
     for (BodyIndex slot = 0; slot < island_.bodyCount(); ++slot)
-      if (island_.isSlot(slot) && island_.isActive(slot) && island_.body(slot).touches_spheres)
+      if (island_.isSlot(slot) && island_.isActive(slot) && island_.body(slot).touches_spheres &&
+          meet(b, island_.body(slot).filter))
         add(b, slot, nullptr);
     // The hand against a fixed body does no work, and is no energy of a body.
     if (island_.body(b).motion != Motion::kDynamic) continue;
     if (!island_.obstacles()) continue;
-    for (const Obstacle& obstacle : *island_.obstacles()) add(b, b, &obstacle);
+    for (const Obstacle& obstacle : *island_.obstacles())
+      if (meet(b, obstacle.filter)) add(b, b, &obstacle);
   }
 }
 

@@ -52,13 +52,21 @@ TEST_P(SameBits, TheSceneIsOneThatWouldShowADifference) {
   for (int i = 1; i < kMiddle; ++i) ASSERT_NE(hashes[i], hashes[i - 1]) << "nothing moves";
 }
 
-// The hand is inside the heap too, and feels no moving body.
+/// A hand that touches no moving body.
+SiteSettings makeFixedOnly() {
+  SiteSettings settings;
+  settings.hand_feels_moving_bodies = false;
+  return settings;
+}
+
+// A hand far away feels nothing. One inside the heap feels no moving body if told so.
 TEST_P(SameBits, WithAHandAloneAttached) {
   const Hashes bare = simulateBare();
-  for (const Vec3& hand_W : {Vec3(10.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.03)}) {
+  for (const bool is_near : {false, true}) {
+    const Vec3 hand_W = is_near ? Vec3(0.0, 0.0, 0.03) : Vec3(10.0, 0.0, 0.0);
     Pile pile(GetParam());
     FakeDevice device(hand_W);
-    const Site site({}, pile.world(), device);
+    const Site site(is_near ? makeFixedOnly() : SiteSettings{}, pile.world(), device);
     EXPECT_EQ(bare, simulate(pile, [&](int i) {
                 device.sample.hip.p_W.x() = hand_W.x() + 1e-4 * (i % 50);
               }));
@@ -67,10 +75,30 @@ TEST_P(SameBits, WithAHandAloneAttached) {
   }
 }
 
+// In the heap the default hand does change it, so the test above would show that.
+TEST_P(SameBits, NotWithAHandAloneInTheHeap) {
+  Pile pile(GetParam());
+  FakeDevice device(Vec3(0.0, 0.0, 0.03));
+  const Site site({}, pile.world(), device);
+  EXPECT_NE(simulateBare(), simulate(pile, [](int) {}));
+  EXPECT_GT(site.counters().promoted, 0u);
+}
+
+// Until its caller ticks, a hand is nowhere.
+TEST_P(SameBits, WhileNobodyTicks) {
+  Pile pile(GetParam());
+  FakeDevice device(Vec3(0.0, 0.0, 0.03));
+  SiteSettings settings;
+  settings.tick_source = TickSource::kCaller;
+  const Site site(settings, pile.world(), device);
+  EXPECT_EQ(simulateBare(), simulate(pile, [](int) {}));
+  EXPECT_EQ(site.counters().promoted, 0u);
+}
+
 TEST_P(SameBits, AfterAHandAloneHasLeft) {
   Pile pile(GetParam());
   FakeDevice device(Vec3(0.0, 0.0, 0.03));
-  auto site = std::make_unique<Site>(SiteSettings{}, pile.world(), device);
+  auto site = std::make_unique<Site>(makeFixedOnly(), pile.world(), device);
   EXPECT_EQ(simulateBare(), simulate(pile, [&](int i) {
               if (i == kMiddle) site.reset();
             }));

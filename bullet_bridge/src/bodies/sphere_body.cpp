@@ -13,8 +13,6 @@
 namespace tandem {
 namespace {
 
-constexpr int kAllButStatic = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
-
 btRigidBody::btRigidBodyConstructionInfo makeInfo(btSphereShape& shape, double mass,
                                                   const Vec3& p_W) {
   btVector3 inertia;
@@ -30,14 +28,14 @@ btRigidBody::btRigidBodyConstructionInfo makeInfo(btSphereShape& shape, double m
 
 struct SphereBody::Impl {
   Impl(btDiscreteDynamicsWorld& host, double radius, double mass, const Vec3& p_W,
-       SphereMeets meets)
+       SphereMeets meets, const CollisionFilter& filter)
       : world(host), shape(static_cast<btScalar>(radius)), own(makeInfo(shape, mass, p_W)) {
     btRigidBody& rigid = own.rigid();
     rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);
     const bool meets_all = meets == SphereMeets::kAllBodies;
     if (meets_all) rigid.setFriction(0);
-    world.addRigidBody(&rigid, btBroadphaseProxy::DefaultFilter,
-                       meets_all ? btBroadphaseProxy::AllFilter : kAllButStatic);
+    world.addRigidBody(&rigid, filter.group,
+                       meets_all ? filter.mask : filter.mask & ~btBroadphaseProxy::StaticFilter);
     haptic.emplace(world, rigid);
   }
   ~Impl() {
@@ -54,8 +52,8 @@ struct SphereBody::Impl {
 };
 
 SphereBody::SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
-                       SphereMeets meets)
-    : impl_(std::make_unique<Impl>(world, radius, mass, p_W, meets)) {}
+                       SphereMeets meets, const CollisionFilter& filter)
+    : impl_(std::make_unique<Impl>(world, radius, mass, p_W, meets, filter)) {}
 SphereBody::~SphereBody() = default;
 
 btRigidBody& SphereBody::rigid() const noexcept { return impl_->own.rigid(); }

@@ -4,6 +4,8 @@
 
 #include "tandem/coordination/types.h"
 
+#include "coordination/src/island/collision_filter.h"
+
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
@@ -26,7 +28,7 @@ enum class SphereMeets {
 class SphereBody {
  public:
   SphereBody(btDiscreteDynamicsWorld& world, double radius, double mass, const Vec3& p_W,
-             SphereMeets meets = SphereMeets::kMovingBodies);
+             SphereMeets meets = SphereMeets::kMovingBodies, const CollisionFilter& filter = {});
   ~SphereBody();
   SphereBody(const SphereBody&) = delete;
   SphereBody& operator=(const SphereBody&) = delete;

@@ -9,6 +9,7 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bodies/body_look.h"
+#include "bodies/filter_of.h"
 #include "surroundings/regions.h"
 
 namespace tandem {
@@ -35,7 +36,7 @@ double computeGap(const NeighbourSeed& a, const NeighbourSeed& b) {
 
 NeighbourSeed makeSeed(const btRigidBody& body) {
   const Region box = computeRegion(*body.getCollisionShape(), body.getWorldTransform());
-  return {fromBullet(box.low), fromBullet(box.high), fromBullet(body.getLinearVelocity())};
+  return {fromBullet(box.low), fromBullet(box.high), fromBullet(body.getLinearVelocity()), {}};
 }
 
 /// Highest speed of a point of the body from its rotation [m/s].
@@ -88,20 +89,36 @@ const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<Neighbo
   return found_;
 }
 
-void NeighbourSearch::findAround(const NeighbourSeed& seed, double horizon) {
+/// Calls `take(body, gap)` for each body that is near the seed and not found yet.
+template <typename Take>
+void NeighbourSearch::visitNear(const NeighbourSeed& seed, double horizon, Take take) const {
   const double widest = kHysteresis * computeDistance(seed.v_W.norm() + kFastestComer, horizon);
   const Vec3 skin = Vec3::Constant(widest);
   Visitor visitor([&](btCollisionObject* object) {
     btRigidBody* body = btRigidBody::upcast(object);
     if (body == nullptr || !mayBeNeighbour(*body) || contains(found_, body)) return;
+    if (seed.filter && !seed.filter->meets(filterOf(*body))) return;
     const NeighbourSeed other = makeSeed(*body);
     const double speed = (seed.v_W - other.v_W).norm() + computeTurningSpeed(*body, other);
     const double gap = computeGap(seed, other);
     const double stay = contains(held_, body) ? kHysteresis : 1.0;
-    if (gap < stay * computeDistance(speed, horizon)) candidates_.push_back({body, gap});
+    if (gap < stay * computeDistance(speed, horizon)) take(*body, gap);
   });
   host_.getBroadphase()->aabbTest(toBullet(Vec3(seed.low_W - skin)),
                                   toBullet(Vec3(seed.high_W + skin)), visitor);
+}
+
+void NeighbourSearch::findAround(const NeighbourSeed& seed, double horizon) {
+  visitNear(seed, horizon, [&](btRigidBody& body, double gap) {
+    candidates_.push_back({&body, gap});
+  });
+}
+
+bool NeighbourSearch::isAnythingComing(const NeighbourSeed& seed, double horizon) const {
+  if (found_.size() == capacity_) return false;
+  bool comes = false;
+  visitNear(seed, horizon, [&](const btRigidBody&, double) { comes = true; });
+  return comes;
 }
 
 /// Makes the next wave: each candidate once, nearest first. Ties follow the order in which the host

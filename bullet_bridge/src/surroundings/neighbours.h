@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "tandem/coordination/types.h"
+
+#include "coordination/src/island/collision_filter.h"
 
 class btDiscreteDynamicsWorld;
 class btRigidBody;
@@ -16,6 +19,7 @@ namespace tandem {
 struct NeighbourSeed {
   Vec3 low_W = Vec3::Zero(), high_W = Vec3::Zero();
   Vec3 v_W = Vec3::Zero();
+  std::optional<CollisionFilter> filter = {};  ///< of a haptic sphere, which may pass some bodies
 };
 
 /// Selects the moving bodies of a host's world that the island should hold. They may touch the
@@ -51,6 +55,10 @@ class NeighbourSearch {
   /// result is valid until the next call.
   const std::vector<btRigidBody*>& find(const std::vector<NeighbourSeed>& seeds, double horizon);
 
+  /// True if a body that the last find() did not report has come near the seed: the next find()
+  /// would report it. Joints are those of the last find().
+  [[nodiscard]] bool isAnythingComing(const NeighbourSeed& seed, double horizon) const;
+
   /// True if the host's world has an awake kinematic body. Checks all objects.
   [[nodiscard]] bool isAnythingDriven() const;
 
@@ -60,6 +68,8 @@ class NeighbourSearch {
     double gap;
   };
 
+  template <typename Take>
+  void visitNear(const NeighbourSeed& seed, double horizon, Take take) const;
   void findAround(const NeighbourSeed& seed, double horizon);
   void takeNearest();
   void findJointed();

@@ -9,6 +9,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bodies/filter_of.h"
 #include "shapes/only_shape.h"
 
 namespace tandem {
@@ -105,6 +106,7 @@ void appendObstacles(const btCollisionObject& object, const btCollisionShape& sh
   if (!own) return;
   Obstacle obstacle{*own, fromBullet(pose.getOrigin()), fromBullet(pose.getRotation())};
   obstacle.id = makeId(object, part);
+  obstacle.filter = filterOf(object);
   obstacles.push_back(std::move(obstacle));
 }
 
@@ -117,7 +119,7 @@ void noteChanges(const std::vector<Obstacle>& before, std::vector<Obstacle>& now
     if (known == before.end()) known = std::find_if(before.begin(), before.end(), is_it);
     const bool has_grown = known != before.end() && computeBoundingRadius(known->shape) !=
                                                         computeBoundingRadius(obstacle.shape);
-    if (known == before.end() || has_grown) {
+    if (known == before.end() || has_grown || !(known->filter == obstacle.filter)) {
       obstacle.change = ObstacleChange::kNew;
       continue;
     }

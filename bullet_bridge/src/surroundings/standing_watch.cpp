@@ -7,6 +7,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bodies/filter_of.h"
 #include "bodies/haptic_body.h"
 #include "surroundings/obstacle_search.h"
 
@@ -19,11 +20,12 @@ struct Known {
   const btCollisionShape* shape;
   btTransform pose;
   int flags;
+  CollisionFilter filter;
 
   /// Compares addresses first: the object may have been deleted.
   [[nodiscard]] bool isAsKnown(const btCollisionObjectArray& objects) const noexcept {
     return objects[world_index] == object && object->getCollisionShape() == shape &&
-           object->getCollisionFlags() == flags &&
+           object->getCollisionFlags() == flags && filterOf(*object) == filter &&
            std::memcmp(&object->getWorldTransform(), &pose, sizeof pose) == 0;
   }
 };
@@ -55,7 +57,8 @@ void StandingWatch::remember(const std::vector<HapticBody*>& bodies, const Vec3&
   impl_->known.clear();
   for (const btCollisionObject* object : impl_->found)
     impl_->known.push_back({object, object->getWorldArrayIndex(), object->getCollisionShape(),
-                            object->getWorldTransform(), object->getCollisionFlags()});
+                            object->getWorldTransform(), object->getCollisionFlags(),
+                            filterOf(*object)});
   impl_->object_count = impl_->host.getNumCollisionObjects();
   impl_->gravity = impl_->host.getGravity();
 }

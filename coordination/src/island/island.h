@@ -8,6 +8,7 @@
 #include "tandem/coordination/island_counters.h"
 #include "tandem/coordination/shape.h"
 
+#include "island/collision_filter.h"
 #include "island/contact_finder.h"
 #include "island/virtual_coupler.h"
 
@@ -38,6 +39,7 @@ struct IslandBody {
   bool feels_obstacles = false;  ///< the sphere touches obstacles of Island::setObstacles
   bool touches_spheres = true;   ///< in a slot: spheres with `feels_obstacles` touch it
   bool is_rigid = false;         ///< a ContactFinder finds its rigid contacts
+  CollisionFilter filter = {};   ///< for smooth contacts
   RigidState start;
 
   /// False if all factors are one.
@@ -71,6 +73,7 @@ struct Obstacle {
   /// If it moved: its pose in the list before.
   Vec3 p_before_WB = Vec3::Zero();
   Quat q_before_WB = Quat::Identity();
+  CollisionFilter filter = {};
 };
 
 /// Deviation of a body from its known path.
@@ -133,6 +136,8 @@ class Island {
   /// False: contacts have no past. Those that begin deep push at once, and the nearest face pushes
   /// whatever was touched: a function of the state alone. Default true.
   void setTouchMemory(bool remembers) noexcept;
+  /// Gives a body another filter for its smooth contacts.
+  void setFilter(BodyIndex body, const CollisionFilter& filter);
   /// Sets the finder of rigid contacts; null: there are none. It must outlive the island.
   void setContactFinder(ContactFinder* finder);
   /// Builds the exact maps of everything added.

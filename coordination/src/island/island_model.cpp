@@ -87,7 +87,8 @@ void IslandModel::listPresent() noexcept {
   }
   const auto meets = [&](BodyIndex b) { return bodies[b].isPresent() && !bodies[b].is_ghost; };
   for (const IslandContact& contact : contacts)
-    if (meets(contact.sphere) && meets(contact.other)) present_contacts.push_back(contact);
+    if (meets(contact.sphere) && meets(contact.other) && letsMeet(contact.sphere, contact.other))
+      present_contacts.push_back(contact);
   for (std::size_t c = 0; c < couplers.size(); ++c)
     if (bodies[couplers[c].follower].isPresent()) present_couplers.push_back(static_cast<int>(c));
   is_listed = true;

@@ -105,6 +105,11 @@ struct IslandModel {
   bool has_jumps = false;         ///< since the last advance some body or obstacle came or jumped
   bool has_arrivals = false;      ///< some obstacle came or moved, and no contact knows it yet
 
+  /// True if the filters of the two let them touch.
+  [[nodiscard]] bool letsMeet(BodyIndex a, BodyIndex b) const noexcept {
+    return bodies[a].settings.filter.meets(bodies[b].settings.filter);
+  }
+
   std::vector<BodyIndex> present;               ///< active and awake bodies, in order
   std::vector<IslandContact> present_contacts;  ///< contacts between two present bodies
   std::vector<int> present_couplers;            ///< couplers of present bodies

@@ -88,6 +88,11 @@ CouplerIndex Island::addCoupler(BodyIndex follower, const CouplerSettings& setti
   return static_cast<CouplerIndex>(impl_->model.couplers.size()) - 1;
 }
 
+void Island::setFilter(BodyIndex body, const CollisionFilter& filter) {
+  impl_->model.bodies[static_cast<std::size_t>(body)].settings.filter = filter;
+  impl_->model.is_listed = false;
+}
+
 void Island::addContact(BodyIndex sphere, BodyIndex other, const CouplerGains& gains) {
   TANDEM_ASSERT(sphere >= 0 && sphere < bodyCount() && other >= 0 && other < bodyCount() &&
                 sphere != other);

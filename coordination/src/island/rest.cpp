@@ -99,6 +99,8 @@ std::uint64_t computeHash(const std::vector<Obstacle>* obstacles) noexcept {
     hash.add(obstacle.p_WB);
     hash.add(obstacle.q_WB.w());
     hash.add(Vec3(obstacle.q_WB.vec()));
+    hash.add(static_cast<double>(obstacle.filter.group));
+    hash.add(static_cast<double>(obstacle.filter.mask));
   }
   return hash.value();
 }

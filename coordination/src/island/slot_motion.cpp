@@ -49,7 +49,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
     bool blocked = false;
     for (BodyIndex b = 0; b < static_cast<BodyIndex>(origins_.size()); ++b)
       blocked |= is_between(b);
-    if (blocked) continue;
+    if (blocked || !model.letsMeet(pair.sphere, pair.other)) continue;
 
     Contact contact{pair.sphere, pair.other, pair.gains, other >= sphere ? 1.0 : -1.0,
                     0.0,         pair.gains};

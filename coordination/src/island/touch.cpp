@@ -94,13 +94,16 @@ double computeOverlap(const IslandModel& model, const States& states, BodyIndex 
   for (const IslandContact& contact : model.contacts) {
     if (contact.sphere != body && contact.other != body) continue;
     const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;
-    if (is_there(partner)) look(contact.sphere, contact.other, nullptr);
+    if (is_there(partner) && model.letsMeet(body, partner))
+      look(contact.sphere, contact.other, nullptr);
   }
   if (!model.bodies[body].settings.feels_obstacles) return -gap;
   for (const BodyIndex b : model.slots)
-    if (is_there(b) && model.bodies[b].settings.touches_spheres) look(body, b, nullptr);
+    if (is_there(b) && model.bodies[b].settings.touches_spheres && model.letsMeet(body, b))
+      look(body, b, nullptr);
   if (!model.obstacles) return -gap;
-  for (const Obstacle& obstacle : *model.obstacles) look(body, body, &obstacle);
+  for (const Obstacle& obstacle : *model.obstacles)
+    if (model.bodies[body].settings.filter.meets(obstacle.filter)) look(body, body, &obstacle);
   return -gap;
 }
 

@@ -113,10 +113,13 @@ void forEachTouch(const IslandModel& model, Visit visit) {
     const CouplerGains gains =
         computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
     for (BodyIndex slot : model.slots)
-      if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres)
+      if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres &&
+          model.letsMeet(b, slot))
         show({b, slot, nullptr, gains});
     if (!model.obstacles) continue;
-    for (const Obstacle& obstacle : *model.obstacles) show({b, b, &obstacle, gains});
+    const CollisionFilter& filter = model.bodies[b].settings.filter;
+    for (const Obstacle& obstacle : *model.obstacles)
+      if (filter.meets(obstacle.filter)) show({b, b, &obstacle, gains});
   }
 }
 

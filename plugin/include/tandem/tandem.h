@@ -388,7 +388,11 @@ typedef struct TandemSiteSettings {
   double proxy_damping;     /* b_h [N s/m] */
   double proxy_radius;      /* [m] */
   double hip_radius;        /* radius of the local haptic interface point [m] */
-  const char* scheme;       /* "remote_dynamic_proxy", "kinematic_proxy" or "virtual_coupling" */
+  int hand_group;           /* collision group of the hand and of proxies */
+  int hand_mask;            /* collision groups that the hand and proxies meet */
+  /* The hand feels moving bodies with nothing shared, too; 0: the host's bits stay the same. */
+  int hand_feels_moving_bodies;
+  const char* scheme; /* "remote_dynamic_proxy", "kinematic_proxy" or "virtual_coupling" */
   TandemTickSource tick_source;
   int has_guide;      /* bodies may only move along `guide` */
   double guide[3];    /* unit vector */

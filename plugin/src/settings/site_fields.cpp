@@ -17,6 +17,7 @@ constexpr FieldRange kPositive{0.0, kLargest, true, "a finite number above 0"};
 constexpr FieldRange kPositiveOrInfinite{0.0, kInfinity, true, "above 0; inf: no limit"};
 constexpr FieldRange kPeers{1.0, 64.0, false, "1 to 64"};
 constexpr FieldRange kNeighbours{0.0, 256.0, false, "0 to 256"};
+constexpr FieldRange kBits{-2147483648.0, 2147483647.0, false, "a whole number of 32 bits"};
 constexpr FieldRange kFlag{0.0, 1.0, false, "0 or 1"};
 
 /// Whether the sites of a cooperation must agree on a field.
@@ -72,6 +73,14 @@ std::vector<SiteField> makeFields() {
                                                kShared),
       field<&S::hip_radius>("hip_radius", "m", "of the local haptic interface point", kPositive,
                             kOwn),
+      field<&S::hand_group>("hand_group", "", "collision group of the hand and of proxies", kBits,
+                            kOwn),
+      field<&S::hand_mask>("hand_mask", "", "collision groups that the hand and proxies meet",
+                           kBits, kOwn),
+      field<&S::hand_feels_moving_bodies>(
+          "hand_feels_moving_bodies", "",
+          "with nothing shared, too; 0: the host's simulation stays the same to the bit", kFlag,
+          kOwn),
       field<&S::inner_step>("inner_step", "s", "step of the island where motion is not linear",
                             kPositive, kOwn),
       field<&S::max_neighbours>("max_neighbours", "",

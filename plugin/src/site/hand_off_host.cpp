@@ -33,7 +33,7 @@ void HandOffStep::before(double dt) noexcept {
 void HandOffStep::after(double dt) noexcept {
   if (isWaiting()) return wait(dt);
   if (is_alone_) return site_.desk.run([&] { site_.clock.endStep(dt); });
-  if (site_.rest.staysQuiet()) {
+  if (site_.rest.staysQuiet() && !site_.surroundings.isAnythingComing()) {
     ++site_.log.counters.host_steps_skipped;
     return site_.desk.run([&] {
       site_.clock.endStep(dt);
@@ -175,7 +175,7 @@ void HandOffStep::fallQuiet() {
   site_.bodies.forEachPresent([&](const SiteBody& body) { all_parked &= body.bullet->isParked(); });
   if (!all_parked || site_.objects.hasLeft()) return;
   // A kinematic body may start to move at any step, and that wakes nothing.
-  if (!site_.isBare() && site_.surroundings.isAnythingDriven()) return;
+  if (site_.surroundings.isAnythingDriven()) return;
   site_.rest.fallQuiet(site_.bodies);
 }
 

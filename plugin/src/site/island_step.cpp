@@ -34,8 +34,10 @@ void IslandStep::addProxy(Peer& peer, const Vec3& start_W) {
   const ProxySettings& proxy = site_.settings.proxy;
   const CouplerGains& contact = site_.settings.contact;
   const BodyIndex index = *peer.user.body;
+  const CollisionFilter filter{site_.settings.hand_group, site_.settings.hand_mask};
   peer.proxy.sphere =
-      std::make_unique<SphereBody>(site_.host_world.world(), proxy.radius, proxy.mass, start_W);
+      std::make_unique<SphereBody>(site_.host_world.world(), proxy.radius, proxy.mass, start_W,
+                                   SphereMeets::kMovingBodies, filter);
   peer.proxy.address = &peer.proxy.sphere->rigid();
   site_.surroundings.exclude(*peer.proxy.address);
   peer.proxy.body.bullet = &peer.proxy.sphere->haptic();
@@ -93,7 +95,10 @@ void IslandStep::wait(double dt) {
 void IslandStep::lookAround(double dt) {
   Surroundings& around = site_.surroundings;
   site_.desk.run([&] { around.mirror(); });
+  // Before the first tick the hand touches nothing, and Bullet moves all bodies.
+  around.holdNeighbours(!isWaiting());
   around.look(dt, site_.clock.time(), 0.0, true);
+  around.holdNeighbours(true);
   site_.desk.run([&] { around.take(); });
   around.giveBack();
   if (!around.mustLookFarther()) return;

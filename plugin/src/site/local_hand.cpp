@@ -22,6 +22,7 @@ LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island&
   body.shape = Sphere{settings.hip_radius};
   body.motion = Motion::kPrescribed;
   body.feels_obstacles = true;
+  body.filter = {settings.hand_group, settings.hand_mask};
   body.start.p_W = sample_.hip.p_W;
   hip_ = island.addBody(body);
 }

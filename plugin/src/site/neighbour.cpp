@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_bridge/src/bodies/filter_of.h"
+
 namespace tandem {
 namespace {
 
@@ -27,7 +29,9 @@ void Neighbour::becomeEmpty() {
 }
 
 bool Neighbour::hasChanged() const noexcept {
-  if (driven) return !rigid->isKinematicObject() || rigid->getCollisionShape() != shape;
+  if (driven)
+    return !rigid->isKinematicObject() || rigid->getCollisionShape() != shape ||
+           !(filterOf(*rigid) == settings.filter);
   return !bullet->isAsHeld() || !isMovedByForces(*rigid);
 }
 

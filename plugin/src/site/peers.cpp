@@ -39,6 +39,8 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
   peer.searched_W = start_W;
   peer.user = scheme_.makeRemoteUser(island_, settings_.proxy, settings_.coordination,
                                      {start_W, Vec3::Zero()});
+  if (peer.user.body)
+    island_.setFilter(*peer.user.body, {settings_.hand_group, settings_.hand_mask});
   return peer;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bullet_bridge/src/bodies/filter_of.h"
 #include "bullet_bridge/src/bodies/haptic_body.h"
 #include "coordination/src/island/island.h"
 #include "site/foresight.h"
@@ -73,6 +74,7 @@ inline void readBody(const HapticBody& bullet, IslandBody& own) noexcept {
   own.inertia_B = bullet.inertia();
   own.linear_factor = bullet.linearFactor();
   own.angular_factor = bullet.angularFactor();
+  own.filter = filterOf(bullet.body());
   own.start = bullet.state();
 }
 

@@ -22,7 +22,7 @@ constexpr int kLooksToFull = 8;
 
 NeighbourSeed makeSphereSeed(const RigidState& state, double radius) {
   const Vec3 half = Vec3::Constant(radius);
-  return {state.p_W - half, state.p_W + half, state.v_W};
+  return {state.p_W - half, state.p_W + half, state.v_W, {}};
 }
 
 }  // namespace
@@ -112,6 +112,37 @@ void Surroundings::searchObstacles(bool everywhere) {
   has_changed_ |= obstacles_.search(mirror_.states, margin, everywhere ? nullptr : &mirror_.moves);
 }
 
+bool Surroundings::isHandAlone() const noexcept {
+  return bodies_.objects.empty() && peers_.isEmpty();
+}
+
+bool Surroundings::takesNeighbours() const noexcept {
+  return !neighbours_.empty() && holds_neighbours_ &&
+         (settings_.hand_feels_moving_bodies || !isHandAlone());
+}
+
+bool Surroundings::isAnythingDriven() const {
+  // A kinematic body that comes to a hand alone is noticed by isAnythingComing().
+  if (isHandAlone())
+    return std::any_of(neighbours_.begin(), neighbours_.end(),
+                       [](const Neighbour& neighbour) { return neighbour.driven != nullptr; });
+  return search_.isAnythingDriven();
+}
+
+bool Surroundings::isAnythingComing() const {
+  if (!takesNeighbours()) return false;
+  const RigidState& hand = mirror_.states[static_cast<std::size_t>(hand_.hip())];
+  return search_.isAnythingComing(makeHandSeed(hand, settings_.hip_radius + mirror_.depth),
+                                  horizon_);
+}
+
+/// Of the hand or a proxy: bodies that it does not feel are no neighbours of it.
+NeighbourSeed Surroundings::makeHandSeed(const RigidState& state, double radius) const {
+  NeighbourSeed seed = makeSphereSeed(state, radius);
+  seed.filter = {settings_.hand_group, settings_.hand_mask};
+  return seed;
+}
+
 std::size_t Surroundings::countHapticBodies() const noexcept {
   const auto has_body = [](const Peer& peer) { return peer.proxy.sphere != nullptr; };
   const auto proxies = std::count_if(peers_.begin(), peers_.end(), has_body);
@@ -127,19 +158,18 @@ void Surroundings::collectSeeds(bool everywhere) {
   };
   const auto state = [&](BodyIndex b) { return mirror_.states[static_cast<std::size_t>(b)]; };
   seeds_.clear();
-  seeds_.push_back(makeSphereSeed(state(hand_.hip()), settings_.hip_radius + mirror_.depth));
+  seeds_.push_back(makeHandSeed(state(hand_.hip()), settings_.hip_radius + mirror_.depth));
   for (const Peer& peer : peers_)
     if (peer.proxy.sphere && !is_calm(peer.proxy.body))
       seeds_.push_back(
-          makeSphereSeed(state(peer.proxy.body.index), settings_.proxy.radius + mirror_.depth));
+          makeHandSeed(state(peer.proxy.body.index), settings_.proxy.radius + mirror_.depth));
   for (const SharedObject& object : bodies_.objects)
     if (object.body.is_held && !object.body.is_leaving && !is_calm(object.body))
       seeds_.push_back(makeSphereSeed(state(object.body.index), object.bounding_radius));
 }
 
 void Surroundings::lookForNeighbours(double horizon, double step_end, bool everywhere) {
-  // A hand alone touches obstacles and holds no neighbours.
-  if (neighbours_.empty() || (bodies_.objects.empty() && peers_.isEmpty())) return;
+  if (!takesNeighbours()) return;
   collectSeeds(everywhere);
   const std::vector<btRigidBody*>& near = search_.find(seeds_, horizon);
   // A partial search may miss a body that is near other bodies of ours.
@@ -170,6 +200,7 @@ void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step
   const std::optional<Shape> shape = convertShape(*rigid.getCollisionShape());
   if (shape) neighbour.settings.shape = *shape;
   neighbour.settings.touches_spheres = shape.has_value();
+  neighbour.settings.filter = filterOf(rigid);
   if (rigid.isKinematicObject()) {
     neighbour.driven = std::make_unique<DrivenBody>(world_, rigid, step_end);
     neighbour.settings.motion = neighbour.driven->motion();

@@ -84,7 +84,12 @@ class Surroundings {
   void lookAtDamping() noexcept;
   /// Reads the poses of kinematic bodies for the host's step that ends at `step_end` [s].
   void lookAtDriven(double step_end) noexcept;
-  [[nodiscard]] bool isAnythingDriven() const { return search_.isAnythingDriven(); }
+  /// False: look() takes no neighbours.
+  void holdNeighbours(bool holds) noexcept { holds_neighbours_ = holds; }
+  /// True if the pose of a body must be read in each step, although nothing moves now.
+  [[nodiscard]] bool isAnythingDriven() const;
+  /// True if a body that the last look() did not find comes to the hand. Meanwhile the hand rests.
+  [[nodiscard]] bool isAnythingComing() const;
   /// The host's world ends: takeObstacles() then removes all obstacles.
   void forgetWorld() { obstacles_.forgetWorld(); }
   /// @}
@@ -117,6 +122,10 @@ class Surroundings {
     [[nodiscard]] double computeSpeed() const noexcept;
   };
 
+  /// True if nothing is shared and nobody is connected.
+  [[nodiscard]] bool isHandAlone() const noexcept;
+  [[nodiscard]] bool takesNeighbours() const noexcept;
+  [[nodiscard]] NeighbourSeed makeHandSeed(const RigidState& state, double radius) const;
   [[nodiscard]] std::size_t countHapticBodies() const noexcept;
   void lookForNeighbours(double horizon, double step_end, bool everywhere);
   void collectSeeds(bool everywhere);
@@ -151,6 +160,7 @@ class Surroundings {
   double horizon_ = 0.0;              ///< longest time until the next search [s]
   double way_by_springs_ = 0.0;       ///< extra motion of bodies by springs [m]
   double spring_speed_ = 0.0;         ///< speed that stretched springs may add [m/s]
+  bool holds_neighbours_ = true;      ///< false: not before the first tick
   bool has_changed_ = false;          ///< obstacles changed since take()
   bool has_more_ = false;             ///< results of lookFarther() do not act yet
   std::vector<BodyIndex> newcomers_;  ///< slots filled since the last catch-up

@@ -84,8 +84,9 @@ struct SiteCounters {
 /// ContactModel::kSpring6Dof and kPointToPoint, and with a guide and a native model, it must
 /// outlive the site. Device and links may go once nothing ticks the site.
 ///
-/// With nothing shared and nobody connected the hand feels the bodies of the world. The host's
-/// simulation is then the same to the bit, except that native models add the hand as a body. The
+/// With nothing shared and nobody connected the hand feels the bodies of the world, and pushes the
+/// moving ones. While it is near none of those, or SiteSettings::hand_feels_moving_bodies is false,
+/// the host's simulation is the same to the bit. Native models add the hand as a body, though. The
 /// island never takes multi-bodies, soft bodies and bodies in joints. Shared bodies meet those in
 /// Bullet; the hand does not feel them.
 class Site {

@@ -50,8 +50,15 @@ struct SiteSettings {
   /// Rotational coupling of object copies [N m/rad, N m s/rad]. Empty: K_t J/m and B_t J/m, as if
   /// each mass element were coupled to its own copy.
   std::optional<CouplerGains> angular_coordination;
-  ProxySettings proxy;             ///< m_h, b_h and size of the proxy of a remote user
-  double hip_radius = 0.01;        ///< sphere of the local haptic interface point [m]
+  ProxySettings proxy;       ///< m_h, b_h and size of the proxy of a remote user
+  double hip_radius = 0.01;  ///< sphere of the local haptic interface point [m]
+  /// Collision group and mask of the hand and of remote users' proxies, as bodies of Bullet have
+  /// them. The defaults meet all bodies of Bullet's default groups. Native models ignore both.
+  int hand_group = 1, hand_mask = -1;
+  /// With nothing shared and nobody connected the hand feels moving bodies too, and the island
+  /// holds those near it. False: only fixed ones, and the host's simulation stays the same to the
+  /// bit.
+  bool hand_feels_moving_bodies = true;
   const Scheme* scheme = nullptr;  ///< null: remote_dynamic_proxy
   ContactModel contact_model = ContactModel::kIsland;
   Injection injection = Injection::kHandoff;  ///< for the island; native models only hand off
