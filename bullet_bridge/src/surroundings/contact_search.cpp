@@ -1,24 +1,16 @@
 #include "surroundings/contact_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <limits>
+#include <utility>
 
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
 namespace tandem {
 namespace {
-
-/// Points farther apart than this do not matter to an inner step [m].
-constexpr double kFarthest = 1e-3;
-
-/// Smaller distances are rounding of a float Bullet some decimetres from the private origin [m]. If
-/// they counted, bodies at rest would tremble.
-constexpr double kRounding = sizeof(btScalar) == sizeof(double) ? 0.0 : 6e-8;
 
 constexpr int kManifolds = 512;
 
@@ -29,24 +21,17 @@ btDefaultCollisionConstructionInfo makePools() {
   return info;
 }
 
-btCollisionObjectWrapper wrap(const PrivateCopy& copy) {
-  return {nullptr,      copy.object.getCollisionShape(),
-          &copy.object, copy.object.getWorldTransform(),
-          -1,           -1};
-}
-
 }  // namespace
 
 ContactSearch::ContactSearch(double min_bounce_speed)
-    : configuration_(makePools()),
-      dispatcher_(&configuration_, kManifolds),
-      min_bounce_speed_(min_bounce_speed) {
+    : configuration_(makePools()), dispatcher_(&configuration_), work_(dispatcher_) {
+  work_.min_bounce_speed = min_bounce_speed;
   // A body lying flat gets all its corners at once. Otherwise it gains one per step and rocks.
   configuration_.setPlaneConvexMultipointIterations(8, 4);
 }
 
 ContactSearch::~ContactSearch() {
-  for (Pair& pair : book_.pairs) release(pair);
+  for (ContactPair& pair : book_.pairs) pair.release(dispatcher_);
 }
 
 void ContactSearch::setOrigin(const Vec3& origin_W, const std::vector<RigidState>& states) {
@@ -61,14 +46,61 @@ bool ContactSearch::placeStanding(PrivateCopy& copy) {
   return true;
 }
 
+ContactSearch::Combiners ContactSearch::Combiners::now() noexcept {
+  return {{gCalculateCombinedFrictionCallback, gCalculateCombinedRestitutionCallback,
+           gCalculateCombinedRollingFrictionCallback, gCalculateCombinedSpinningFrictionCallback}};
+}
+
+void ContactSearch::addPair(PrivateCopy& a, PrivateCopy& b) {
+  Neighbours link{&a, &b, Material::of(*a.original, *b.original), {}};
+  for (const PrivateCopy* copy : {&a, &b})
+    for (const Part& part : copy->parts)
+      if (part.host_mesh) link.meshes.push_back({&part, copy == &a, {}});
+  links_.push_back(std::move(link));
+}
+
 void ContactSearch::showSurfaces() {
-  surfacings_.clear();
-  const auto show = [&](PrivateCopy& copy) {
-    const Surface surface = Surface::of(*copy.original);
-    if (!(surface == Surface::of(copy.object))) surfacings_.push_back({&copy, surface});
-  };
-  for (const auto& body : bodies_) show(*body);
-  for (const auto& object : standing_) show(*object);
+  const Combiners combiners = Combiners::now();
+  const bool is_all_new = !(combiners == combiners_);
+  combiners_ = combiners;
+  bool is_any_new = is_all_new;
+  for (const auto* copies : {&bodies_, &standing_}) {
+    for (const auto& copy : *copies) {
+      const Surface surface = Surface::of(*copy->original);
+      copy->is_new_surface = !(surface == copy->surface);
+      copy->surface = surface;
+      is_any_new |= copy->is_new_surface;
+    }
+  }
+  if (!is_any_new) return;
+  for (Neighbours& link : links_) {
+    if (!is_all_new && !link.a->is_new_surface && !link.b->is_new_surface) continue;
+    link.material = Material::of(*link.a->original, *link.b->original);
+    link.is_new_material = has_news_ = true;
+  }
+}
+
+btTransform ContactSearch::findPose(const PrivateCopy& copy,
+                                    const std::vector<RigidState>& states) const {
+  if (copy.index == kStanding) return copy.original->getWorldTransform();
+  const RigidState& state = states[static_cast<std::size_t>(copy.index)];
+  return toBullet(state.p_W, state.q_WB);
+}
+
+void ContactSearch::gatherTriangles(const std::vector<RigidState>& states, btScalar margin) {
+  for (Neighbours& link : links_) {
+    for (MeshNear& near : link.meshes) {
+      const PrivateCopy& its = near.is_of_a ? *link.a : *link.b;
+      const PrivateCopy& other = near.is_of_a ? *link.b : *link.a;
+      const btTransform pose = findPose(its, states);
+      const Region box = moveRegion(other.look.bounds, findPose(other, states));
+      if (contains(near.covered, findRegionInMesh(*near.mesh, pose, box, margin))) continue;
+      near.fresh.gather(*near.mesh->host_mesh,
+                        findRegionInMesh(*near.mesh, pose, box, btScalar(2) * margin));
+      near.covered = near.fresh.gathered();
+      near.is_fresh = has_news_ = true;
+    }
+  }
 }
 
 /// Sorts by island index, then standing objects by arrival: equal scenes give equal order.
@@ -103,7 +135,9 @@ void ContactSearch::fillDraft() {
     draft_.copy_of[index] = body.get();
   }
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    draft_.pairs.push_back({links_[i].a, links_[i].b});
+    draft_.pairs.emplace_back(*links_[i].a, *links_[i].b, links_[i].material);
+    // A pair of the present book brings its parts along.
+    if (links_[i].place == kNowhere) draft_.pairs.back().fill();
     for (const PrivateCopy* copy : {links_[i].a, links_[i].b}) {
       if (copy->index == kStanding) continue;
       const auto body = static_cast<std::size_t>(copy->index);
@@ -122,7 +156,6 @@ void ContactSearch::erase(const btCollisionObject* original) {
   const auto is_it = [&](const auto& copy) { return copy->original == original; };
   std::erase_if(links_, [&](const Neighbours& link) { return is_it(link.a) || is_it(link.b); });
   std::erase_if(placings_, [&](const Placing& placing) { return is_it(placing.copy); });
-  std::erase_if(surfacings_, [&](const Surfacing& one) { return is_it(one.copy); });
   for (auto* copies : {&bodies_, &standing_}) {
     const auto gone = std::find_if(copies->begin(), copies->end(), is_it);
     if (gone == copies->end()) continue;
@@ -138,34 +171,40 @@ void ContactSearch::commit() noexcept {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       std::size_t& place = links_[i].place;
       if (place != kNowhere) {
-        std::swap(draft_.pairs[i].algorithm, book_.pairs[place].algorithm);
-        draft_.pairs[i].near = book_.pairs[place].near;
+        draft_.pairs[i].goOnWith(book_.pairs[place]);
         if (draft_.pairs[i].near) draft_.near.push_back(i);
       }
       place = i;
     }
-    for (Pair& pair : book_.pairs) release(pair);
+    for (ContactPair& pair : book_.pairs) pair.release(dispatcher_);
     std::swap(book_, draft_);
   }
-  origin_W_ = wanted_origin_W_;
+  if (has_news_)
+    for (Neighbours& link : links_) commit(link);
+  has_news_ = false;
+  work_.origin_W = wanted_origin_W_;
   for (const Placing& placing : placings_) placing.copy->place(placing.pose);
   placings_.clear();
-  for (const Surfacing& one : surfacings_) one.surface.applyTo(one.copy->object);
-  surfacings_.clear();
   if (moved_states_.empty()) return;
   for (const auto& body : bodies_)
     place(body->index, moved_states_[static_cast<std::size_t>(body->index)]);
   moved_states_.clear();
 }
 
-bool ContactSearch::overlaps(const Pair& pair, const Region& a, const Region& b) const noexcept {
-  if (pair.b->plane) return reaches(*pair.b->plane, pair.b->object.getWorldTransform(), a);
-  return overlap(a, b);
+void ContactSearch::commit(Neighbours& link) noexcept {
+  ContactPair& pair = book_.pairs[link.place];
+  if (link.is_new_material) pair.material = link.material;
+  link.is_new_material = false;
+  for (std::size_t i = 0; i < link.meshes.size(); ++i) {
+    if (!link.meshes[i].is_fresh) continue;
+    std::swap(pair.meshes[i].run, link.meshes[i].fresh);
+    link.meshes[i].is_fresh = false;
+  }
 }
 
 void ContactSearch::place(BodyIndex body, const RigidState& state) noexcept {
   PrivateCopy& copy = *book_.copy_of[static_cast<std::size_t>(body)];
-  const Vec3 p = state.p_W - origin_W_;
+  const Vec3 p = state.p_W - work_.origin_W;
   if (p == copy.p_placed && state.q_WB.coeffs() == copy.q_placed.coeffs()) return;
   copy.p_placed = p;
   copy.q_placed = state.q_WB;
@@ -199,11 +238,11 @@ void ContactSearch::lookAround(const std::vector<RigidState>& states,
   // Bodies at rest keep their last place. Waking spreads: woken bodies wake others.
   for (std::size_t next = 0; next < book_.awake.size(); ++next) {
     forEachPairOf(book_.awake[next], [&](std::size_t i) {
-      Pair& pair = book_.pairs[i];
+      ContactPair& pair = book_.pairs[i];
       const auto a = static_cast<std::size_t>(pair.a->index);
       const auto b = pair.b->index != kStanding ? static_cast<std::size_t>(pair.b->index) : a;
       if (pair.near || reach[a] < 0.0 || reach[b] < 0.0) return;
-      if (!overlaps(pair, grown(*pair.a), grown(*pair.b))) return;
+      if (!pair.overlaps(grown(*pair.a), grown(*pair.b))) return;
       pair.near = true;
       book_.near.push_back(i);
       for (const std::size_t body : {a, b}) {
@@ -217,83 +256,26 @@ void ContactSearch::lookAround(const std::vector<RigidState>& states,
   }
   std::sort(book_.near.begin(), book_.near.end());
   for (const std::size_t i : book_.were_near)
-    if (!book_.pairs[i].near) release(book_.pairs[i]);
+    if (!book_.pairs[i].near) book_.pairs[i].release(dispatcher_);
+  for (const std::size_t i : book_.near) {
+    const auto reach_of = [&](const PrivateCopy& copy) {
+      return copy.index == kStanding ? 0.0 : reach[static_cast<std::size_t>(copy.index)];
+    };
+    ContactPair& pair = book_.pairs[i];
+    pair.lookCloser(work_, static_cast<btScalar>(reach_of(*pair.a) + reach_of(*pair.b)));
+  }
 }
 
 void ContactSearch::find(const std::vector<RigidState>& states,
                          std::vector<RigidContact>& contacts) noexcept {
   for (const BodyIndex body : book_.awake) place(body, states[static_cast<std::size_t>(body)]);
+  work_.contacts = &contacts;
   for (const std::size_t i : book_.near) {
-    Pair& pair = book_.pairs[i];
-    if (overlaps(pair, pair.a->bounds, pair.b->bounds)) search(pair, contacts);
+    ContactPair& pair = book_.pairs[i];
+    if (!pair.overlaps(pair.a->bounds, pair.b->bounds)) continue;
+    ++searches_;
+    pair.search(work_);
   }
-}
-
-void ContactSearch::search(Pair& pair, std::vector<RigidContact>& contacts) noexcept {
-  ++searches_;
-  const btCollisionObjectWrapper a = wrap(*pair.a), b = wrap(*pair.b);
-  if (pair.algorithm == nullptr)
-    pair.algorithm = dispatcher_.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-  if (pair.algorithm == nullptr) return;
-  if (pair.b->plane) slideAlong(pair);
-  btManifoldResult result(&a, &b);
-  pair.algorithm->processCollision(&a, &b, dispatch_, &result);
-  manifolds_.resize(0);
-  pair.algorithm->getAllContactManifolds(manifolds_);
-  for (int m = 0; m < manifolds_.size(); ++m) {
-    const btPersistentManifold& manifold = *manifolds_[m];
-    // The normal points from the second object to the first.
-    const double side = manifold.getBody0() == &pair.a->object ? 1.0 : -1.0;
-    for (int i = 0; i < manifold.getNumContacts() && contacts.size() < contacts.capacity(); ++i) {
-      const btManifoldPoint& point = manifold.getContactPoint(i);
-      RigidContact contact;
-      contact.distance = static_cast<double>(point.getDistance() + pair.a->skin + pair.b->skin);
-      if (contact.distance > kFarthest) continue;
-      if (std::abs(contact.distance) < kRounding) contact.distance = 0.0;
-      contact.a = pair.a->index;
-      contact.b = pair.b->index;
-      contact.n_W = side * fromBullet(point.m_normalWorldOnB).normalized();
-      contact.p_W =
-          origin_W_ +
-          fromBullet((point.getPositionWorldOnA() + point.getPositionWorldOnB()) * btScalar(0.5));
-      contact.friction = static_cast<double>(point.m_combinedFriction);
-      contact.restitution = static_cast<double>(point.m_combinedRestitution);
-      // Bullet's solver uses spinning friction only together with rolling friction.
-      if (point.m_combinedRollingFriction > 0) {
-        contact.rolling = static_cast<double>(point.m_combinedRollingFriction);
-        contact.spinning = static_cast<double>(point.m_combinedSpinningFriction);
-      }
-      contact.min_bounce_speed = min_bounce_speed_;
-      contacts.push_back(contact);
-    }
-  }
-}
-
-/// Bullet drops a contact whose two points have drifted apart along the surface. The body would
-/// then stand on fewer corners for a step. A plane is uniform, so its point follows the body's.
-void ContactSearch::slideAlong(const Pair& pair) noexcept {
-  manifolds_.resize(0);
-  pair.algorithm->getAllContactManifolds(manifolds_);
-  const btTransform& pose = pair.b->object.getWorldTransform();
-  const btVector3 normal = pose.getBasis() * pair.b->plane->getPlaneNormal();
-  for (int m = 0; m < manifolds_.size(); ++m) {
-    btPersistentManifold& manifold = *manifolds_[m];
-    const bool is_first = manifold.getBody0() == &pair.a->object;
-    for (int i = 0; i < manifold.getNumContacts(); ++i) {
-      btManifoldPoint& point = manifold.getContactPoint(i);
-      btVector3& on_plane = is_first ? point.m_localPointB : point.m_localPointA;
-      const btVector3 on_body = pair.a->object.getWorldTransform() *
-                                (is_first ? point.m_localPointA : point.m_localPointB);
-      on_plane = pose.invXform(on_body - normal * normal.dot(on_body - pose.getOrigin()));
-    }
-  }
-}
-
-void ContactSearch::release(Pair& pair) noexcept {
-  if (pair.algorithm == nullptr) return;
-  pair.algorithm->~btCollisionAlgorithm();
-  dispatcher_.freeCollisionAlgorithm(pair.algorithm);
-  pair.algorithm = nullptr;
 }
 
 }  // namespace tandem

@@ -3,11 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 
 #include "coordination/src/island/contact_finder.h"
+#include "surroundings/contact_pair.h"
 #include "surroundings/private_copies.h"
 
 namespace tandem {
@@ -69,8 +68,26 @@ class ContactSearch {
     }
     erase(original);
   }
-  /// Copies friction and restitution from the originals, which must all be in the world.
+  /// Ends the pairs of a copy, with `visit` as in remove(), and adds those for which `meets` holds.
+  template <typename Visit, typename Meets>
+  void renewPairs(PrivateCopy& copy, Visit visit, Meets meets) {
+    std::erase_if(links_, [&](const Neighbours& link) {
+      if (link.a != &copy && link.b != &copy) return false;
+      visit(copy, link.a == &copy ? *link.b : *link.a);
+      return true;
+    });
+    for (const auto& body : bodies_)
+      if (body.get() != &copy && meets(*body, copy)) addPair(*body, copy);
+    if (copy.index != kStanding)
+      for (const auto& object : standing_)
+        if (meets(copy, *object)) addPair(copy, *object);
+    is_changed_ = true;
+  }
+  /// Reads friction and restitution of the originals, which must all be in the world.
   void showSurfaces();
+  /// Copies the triangles of meshes that pairs may reach, within `margin` [m] of the bodies at
+  /// `states`. All originals must be in the world, with the shapes that were copied.
+  void gatherTriangles(const std::vector<RigidState>& states, btScalar margin);
   /// Completes a change for the next commit().
   void prepare();
   /// @}
@@ -87,60 +104,59 @@ class ContactSearch {
   /// @}
 
  private:
+  /// A mesh of a pair, on the host's side.
+  struct MeshNear {
+    const Part* mesh;
+    bool is_of_a;
+    TriangleRun fresh;           ///< for the next commit(); else the one before, to be used again
+    bool is_fresh = false;       ///< since the last commit()
+    Region covered = kNoRegion;  ///< by the triangles of the last gathering
+  };
   /// Two copies that may touch, on the host's side.
   struct Neighbours {
-    PrivateCopy* a;     ///< a body
-    PrivateCopy* b;     ///< a body or standing
-    std::size_t place;  ///< index of its pair in the present book; kNowhere: none
+    PrivateCopy* a;  ///< a body
+    PrivateCopy* b;  ///< a body or standing
+    Material material;
+    std::vector<MeshNear> meshes;
+    std::size_t place = kNowhere;  ///< index of its pair in the present book; kNowhere: none
+    bool is_new_material = false;  ///< since the last commit()
   };
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
-  struct Pair {
-    PrivateCopy* a;
-    PrivateCopy* b;
-    btCollisionAlgorithm* algorithm = nullptr;
-    bool near = false;
-  };
   /// Pairs and lists that the tick uses.
   struct Book {
-    std::vector<Pair> pairs;
+    std::vector<ContactPair> pairs;
     std::vector<PrivateCopy*> copy_of;               ///< by body; null: no copy
     std::vector<std::vector<std::size_t>> pairs_of;  ///< by body: indices in pairs
     std::vector<std::size_t> near, were_near;        ///< indices of near pairs, ascending
     std::vector<BodyIndex> awake;                    ///< in the last lookAround()
   };
-  /// Dispatcher with room for all its manifolds from the start.
-  struct Dispatcher final : btCollisionDispatcher {
-    Dispatcher(btCollisionConfiguration* configuration, int room)
-        : btCollisionDispatcher(configuration) {
-      m_manifoldsPtr.reserve(room);
-    }
-  };
   struct Placing {
     PrivateCopy* copy;
     btTransform pose;
   };
-  struct Surfacing {
-    PrivateCopy* copy;
-    Surface surface;
+  /// Bullet's functions that combine surfaces; a host may set its own.
+  struct Combiners {
+    btScalar (*functions[4])(const btCollisionObject*, const btCollisionObject*) = {};
+
+    [[nodiscard]] static Combiners now() noexcept;
+    bool operator==(const Combiners&) const noexcept = default;
   };
 
-  void addPair(PrivateCopy& a, PrivateCopy& b) { links_.push_back({&a, &b, kNowhere}); }
+  void addPair(PrivateCopy& a, PrivateCopy& b);
   void sortLinks();
   void fillDraft();
   void erase(const btCollisionObject* original);
   void place(BodyIndex body, const RigidState& state) noexcept;
   template <typename Visit>
   void forEachPairOf(BodyIndex body, Visit visit);
-  void release(Pair& pair) noexcept;
-  void search(Pair& pair, std::vector<RigidContact>& contacts) noexcept;
-  void slideAlong(const Pair& pair) noexcept;
-  [[nodiscard]] bool overlaps(const Pair& pair, const Region& a, const Region& b) const noexcept;
+  void commit(Neighbours& link) noexcept;
+  [[nodiscard]] btTransform findPose(const PrivateCopy& copy,
+                                     const std::vector<RigidState>& states) const;
 
   btDefaultCollisionConfiguration configuration_;
-  Dispatcher dispatcher_;
-  btDispatcherInfo dispatch_;
-  double min_bounce_speed_;
+  QuietDispatcher dispatcher_;
+  ContactPair::WorkSpace work_;
 
   // The host's side.
   std::vector<std::unique_ptr<PrivateCopy>> bodies_, standing_;
@@ -148,19 +164,18 @@ class ContactSearch {
   std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< in the present book, not in the next
   std::vector<Neighbours> links_;
   Vec3 wanted_origin_W_ = Vec3::Zero();
+  Combiners combiners_;      ///< at the last showSurfaces()
   bool is_changed_ = false;  ///< since the last prepare()
 
   // Result of prepare() for commit().
   Book draft_;
   bool is_drawn_ = false;
+  bool has_news_ = false;  ///< a link has material or triangles for the next commit()
   std::vector<Placing> placings_;
-  std::vector<Surfacing> surfacings_;
   std::vector<RigidState> moved_states_;  ///< states of bodies after a change of origin; else empty
 
   // The tick's side.
   Book book_;
-  Vec3 origin_W_ = Vec3::Zero();
-  btManifoldArray manifolds_;  // work space
   std::uint64_t searches_ = 0;
 };
 

@@ -65,12 +65,16 @@ struct Obstacles::Impl {
                      const std::vector<char>* moves);
   void findForSpheres(const std::vector<RigidState>& states, btScalar margin);
   void dropMissingBodies();
+  void renewChangedBodies();
   void dropLost();
+  void renewAsked();
   void takeFound();
   /// Takes over pairs that the host lets touch: their contact is now the island's.
   [[nodiscard]] auto takeOver() {
     return [this](const PrivateCopy& a, const PrivateCopy& b) {
       if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
+      // What cannot be copied stays Bullet's, and so do points that the host's callback changes.
+      if (!a.isWhole() || !b.isWhole() || a.asks_host || b.asks_host) return false;
       // If forces move neither body, neither can be pushed.
       if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
         return false;
@@ -138,12 +142,15 @@ bool Obstacles::search(const std::vector<RigidState>& states, double margin,
   const auto reach = static_cast<btScalar>(margin);
   impl_->changed = false;
   impl_->dropMissingBodies();
+  impl_->renewChangedBodies();
   impl_->forgetOrphans();
   impl_->moveOrigin(states);
   impl_->findForBodies(states, reach, moves);
   impl_->dropLost();
   impl_->takeFound();
+  impl_->renewAsked();
   impl_->search.showSurfaces();
+  impl_->search.gatherTriangles(states, reach);
   impl_->search.prepare();
   impl_->findForSpheres(states, reach);
   return impl_->changed;
@@ -226,7 +233,7 @@ void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btSca
     if (body->original->isKinematicObject()) continue;
     if (moves && !(*moves)[static_cast<std::size_t>(body->index)]) continue;
     const RigidState& state = states[static_cast<std::size_t>(body->index)];
-    const Region region = computeRegion(*body->host_shape, toBullet(state.p_W, state.q_WB));
+    const Region region = computeRegion(*body->look.shape, toBullet(state.p_W, state.q_WB));
     findStaticObjects(host, growRegion(region, margin), found);
   }
   sortAsAdded(found);
@@ -241,12 +248,42 @@ void Obstacles::Impl::dropMissingBodies() {
   }
 }
 
+/// Copies the shapes of bodies anew whose owner changed them. All bodies are in the world.
+void Obstacles::Impl::renewChangedBodies() {
+  for (std::size_t i = search.bodies().size(); i-- > 0;) {
+    const PrivateCopy& copy = *search.bodies()[i];
+    if (copy.isAsCopied()) continue;
+    const BodyIndex index = copy.index;
+    btCollisionObject& original = *copy.original;
+    remove(&original);
+    search.addBody(index, original, takeOver());
+  }
+}
+
+/// The host began or stopped to ask for the contact points of an object.
+void Obstacles::Impl::renewAsked() {
+  for (const auto* copies : {&search.bodies(), &search.standing()}) {
+    for (const auto& copy : *copies) {
+      if (asksContactCallback(*copy->original) == copy->asks_host) continue;
+      copy->asks_host = !copy->asks_host;
+      changed = true;
+      search.renewPairs(
+          *copy,
+          [&](const PrivateCopy& renewed, const PrivateCopy& partner) {
+            const bool it_keeps = isKeeper(renewed, partner);
+            unfilter(it_keeps ? renewed : partner, it_keeps ? partner : renewed);
+          },
+          takeOver());
+    }
+  }
+}
+
 void Obstacles::Impl::dropLost() {
   const auto& standing = search.standing();
   for (std::size_t i = standing.size(); i-- > 0;) {
     btCollisionObject* original = standing[i]->original;
     const bool is_found = std::find(found.begin(), found.end(), original) != found.end();
-    if (!is_found || original->getCollisionShape() != standing[i]->host_shape) remove(original);
+    if (!is_found || !standing[i]->isAsCopied()) remove(original);
   }
 }
 

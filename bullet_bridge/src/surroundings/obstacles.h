@@ -20,19 +20,21 @@ namespace tandem {
 /// The private origin is near the first body, so a float Bullet resolves tens of nanometres
 /// anywhere. Friction, restitution and margins are those of the host's objects at the last
 /// update(). Rolling and spinning friction act, contact stiffness and anisotropic friction do not.
-/// Simple shapes are copied when they come near. Meshes, height fields, compounds and other shapes
-/// are shared with the host. They must not change while attached, and must live until the commit()
-/// after their object left the world. With a haptic thread that is the end of the host's next step.
+/// Shapes are copied when they come near, and of meshes and height fields the triangles that are
+/// near: search() notices another scaling, margin, size or child, but not a corner that moved
+/// inside. So the host may delete any object and shape that its world does not have any more, in
+/// any moment.
 ///
 /// Native contact of an island body with a candidate or another island body is filtered meanwhile.
-/// Kinematic objects are no candidates: they can be bodies. Bullet's global contact callbacks also
-/// receive the copies, which carry their originals' user pointers.
+/// It stays Bullet's for shapes that cannot be copied (convex classes of the host's own, signed
+/// distance fields), and for objects whose contact points the host changes in
+/// `gContactAddedCallback`. Kinematic objects are no candidates: they can be bodies. Bullet's
+/// global contact callbacks are never called here.
 ///
 /// Two threads may share it. addBody(), removeBody(), addSphere() and search() are for the thread
 /// that steps the host's world. Their results take effect in commit(). commit(), nearSpheres(),
-/// lookAround() and find() are for the thread that ticks, while the other waits. Compounds of
-/// several shapes make Bullet allocate in every contact search; all others allocate only at first
-/// touch.
+/// lookAround() and find() are for the thread that ticks, while the other waits. They allocate only
+/// at first touch.
 class Obstacles final : public ContactFinder {
  public:
   /// `host` must outlive this object unless forgetWorld() was called. Bodies must too unless they

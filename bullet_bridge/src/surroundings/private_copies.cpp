@@ -1,93 +1,81 @@
 #include "surroundings/private_copies.h"
 
-#include <BulletCollision/CollisionShapes/btBoxShape.h>
-#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
-#include <BulletCollision/CollisionShapes/btConeShape.h>
-#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
-#include <BulletCollision/CollisionShapes/btCylinderShape.h>
-#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/Gimpact/btGImpactShape.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
-#include "coordination/src/geometry/convex_polyhedron.h"
 #include "shapes/only_shape.h"
+#include "surroundings/private_shapes.h"
 
 namespace tandem {
 namespace {
 
-/// Bullet finds no contact of two boxes across a gap. Boxes at rest on each other open and close by
-/// rounding. Their copies are larger by this, and distances are corrected [m]. It is far above an
-/// inner step's motion at rest, g h^2 = 6e-7, and negligible at a corner.
-constexpr btScalar kBoxSkin = btScalar(5e-6);
-
-/// Copies a shape that owns no memory, to the bit.
-template <typename ShapeType>
-std::unique_ptr<btCollisionShape> copyOf(const btCollisionShape& shape) {
-  return std::make_unique<ShapeType>(static_cast<const ShapeType&>(shape));
+/// True if the shape tells its triangles. A signed distance field has none, and a GImpact compound
+/// shows none.
+bool hasTriangles(const btCollisionShape& shape) {
+  if (!shape.isConcave() || shape.getShapeType() == SDF_SHAPE_PROXYTYPE) return false;
+  return shape.getShapeType() != GIMPACT_SHAPE_PROXYTYPE ||
+         static_cast<const btGImpactShapeInterface&>(shape).getGImpactShapeType() !=
+             CONST_GIMPACT_COMPOUND_SHAPE;
 }
 
-/// Each axis has its own class.
-std::unique_ptr<btCollisionShape> copyOfCylinder(const btCylinderShape& cylinder) {
-  if (cylinder.getUpAxis() == 0) return copyOf<btCylinderShapeX>(cylinder);
-  if (cylinder.getUpAxis() == 2) return copyOf<btCylinderShapeZ>(cylinder);
-  return copyOf<btCylinderShape>(cylinder);
-}
-
-std::unique_ptr<btCollisionShape> copyOfHull(const btConvexHullShape& hull) {
-  const auto* points = static_cast<const btScalar*>(hull.getUnscaledPoints()[0]);
-  auto copy = std::make_unique<btConvexHullShape>(points, hull.getNumPoints(), sizeof(btVector3));
-  copy->setMargin(hull.getMargin());
-  copy->setLocalScaling(hull.getLocalScaling());
-  if (hull.getConvexPolyhedron()) copy->initializePolyhedralFeatures();
-  return copy;
-}
-
-/// Copies a shape, because the host may delete it while the haptic thread still searches. Null for
-/// shapes too large or too rare to copy, which are shared: meshes, height fields, compounds.
-std::unique_ptr<btCollisionShape> makeOwnShape(const btCollisionShape& shape) {
-  if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
-    const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
-    return std::make_unique<btStaticPlaneShape>(plane.getPlaneNormal(), btScalar(0));
+/// Adds the parts of a shape, also of compounds in compounds. False if one cannot be copied.
+bool appendParts(const btCollisionShape& shape, const btTransform& pose, std::vector<Part>& parts) {
+  if (shape.isCompound()) {
+    const auto& compound = static_cast<const btCompoundShape&>(shape);
+    for (int i = 0; i < compound.getNumChildShapes(); ++i)
+      if (!appendParts(*compound.getChildShape(i), pose * compound.getChildTransform(i), parts))
+        return false;
+    return true;
   }
-  if (shape.getShapeType() == BOX_SHAPE_PROXYTYPE) {
-    const auto& box = static_cast<const btBoxShape&>(shape);
-    const btVector3 skin(kBoxSkin, kBoxSkin, kBoxSkin);
-    auto copy = std::make_unique<btBoxShape>(box.getHalfExtentsWithMargin() + skin);
-    copy->setMargin(box.getMargin());
-    return copy;
+  Part part;
+  part.pose = pose;
+  part.shape = copyShape(shape);
+  if (!part.shape) {
+    if (!hasTriangles(shape)) return false;
+    part.host_mesh = static_cast<const btConcaveShape*>(&shape);
+    part.mesh_margin = shape.getMargin();
+    part.bounds = computeRegion(shape, btTransform::getIdentity());
   }
-  switch (shape.getShapeType()) {
-    case SPHERE_SHAPE_PROXYTYPE:
-      return copyOf<btSphereShape>(shape);
-    case CAPSULE_SHAPE_PROXYTYPE:
-      return copyOf<btCapsuleShape>(shape);
-    case CYLINDER_SHAPE_PROXYTYPE:
-      return copyOfCylinder(static_cast<const btCylinderShape&>(shape));
-    case CONE_SHAPE_PROXYTYPE:
-      return copyOf<btConeShape>(shape);
-    case CONVEX_HULL_SHAPE_PROXYTYPE:
-      return copyOfHull(static_cast<const btConvexHullShape&>(shape));
-    default:
-      return nullptr;
-  }
+  parts.push_back(std::move(part));
+  return true;
 }
 
 }  // namespace
 
 PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
     : original(&host_object),
-      host_shape(host_object.getCollisionShape()),
+      look(ShapeLook::of(*host_object.getCollisionShape())),
+      surface(Surface::of(host_object)),
       index(body),
-      own_shape(makeOwnShape(onlyShapeOf(*host_object.getCollisionShape()))) {
-  Surface::of(host_object).applyTo(object);
-  const int type = onlyShapeOf(*host_shape).getShapeType();
-  if (type == STATIC_PLANE_PROXYTYPE)
-    plane = static_cast<const btStaticPlaneShape*>(own_shape.get());
-  if (type == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
-  // Bullet takes shapes by non-const pointer; nothing here changes them.
-  object.setCollisionShape(own_shape ? own_shape.get() : host_object.getCollisionShape());
+      asks_host(asksContactCallback(host_object)) {
+  const btCollisionShape& only = onlyShapeOf(*host_object.getCollisionShape());
+  is_compound = only.isCompound();
+  if (only.getShapeType() == BOX_SHAPE_PROXYTYPE) skin = kBoxSkin;
+  if (only.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+    auto own = std::make_unique<btStaticPlaneShape>(
+        static_cast<const btStaticPlaneShape&>(only).getPlaneNormal(), btScalar(0));
+    plane = own.get();
+    parts.push_back({std::move(own), nullptr, 0, {}, btTransform::getIdentity()});
+  } else if (skin > 0) {
+    parts.push_back({copyShape(only, skin), nullptr, 0, {}, btTransform::getIdentity()});
+  } else if (!appendParts(only, btTransform::getIdentity(), parts)) {
+    parts.clear();
+  }
+  const bool is_single = !is_compound && isWhole() && parts.front().shape;
+  const btCollisionShape& measured =
+      is_single ? *parts.front().shape : *host_object.getCollisionShape();
+  breaking_threshold = measured.getContactBreakingThreshold(gContactBreakingThreshold);
   place(btTransform::getIdentity());
+}
+
+bool PrivateCopy::isAsCopied() const {
+  const btCollisionShape* shape = original->getCollisionShape();
+  return shape == look.shape && ShapeLook::of(*shape) == look;
 }
 
 Surface Surface::of(const btCollisionObject& object) noexcept {
@@ -103,15 +91,17 @@ Surface Surface::of(const btCollisionObject& object) noexcept {
   return surface;
 }
 
-void Surface::applyTo(btCollisionObject& object) const noexcept {
-  object.setFriction(friction);
-  object.setRollingFriction(rolling_friction);
-  object.setSpinningFriction(spinning_friction);
-  object.setRestitution(restitution);
-  object.setUserPointer(user_pointer);
-  object.setUserIndex(user_index);
-  object.setUserIndex2(user_index2);
-  object.setUserIndex3(user_index3);
+ShapeLook ShapeLook::of(const btCollisionShape& shape) {
+  const bool is_compound = shape.isCompound();
+  return {&shape, shape.getLocalScaling(), shape.getMargin(),
+          computeRegion(shape, btTransform::getIdentity()),
+          is_compound ? static_cast<const btCompoundShape&>(shape).getUpdateRevision() : 0};
+}
+
+bool ShapeLook::operator==(const ShapeLook& other) const noexcept {
+  return shape == other.shape && scaling == other.scaling && margin == other.margin &&
+         bounds.low == other.bounds.low && bounds.high == other.bounds.high &&
+         revision == other.revision;
 }
 
 btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
@@ -127,9 +117,23 @@ btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
   return btTransform(host_pose.getBasis(), toBullet(p));
 }
 
+Region PrivateCopy::computeBounds(const Part& part, const btTransform& pose) {
+  if (part.shape) return computeRegion(*part.shape, pose * part.pose);
+  return moveRegion(part.bounds, pose * part.pose);
+}
+
 void PrivateCopy::place(const btTransform& pose) {
   object.setWorldTransform(pose);
-  bounds = computeRegion(*object.getCollisionShape(), pose);
+  if (!is_compound && isWhole() && parts.front().shape) {
+    bounds = computeRegion(*parts.front().shape, pose);
+  } else {
+    bounds = moveRegion(look.bounds, pose);
+  }
+}
+
+bool asksContactCallback(const btCollisionObject& object) noexcept {
+  return gContactAddedCallback != nullptr &&
+         (object.getCollisionFlags() & btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK) != 0;
 }
 
 }  // namespace tandem

@@ -1,29 +1,53 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-#include <BulletCollision/CollisionShapes/btConvexShape.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include "coordination/src/island/contact_finder.h"
 #include "surroundings/regions.h"
 
+class btConcaveShape;
 class btStaticPlaneShape;
 
 namespace tandem {
 
-/// Surface properties of an object, and its owner's user data.
+/// Surface properties of an object, and its owner's user data, which callbacks of the host's may
+/// turn into others.
 struct Surface {
   btScalar friction = 0, rolling_friction = 0, spinning_friction = 0, restitution = 0;
   void* user_pointer = nullptr;
   int user_index = -1, user_index2 = -1, user_index3 = -1;
 
   [[nodiscard]] static Surface of(const btCollisionObject& object) noexcept;
-  void applyTo(btCollisionObject& object) const noexcept;
   bool operator==(const Surface&) const noexcept = default;
 };
 
-/// Private copy of a host's object for the contact search: same shape and surface, own pose.
+/// What tells that a shape was changed, or made anew at its address.
+struct ShapeLook {
+  const btCollisionShape* shape = nullptr;  ///< compare before reading
+  btVector3 scaling{0, 0, 0};
+  btScalar margin = 0;
+  Region bounds{};   ///< in the shape's frame
+  int revision = 0;  ///< of a compound
+
+  [[nodiscard]] static ShapeLook of(const btCollisionShape& shape);
+  bool operator==(const ShapeLook& other) const noexcept;
+};
+
+/// A convex shape, plane or mesh of a copied object, alone or out of a compound.
+struct Part {
+  std::unique_ptr<btCollisionShape> shape;    ///< null: a mesh
+  const btConcaveShape* host_mesh = nullptr;  ///< for the host's thread only
+  btScalar mesh_margin = 0;
+  Region bounds{};   ///< of a mesh, in its frame
+  btTransform pose;  ///< in its object
+};
+
+/// Private copy of a host's object for the contact search: same shape, own pose. It reads nothing
+/// of the host's once made; of meshes TriangleRun copies what is near.
 struct PrivateCopy {
   /// `index`: the island body, or kStanding.
   PrivateCopy(btCollisionObject& host_object, BodyIndex index);
@@ -31,18 +55,32 @@ struct PrivateCopy {
   /// Pose of a standing original relative to `origin_W`.
   [[nodiscard]] btTransform findOriginal(const Vec3& origin_W) const;
   void place(const btTransform& pose);
+  /// False: a shape is none that can be copied. Its contact stays Bullet's.
+  [[nodiscard]] bool isWhole() const noexcept { return !parts.empty(); }
+  /// True if the original, which must be in its world, has the shape that was copied.
+  [[nodiscard]] bool isAsCopied() const;
+  /// Bounds of a part while its object is at `pose`.
+  [[nodiscard]] static Region computeBounds(const Part& part, const btTransform& pose);
 
-  btCollisionObject* original;         ///< the host may have deleted it: compare, do not read
-  const btCollisionShape* host_shape;  ///< a change means another object at the same address
+  btCollisionObject* original;  ///< the host may have deleted it: compare, do not read
+  ShapeLook look;
+  Surface surface;              ///< as last read
+  bool is_new_surface = false;  ///< it changed when last read
   BodyIndex index;
-  std::unique_ptr<btCollisionShape> own_shape;  ///< null: shared with the host
-  const btStaticPlaneShape* plane = nullptr;    ///< own_shape if it is a plane, through its origin
-  btScalar skin = 0;  ///< excess of own_shape over the host's shape, all round [m]
-  btCollisionObject object;
-  int world_index = -1;          ///< last index of the original in the host's world
+  std::vector<Part> parts;
+  bool is_compound = false;
+  const btStaticPlaneShape* plane = nullptr;  ///< the only part if a plane, through its origin
+  btScalar skin = 0;                          ///< excess over the host's shape, all round [m]
+  btScalar breaking_threshold = 0;            ///< contact farther than this is none [m]
+  bool asks_host = false;                     ///< the host's callback decides on its contact
+  btCollisionObject object;                   ///< holds the pose; has no shape
+  int world_index = -1;                       ///< last index of the original in the host's world
   Vec3 p_placed = Vec3::Zero();  ///< last position of a body, from the private origin [m]
   Quat q_placed = Quat::Identity();
   Region bounds;  ///< box around the copy at its last pose
 };
+
+/// True if the host changes contact points of the object by its callback.
+[[nodiscard]] bool asksContactCallback(const btCollisionObject& object) noexcept;
 
 }  // namespace tandem

@@ -22,6 +22,24 @@ struct Region {
          a.high.y() >= b.low.y() && a.low.z() <= b.high.z() && a.high.z() >= b.low.z();
 }
 
+[[nodiscard]] inline bool contains(const Region& outer, const Region& inner) noexcept {
+  return outer.low.x() <= inner.low.x() && outer.high.x() >= inner.high.x() &&
+         outer.low.y() <= inner.low.y() && outer.high.y() >= inner.high.y() &&
+         outer.low.z() <= inner.low.z() && outer.high.z() >= inner.high.z();
+}
+
+/// Contains nothing.
+inline const Region kNoRegion{btVector3(1, 1, 1), btVector3(-1, -1, -1)};
+
+/// Box around a box at a pose.
+[[nodiscard]] inline Region moveRegion(const Region& region, const btTransform& pose) noexcept {
+  const btVector3 half = (region.high - region.low) * btScalar(0.5);
+  const btVector3 centre = pose((region.low + region.high) * btScalar(0.5));
+  const btMatrix3x3 turn = pose.getBasis().absolute();
+  const btVector3 reach(turn[0].dot(half), turn[1].dot(half), turn[2].dot(half));
+  return {centre - reach, centre + reach};
+}
+
 /// Bounding box of a shape at a pose; all of space for a plane.
 [[nodiscard]] inline Region computeRegion(const btCollisionShape& shape,
                                           const btTransform& pose) noexcept {
