@@ -58,6 +58,23 @@ std::vector<Case> siteCases() {
        [](Scene& scene) { return tandem_site_share(scene.site, scene.proxy, 0.0, nullptr); }},
       {"ShareDamping", TANDEM_INVALID_ARGUMENT, "damping = -1",
        [](Scene& scene) { return tandem_site_share(scene.site, scene.cube, -1.0, nullptr); }},
+      {"UnshareUnknown", TANDEM_INVALID_ARGUMENT, "there is no object 3; this site has 1",
+       [](Scene& scene) { return tandem_site_unshare(scene.site, 3); }},
+      {"ShareAgainUnknown", TANDEM_INVALID_ARGUMENT, "there is no object 3",
+       [](Scene& scene) { return tandem_site_share_again(scene.site, 3, scene.cube); }},
+      {"ShareAgainHeld", TANDEM_CANNOT, "object 0 has a body in the world; unshare it first",
+       [](Scene& scene) { return tandem_site_share_again(scene.site, 0, scene.cube); }},
+      {"ShareAgainStatic", TANDEM_CANNOT, "is static; give a shared object a mass",
+       [](Scene& scene) { return tandem_site_share_again(scene.site, 0, scene.wall); }},
+      {"ShareAgainProxy", TANDEM_CANNOT, "is shared already, or a proxy",
+       [](Scene& scene) { return tandem_site_share_again(scene.site, 0, scene.proxy); }},
+      {"StateUnknown", TANDEM_INVALID_ARGUMENT, "there is no object 1",
+       [](Scene& scene) {
+         TandemObjectState state{};
+         return tandem_site_object_state(scene.site, 1, &state);
+       }},
+      {"StateNull", TANDEM_INVALID_ARGUMENT, "state is null",
+       [](Scene& scene) { return tandem_site_object_state(scene.site, 0, nullptr); }},
       {"ConnectTwice", TANDEM_CANNOT, "peer 2 is connected already",
        [](Scene& scene) {
          return tandem_site_connect(scene.site, 2, scene.loose, test::kNothing, nullptr);

@@ -111,6 +111,27 @@ TEST(Unshare, AnotherBodyTakesTheObjectsPlace) {
   EXPECT_NEAR(NeighbourScene::positionOf(other).z(), NeighbourScene::kHalf, 1e-3);
 }
 
+// The object is named while it is missing or left to Bullet, and only then.
+TEST(Unshare, WhatIsMissingIsNamed) {
+  TwoCubes scene;
+  EXPECT_TRUE(scene.site->warnings().empty());
+  scene.rig.world.removeRigidBody(scene.second);
+  scene.run(0.1);
+  ASSERT_EQ(scene.site->warnings().size(), 1u);
+  EXPECT_NE(scene.site->warnings()[0].find("object 1 is not in the Bullet world"),
+            std::string::npos);
+  scene.rig.world.addRigidBody(scene.second);
+  scene.cube->setCollisionFlags(scene.cube->getCollisionFlags() |
+                                btCollisionObject::CF_KINEMATIC_OBJECT);
+  scene.run(0.1);
+  ASSERT_EQ(scene.site->warnings().size(), 1u);
+  EXPECT_NE(scene.site->warnings()[0].find("object 0 is left to Bullet"), std::string::npos);
+  scene.cube->setCollisionFlags(scene.cube->getCollisionFlags() &
+                                ~btCollisionObject::CF_KINEMATIC_OBJECT);
+  scene.run(0.1);
+  EXPECT_TRUE(scene.site->warnings().empty());
+}
+
 TEST(Unshare, PeersLetGoAndMeetAgain) {
   TwoHosts hosts;
   hosts.here.site->unshare(0);

@@ -38,6 +38,8 @@ constexpr int kCookie = 0x54624f44;
       return Cylinder{size[0], 0.5 * size[1], Axis::kZ};
     case TANDEM_HULL:
       return makeHull(settings);
+    case TANDEM_CONE:
+      return Cone{size[0], 0.5 * size[1], Axis::kZ};
     case TANDEM_PLANE:
       return Plane{Vec3::UnitZ(), 0.0};
     default:
@@ -117,9 +119,10 @@ TandemResult tandem_world_remove_body(TandemWorld* world, TandemBody body) {
     OwnWorld& own = in.own("tandem_world_remove_body()");
     const WorldBody& removed = in.body(body);
     if (removed.is_shared)
-      throw Refusal(TANDEM_IN_USE,
-                    "body " + std::to_string(body) +
-                        " is shared by a site, or its proxy; destroy the site first");
+      throw Refusal(
+          TANDEM_IN_USE,
+          "body " + std::to_string(body) +
+              " is shared by a site, or its proxy; unshare it, or destroy the site first");
     if (in.guests.is_open)
       throw Refusal(TANDEM_IN_USE,
                     "a step of guests has begun; take bodies out after tandem_world_end_step()");

@@ -7,6 +7,21 @@
 #include "c/values.h"
 
 namespace tandem::c_door {
+namespace {
+
+/// A body that may be shared. `own` is the body that its object has now.
+[[nodiscard]] WorldBody& findShareable(const World& world, TandemBody body,
+                                       TandemBody own = TANDEM_NO_BODY) {
+  WorldBody& known = world.body(body);
+  if (known.is_shared && body != own)
+    throw Error("body " + std::to_string(body) + " is shared already, or a proxy; share it once");
+  // Site would record a static body before it refuses it.
+  if (!isDynamic(*known.rigid))
+    throw Error("body " + std::to_string(body) + " is static; give a shared object a mass");
+  return known;
+}
+
+}  // namespace
 
 SiteEnd::SiteEnd(const SiteSettings& settings, TandemWorld& world, TandemDevice& device)
     : world_(*world.thing),
@@ -20,7 +35,8 @@ SiteEnd::SiteEnd(const SiteSettings& settings, TandemWorld& world, TandemDevice&
 SiteEnd::~SiteEnd() {
   stopLoop();
   world_.watch(nullptr);
-  for (const TandemBody body : shared_) world_.release(body);
+  for (const TandemBody body : shared_)
+    if (body != TANDEM_NO_BODY) world_.release(body);
   for (const TandemBody proxy : proxies_) world_.forget(proxy);
 }
 
@@ -31,20 +47,47 @@ void SiteEnd::checkSetUp(const char* what) const {
                 " is set-up; stop the loop first, and start another one afterwards");
 }
 
+void SiteEnd::checkObject(std::uint32_t object) const {
+  (void)world_.bullet();
+  if (object >= shared_.size())
+    throw std::invalid_argument("there is no object " + std::to_string(object) +
+                                "; this site has " + std::to_string(shared_.size()));
+}
+
 ObjectId SiteEnd::share(TandemBody body, double damping) {
   checkSetUp("sharing a body");
-  WorldBody& known = world_.body(body);
   requireNotNegative("damping", damping);
-  if (known.is_shared)
-    throw Error("body " + std::to_string(body) + " is shared already, or a proxy; share it once");
-  // Site would record a static body before it refuses it.
-  if (!isDynamic(*known.rigid))
-    throw Error("body " + std::to_string(body) + " is static; give a shared object a mass");
+  WorldBody& known = findShareable(world_, body);
   shared_.reserve(shared_.size() + 1);
   const ObjectId object = site_.share(*known.rigid, damping);
   shared_.push_back(body);
   known.is_shared = true;
   return object;
+}
+
+void SiteEnd::unshare(std::uint32_t object) {
+  checkObject(object);
+  site_.unshare(object);
+  if (shared_[object] != TANDEM_NO_BODY) world_.release(shared_[object]);
+  shared_[object] = TANDEM_NO_BODY;
+}
+
+void SiteEnd::shareAgain(std::uint32_t object, TandemBody body) {
+  checkObject(object);
+  WorldBody& known = findShareable(world_, body, shared_[object]);
+  site_.share(object, *known.rigid);
+  if (shared_[object] != TANDEM_NO_BODY) world_.release(shared_[object]);
+  shared_[object] = body;
+  known.is_shared = true;
+}
+
+TandemObjectState SiteEnd::objectState(std::uint32_t object) const {
+  checkObject(object);
+  if (!site_.isShared(object)) return TANDEM_OBJECT_UNSHARED;
+  if (site_.isHeld(object)) return TANDEM_OBJECT_HELD;
+  int hint = -1;
+  const bool is_there = findRigidBody(world_.bullet(), &site_.objectBody(object), hint) != nullptr;
+  return is_there ? TANDEM_OBJECT_LEFT : TANDEM_OBJECT_MISSING;
 }
 
 TandemBody SiteEnd::connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W) {

@@ -30,6 +30,9 @@ class SiteEnd {
   SiteEnd& operator=(const SiteEnd&) = delete;
 
   ObjectId share(TandemBody body, double damping);
+  void unshare(std::uint32_t object);
+  void shareAgain(std::uint32_t object, TandemBody body);
+  [[nodiscard]] TandemObjectState objectState(std::uint32_t object) const;
   TandemBody connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W);
   std::uint32_t tick(double now);
   void startLoop(int priority);
@@ -41,6 +44,8 @@ class SiteEnd {
  private:
   /// Throws while a loop runs, before Site starts any work.
   void checkSetUp(const char* what) const;
+  /// Throws unless `object` is one of this site.
+  void checkObject(std::uint32_t object) const;
 
   World& world_;
   Use world_use_, device_use_;
@@ -48,7 +53,8 @@ class SiteEnd {
   std::vector<MeshWay> mesh_ways_;
   bool has_simulated_link_ = false;
   std::vector<std::uint32_t> peers_;
-  std::vector<TandemBody> shared_, proxies_;
+  std::vector<TandemBody> shared_;  ///< by object; TANDEM_NO_BODY: unshared
+  std::vector<TandemBody> proxies_;
   bool ticks_itself_;
   double last_tick_ = -std::numeric_limits<double>::infinity();
   Site site_;

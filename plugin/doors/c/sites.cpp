@@ -97,6 +97,22 @@ TandemResult tandem_site_share(TandemSite* site, TandemBody body, double damping
   });
 }
 
+TandemResult tandem_site_unshare(TandemSite* site, uint32_t object) {
+  return guarded([&] { open(site).unshare(object); });
+}
+
+TandemResult tandem_site_share_again(TandemSite* site, uint32_t object, TandemBody body) {
+  return guarded([&] { open(site).shareAgain(object, body); });
+}
+
+TandemResult tandem_site_object_state(const TandemSite* site, uint32_t object,
+                                      TandemObjectState* state) {
+  return guarded([&] {
+    const SiteEnd& of = open(site);
+    checkPointer(state, "state") = of.objectState(object);
+  });
+}
+
 TandemResult tandem_site_connect(TandemSite* site, uint32_t peer, TandemLink* link,
                                  const double start[3], TandemBody* proxy) {
   return guarded([&] {

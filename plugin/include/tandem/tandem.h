@@ -122,7 +122,8 @@ typedef enum TandemShapeKind {
       2, /* size[0]: radius, size[1]: distance of its spheres' centres; along z of the body */
   TANDEM_CYLINDER = 3, /* size[0]: radius, size[1]: whole height; along z of the body */
   TANDEM_HULL = 4,     /* convex hull of `points` */
-  TANDEM_PLANE = 5     /* all below z = 0 of the body; needs mass 0 */
+  TANDEM_PLANE = 5,    /* all below z = 0 of the body; needs mass 0 */
+  TANDEM_CONE = 6      /* size[0]: radius, size[1]: whole height; tip up z, the origin half-way */
 } TandemShapeKind;
 
 typedef struct TandemBodySettings {
@@ -414,10 +415,36 @@ TandemResult tandem_site_create(const TandemSiteSettings* settings, TandemWorld*
 /* Restores the host's bodies and ends a loop. The handles of proxies become invalid. [setup] */
 TandemResult tandem_site_destroy(TandemSite* site);
 
-/* Shares a dynamic box, sphere, capsule, cylinder or hull. Its mass and inertia become m/N of
+/* Shares a dynamic box, sphere, capsule, cylinder, cone or hull. Its mass and inertia become m/N of
    their value until the site ends. All sites share the same objects in the same order: `object`
    counts from 0. `damping` acts on this copy [N s/m]. [setup] */
 TandemResult tandem_site_share(TandemSite* site, TandemBody body, double damping, uint32_t* object);
+
+/* Gives a shared object back, with its own mass and the velocity that it has. Its number stays for
+   tandem_site_share_again(), and the others stay shared. Peers let go of their copies after 16
+   packets without it. Between two steps, also with a loop; the body may be removed at once. Does
+   nothing if it is not shared. Fails with a guide. [host] */
+TandemResult tandem_site_unshare(TandemSite* site, uint32_t object);
+
+/* Shares a body for an object that was unshared, or whose body the host removed from its world:
+   the same body or another. It keeps the object's damping, and is held from the next step on.
+   [host] */
+TandemResult tandem_site_share_again(TandemSite* site, uint32_t object, TandemBody body);
+
+/* Who moves a shared object. */
+typedef enum TandemObjectState {
+  TANDEM_OBJECT_HELD = 0,    /* the island */
+  TANDEM_OBJECT_LEFT = 1,    /* Bullet, meanwhile: the island cannot hold its body. A static or
+                                kinematic one, without contact response or with
+                                DISABLE_SIMULATION; peers follow it */
+  TANDEM_OBJECT_MISSING = 2, /* the host removed its body from the world */
+  TANDEM_OBJECT_UNSHARED = 3 /* no body since tandem_site_unshare() */
+} TandemObjectState;
+
+/* State of an object as of the latest step. tandem_site_warnings() names objects that are left or
+   missing, with the remedy. [host] */
+TandemResult tandem_site_object_state(const TandemSite* site, uint32_t object,
+                                      TandemObjectState* state);
 
 /* Connects a remote user whose hand starts at `start`. `proxy` receives the body that stands for
    the user, which a host with another engine mirrors; TANDEM_NO_BODY if the scheme has none. It
@@ -428,7 +455,7 @@ TandemResult tandem_site_connect(TandemSite* site, uint32_t peer, TandemLink* li
 /* Report of a tick. */
 typedef enum TandemStatus {
   TANDEM_STATUS_DEVICE_INVALID = 1 << 0,   /* no usable device reading: no force */
-  TANDEM_STATUS_BODY_MISSING = 1 << 1,     /* a body is not in the world: put it back */
+  TANDEM_STATUS_BODY_MISSING = 1 << 1,     /* a body is not in the world: see warnings */
   TANDEM_STATUS_PACKET_REFUSED = 1 << 2,   /* a packet was invalid: check the sender */
   TANDEM_STATUS_HOST_STEP_WRONG = 1 << 3,  /* impulse injection needs steps of a haptic period */
   TANDEM_STATUS_STATE_NOT_FINITE = 1 << 4, /* lower gains or inner_step; no force from now on */

@@ -100,6 +100,23 @@ void ObjectWatch::giveBack() {
   }
 }
 
+void ObjectWatch::explain(std::vector<std::string>& lines) const {
+  for (const SharedObject& object : bodies_.objects) {
+    if (!object.rigid || (object.is_there && (object.body.is_held || object.is_new))) continue;
+    const std::string name = "object " + std::to_string(object.id);
+    if (!object.is_there) {
+      lines.push_back(name +
+                      " is not in the Bullet world: put its body back, or share another for it");
+    } else if (!mayHold(object)) {
+      lines.push_back(name +
+                      " is left to Bullet: its body is static, kinematic, without contact response "
+                      "or switched off; peers follow it");
+    } else if (!findShareableShape(*object.rigid)) {
+      lines.push_back(name + " is left to Bullet: its shape cannot be shared; peers follow it");
+    }
+  }
+}
+
 bool ObjectWatch::findReturned() {
   if (left_ == 0) return false;
   bool is_any_new = false;

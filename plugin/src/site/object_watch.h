@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "site/host_forces.h"
@@ -62,6 +63,8 @@ class ObjectWatch {
   bool findReturned();
   /// Gives objects that left the island back to the host.
   void giveBack();
+  /// Adds a line for each object that is missing or left to Bullet.
+  void explain(std::vector<std::string>& lines) const;
   /// @}
 
   /// @name For the thread that ticks, while the host's thread waits. Real-time safe.

@@ -71,6 +71,7 @@ std::vector<std::string> Site::Impl::warnings() const {
     if (!body.bullet) return;
     all.insert(all.end(), body.bullet->warnings().begin(), body.bullet->warnings().end());
   });
+  if (!has_given_back_) objects.explain(all);
   return all;
 }
 

@@ -27,7 +27,7 @@ struct StatePacket;
 enum TickStatus : std::uint32_t {
   kTickOk = 0,
   kDeviceInvalid = 1u << 0,   ///< no usable device reading, no force: check the device's cable
-  kBodyMissing = 1u << 1,     ///< a body of ours is not in the host's world: put it back
+  kBodyMissing = 1u << 1,     ///< a body of ours is not in the host's world: see warnings()
   kPacketRefused = 1u << 2,   ///< a packet was invalid (NaN, no unit quaternion): check the sender
   kHostStepWrong = 1u << 3,   ///< impulse injection without host steps at the haptic rate: hand off
   kStateNotFinite = 1u << 4,  ///< the island diverged, no force any more: lower gains or inner_step
@@ -151,7 +151,8 @@ class Site {
   /// island. Equal runs have equal hashes.
   [[nodiscard]] std::uint64_t stateHash() const noexcept;
 
-  /// Facts about the attached world that a user should know, one line each.
+  /// Facts about the attached world that a user should know, one line each. Names each object whose
+  /// body is missing (kBodyMissing) or left to Bullet.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
   /// Number of host bodies in the island now, without shared ones; see
