@@ -40,6 +40,8 @@ btRigidBody::btRigidBodyConstructionInfo makeInfo(const OwnBodySettings& setting
   info.m_startWorldTransform = toBullet(settings.start.p_W, settings.start.q_WB.normalized());
   info.m_friction = static_cast<btScalar>(settings.friction);
   info.m_restitution = static_cast<btScalar>(settings.restitution);
+  info.m_rollingFriction = static_cast<btScalar>(settings.rolling_friction);
+  info.m_spinningFriction = static_cast<btScalar>(settings.spinning_friction);
   return info;
 }
 
@@ -61,6 +63,10 @@ void checkOwnBodySettings(const OwnBodySettings& s) {
   require(s.friction >= 0.0 && std::isfinite(s.friction), "friction", s.friction,
           "finite, 0 or more");
   require(s.restitution >= 0.0 && s.restitution <= 1.0, "restitution", s.restitution, "0 to 1");
+  require(s.rolling_friction >= 0.0 && std::isfinite(s.rolling_friction), "rolling friction",
+          s.rolling_friction, "finite, 0 or more [m]");
+  require(s.spinning_friction >= 0.0 && std::isfinite(s.spinning_friction), "spinning friction",
+          s.spinning_friction, "finite, 0 or more [m]");
   require(isFinite(s.start), "start position", s.start.p_W.transpose(),
           "finite, and so must be orientation and velocities");
   require(std::abs(s.start.q_WB.norm() - 1.0) <= kUnit, "length of the start orientation",
@@ -99,6 +105,26 @@ btRigidBody& OwnWorld::add(const OwnBodySettings& settings) {
   impl_->world.addRigidBody(body.rigid.get());
   impl_->bodies.push_back(std::move(body));
   return *impl_->bodies.back().rigid;
+}
+
+void OwnWorld::change(btRigidBody& body, const OwnBodySettings& settings) {
+  checkOwnBodySettings(settings);
+  const bool is_static = body.getInvMass() == 0;
+  require((settings.mass == 0.0) == is_static, "mass", settings.mass,
+          is_static ? "0: the body is static" : "above 0: the body moves");
+  const auto info = makeInfo(settings, *body.getCollisionShape());
+  // Added anew it is another body to a Site, which so notices a new surface even while it rests.
+  impl_->world.removeRigidBody(&body);
+  if (!is_static) {
+    body.setMassProps(info.m_mass, info.m_localInertia);
+    body.updateInertiaTensor();
+  }
+  body.setFriction(info.m_friction);
+  body.setRestitution(info.m_restitution);
+  body.setRollingFriction(info.m_rollingFriction);
+  body.setSpinningFriction(info.m_spinningFriction);
+  impl_->world.addRigidBody(&body);
+  body.activate(true);
 }
 
 void OwnWorld::remove(btRigidBody& body) noexcept {

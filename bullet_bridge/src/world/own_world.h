@@ -18,6 +18,7 @@ struct OwnBodySettings {
   Vec3 inertia = Vec3::Zero();  ///< [kg m^2]; all 0: Bullet's (capsules and hulls: of a box)
   double friction = 0.5;
   double restitution = 0.0;
+  double rolling_friction = 0.0, spinning_friction = 0.0;  ///< greatest torque per force [m]
   RigidState start;
 };
 
@@ -38,6 +39,11 @@ class OwnWorld {
   /// Adds a body without built-in damping. It lives until remove(), or as long as the world. Throws
   /// std::invalid_argument like checkOwnBodySettings().
   btRigidBody& add(const OwnBodySettings& settings);
+
+  /// Gives a body of add() the mass, inertia and surface of `settings`; shape and state stay. A
+  /// Site that shares it takes its share of the mass in the next step. Throws std::invalid_argument
+  /// like checkOwnBodySettings(), and if a moving body would become static or the reverse.
+  void change(btRigidBody& body, const OwnBodySettings& settings);
 
   /// Removes a body of add(), which no Site may share.
   void remove(btRigidBody& body) noexcept;

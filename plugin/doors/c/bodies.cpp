@@ -156,6 +156,24 @@ TandemResult tandem_world_set_state(TandemWorld* world, TandemBody body, const T
   });
 }
 
+TandemResult tandem_world_set_dynamics(TandemWorld* world, TandemBody body,
+                                       const TandemDynamics* dynamics) {
+  return guarded([&] {
+    const World& in = open(world);
+    OwnWorld& own = in.own("tandem_world_set_dynamics()");
+    const WorldBody& changed = in.body(body);
+    const TandemDynamics& wanted = checkPointer(dynamics, "dynamics");
+    OwnBodySettings settings;
+    settings.mass = wanted.mass;
+    settings.inertia = readVec3("inertia", wanted.inertia);
+    settings.friction = wanted.friction;
+    settings.restitution = wanted.restitution;
+    settings.rolling_friction = wanted.rolling_friction;
+    settings.spinning_friction = wanted.spinning_friction;
+    own.change(*changed.rigid, settings);
+  });
+}
+
 TandemResult tandem_world_apply_force(TandemWorld* world, TandemBody body, const double force[3],
                                       const double torque[3]) {
   return guarded([&] {

@@ -161,6 +161,21 @@ TandemResult tandem_world_get_states(const TandemWorld* world, size_t count,
    the pose only; a guest is moved by its own engine. [host] */
 TandemResult tandem_world_set_state(TandemWorld* world, TandemBody body, const TandemState* state);
 
+/* Mass and surface of a body. */
+typedef struct TandemDynamics {
+  double mass;       /* [kg], of the whole object; 0 for a static body only */
+  double inertia[3]; /* principal moments [kg m^2]; all 0: those of the shape */
+  double friction;
+  double restitution;
+  double rolling_friction;  /* greatest torque against rolling per force [m] */
+  double spinning_friction; /* the same about the normal of the contact */
+} TandemDynamics;
+
+/* Changes a body of a world of Tandem's at any time between two steps. A shared body carries its
+   share of the new mass from the next step on. A moving body stays one. [host] */
+TandemResult tandem_world_set_dynamics(TandemWorld* world, TandemBody body,
+                                       const TandemDynamics* dynamics);
+
 /* Applies a force [N] at the centre of mass and a torque [N m] in the next step; null: none.
    [host] */
 TandemResult tandem_world_apply_force(TandemWorld* world, TandemBody body, const double force[3],
