@@ -76,4 +76,24 @@ struct Pressed {
   }
 };
 
+inline bool isSaid(PluginHost& host, const std::string& words) {
+  return host.warnings().find(words) != std::string::npos;
+}
+
+/// Two shared cubes on a floor, which is an obstacle.
+struct TwoShared : Pressed {
+  int other;
+
+  TwoShared() {
+    StubBody body = makeStubCube();
+    body.state.p_W = Vec3(0.2, 0.0, 0.02);
+    other = host.engine.add(body);
+    host.command("share body=" + std::to_string(other));
+    host.command("obstacle body=" + std::to_string(floor));
+    host.step(20);
+  }
+  StubBody& body(int number) { return host.engine.bodies.at(number); }
+  std::uint32_t status() { return static_cast<std::uint32_t>(host.read()[kStatus]); }
+};
+
 }  // namespace tandem::test

@@ -19,6 +19,8 @@ struct StubBody {
   Vec3 inertia = Vec3::Constant(0.2 * 0.04 * 0.04 / 6.0);  // [kg m^2]
   double linear_damping = 0.04, angular_damping = 0.04;    // PyBullet's defaults
   double friction = 0.5, restitution = 0.0;
+  double rolling_friction = 0.0, spinning_friction = 0.0;
+  double contact_stiffness = -1.0;  // PyBullet's word for none
   double contact_threshold = 1e18;  // [m], Bullet's default
   bool is_multibody = true;
   bool is_soft = false;

@@ -179,6 +179,9 @@ int b3GetDynamicsInfo(b3::Status status, b3::DynamicsInfo* info) {
   info->friction = body.friction;
   // Stale values of another answer.
   info->restitution = body.is_multibody ? body.restitution : 0.77;
+  info->rolling_friction = body.is_multibody ? body.rolling_friction : 0.77;
+  info->spinning_friction = body.is_multibody ? body.spinning_friction : 0.77;
+  info->contact_stiffness = body.is_multibody ? body.contact_stiffness : 0.77;
   info->contact_threshold = body.is_multibody ? body.contact_threshold : 0.77;
   info->activation_state = body.may_sleep ? 1 : b3::kNeverSleeps;
   info->body_type = body.is_soft        ? b3::kSoftBody

@@ -46,9 +46,11 @@ BorrowedBody::BorrowedBody(const Engine& engine, int body) : body_(body) {
   inertia_ = Vec3(before_.inertia);
 }
 
-void BorrowedBody::borrow(const Engine& engine, double share) {
+void BorrowedBody::borrow(const Engine& engine, double share, bool keeps_mass) {
   mark_ = makeMark();
   putMarks(engine);
+  share_ = share;
+  keeps_mass_ = keeps_mass;
   if (share > 0.0) {
     mass_ *= share;
     inertia_ *= share;
@@ -77,20 +79,16 @@ void BorrowedBody::putMarks(const Engine& engine) const {
   }
 }
 
-void BorrowedBody::renewMarks(const Engine& engine, const BodyFacts& facts, const Marks& has,
+/// Keeps the user's new values behind new marks. True if the surface is another.
+bool BorrowedBody::renewMarks(const Engine& engine, const BodyFacts& facts, const Marks& has,
                               std::string& notice) {
   const bool has_damping = has.linear_damping && has.angular_damping;
   const bool has_surface = has.friction && (has.restitution || !before_.is_multibody);
   const bool has_threshold = has.contact_threshold || !(before_.contact_threshold > 0.0);
-  if (has_damping && has_surface && has_threshold) return;
-  const std::string name = "body " + std::to_string(body_);
+  if (has_damping && has_surface && has_threshold) return false;
   if (!has_damping) {
-    addLine(notice, name + ": damping was set while attached; it acts again after close");
-  }
-  if (!has_surface) {
-    addLine(notice, name +
-                        ": friction or restitution was set while attached; Tandem has what it "
-                        "was, close and attach the body again to change it");
+    addLine(notice, "body " + std::to_string(body_) +
+                        ": damping was set while attached; it acts again after close");
   }
   if (!has.linear_damping) before_.linear_damping = facts.linear_damping;
   if (!has.angular_damping) before_.angular_damping = facts.angular_damping;
@@ -98,6 +96,42 @@ void BorrowedBody::renewMarks(const Engine& engine, const BodyFacts& facts, cons
   if (!has.restitution) before_.restitution = facts.restitution;
   if (!has_threshold) before_.contact_threshold = facts.contact_threshold;
   putMarks(engine);
+  return !has_surface;
+}
+
+/// The user sets the whole mass and inertia. PyBullet resets the inertia with the mass.
+bool BorrowedBody::followMass(const Engine& engine, const BodyFacts& facts, std::string& notice) {
+  constexpr double kRounding = 1e-6;
+  if (share_ == 0.0) return false;
+  const bool is_other_mass = std::abs(facts.mass - mass_) > kRounding * mass_;
+  const Vec3 inertia(facts.inertia);
+  const bool is_other_inertia = !((inertia - inertia_).norm() <= kRounding * inertia_.norm());
+  if (!is_other_mass && !is_other_inertia) return false;
+  if (keeps_mass_) {
+    engine.writeMass(body_, mass_, inertia_.data());
+    addLine(notice, "body " + std::to_string(body_) +
+                        ": mass was set while it shows a proxy, and has been put back");
+    return false;
+  }
+  if (is_other_mass) before_.mass = facts.mass;
+  std::copy_n(facts.inertia, 3, before_.inertia);
+  mass_ = share_ * before_.mass;
+  inertia_ = share_ * inertia;
+  engine.writeMass(body_, mass_, inertia_.data());
+  return true;
+}
+
+bool BorrowedBody::followRolling(const BodyFacts& facts, std::string& notice) {
+  if (facts.has_soft_contact && !before_.has_soft_contact) {
+    addLine(notice, "body " + std::to_string(body_) +
+                        ": contact stiffness was set while attached; in Tandem it does not act");
+  }
+  before_.has_soft_contact = facts.has_soft_contact;
+  const bool is_same = facts.rolling_friction == before_.rolling_friction &&
+                       facts.spinning_friction == before_.spinning_friction;
+  before_.rolling_friction = facts.rolling_friction;
+  before_.spinning_friction = facts.spinning_friction;
+  return !is_same;
 }
 
 BorrowedBody::Presence BorrowedBody::look(const Engine& engine, std::string& notice) {
@@ -108,20 +142,22 @@ BorrowedBody::Presence BorrowedBody::look(const Engine& engine, std::string& not
       !has.contact_threshold) {
     return Presence::kUnmarked;
   }
-  renewMarks(engine, *facts, has, notice);
-  if (std::abs(facts->mass - mass_) > 1e-6 * mass_) {
-    engine.writeMass(body_, mass_, inertia_.data());
-    addLine(notice, "body " + std::to_string(body_) +
-                        ": mass was set while attached, and has been put back; close before you "
-                        "change it");
-  }
-  return Presence::kSame;
+  bool is_changed = renewMarks(engine, *facts, has, notice);
+  is_changed |= followRolling(*facts, notice);
+  if (mass_ > 0.0 && !(facts->mass > 0.0)) return Presence::kPinned;
+  if (mass_ == 0.0 && facts->mass > 0.0) return Presence::kFreed;
+  is_changed |= followMass(engine, *facts, notice);
+  return is_changed ? Presence::kChanged : Presence::kSame;
 }
 
 bool BorrowedBody::giveBack(const Engine& engine) {
   std::string notice;
-  if (look(engine, notice) != Presence::kSame) return false;
-  if (mass_ != before_.mass) engine.writeMass(body_, before_.mass, before_.inertia);
+  const Presence presence = look(engine, notice);
+  if (presence == Presence::kRemoved || presence == Presence::kUnmarked) return false;
+  const bool keeps_mass = presence == Presence::kPinned || presence == Presence::kFreed;
+  if (!keeps_mass && mass_ != before_.mass) {
+    engine.writeMass(body_, before_.mass, before_.inertia);
+  }
   engine.writeDamping(body_, before_.linear_damping, before_.angular_damping);
   engine.writeFriction(body_, before_.friction);
   if (before_.is_multibody) engine.writeRestitution(body_, before_.restitution);

@@ -19,6 +19,9 @@ class BorrowedBody {
  public:
   enum class Presence {
     kSame,      ///< still the borrowed body
+    kChanged,   ///< the same with another mass, inertia or surface: before() has them
+    kPinned,    ///< the same, and moves no more: the user has set a mass of 0
+    kFreed,     ///< the same, and moves now: the user has set a mass
     kRemoved,   ///< PyBullet has no body of this number
     kUnmarked,  ///< another body, or all marks were overwritten at once
   };
@@ -30,12 +33,14 @@ class BorrowedBody {
   const BodyFacts& before() const { return before_; }
 
   /// Removes damping and sleeping, sets the marks, and scales mass and inertia by `share`. A
-  /// `share` of 0 keeps mass, inertia and sleeping.
-  void borrow(const Engine& engine, double share);
+  /// `share` of 0 keeps mass, inertia and sleeping. With `keeps_mass` a mass that the user sets
+  /// meanwhile is put back.
+  void borrow(const Engine& engine, double share, bool keeps_mass = false);
 
-  /// Removes a damping or mass that the user has set meanwhile, keeps friction and restitution, and
-  /// reports each in `notice`. giveBack() restores the user's values. Leaves a body without a mark
-  /// alone.
+  /// Looks for what the user has set meanwhile. The body gets its share of a new mass, and keeps a
+  /// new surface. A new damping is removed, and acts again after giveBack(). `notice` gets a line
+  /// for what Tandem does not follow. Leaves a body without a mark alone, and a pinned or freed one
+  /// until giveBack().
   Presence look(const Engine& engine, std::string& notice);
 
   /// Undoes borrow(). Returns false if this is another body.
@@ -50,12 +55,16 @@ class BorrowedBody {
   };
   Marks findMarks(const BodyFacts& facts) const;
   void putMarks(const Engine& engine) const;
-  void renewMarks(const Engine& engine, const BodyFacts& facts, const Marks& has,
+  bool renewMarks(const Engine& engine, const BodyFacts& facts, const Marks& has,
                   std::string& notice);
+  bool followMass(const Engine& engine, const BodyFacts& facts, std::string& notice);
+  bool followRolling(const BodyFacts& facts, std::string& notice);
 
   int body_;
   BodyFacts before_;
   double mark_ = 0.0;
+  double share_ = 0.0;  // of mass and inertia that it has in PyBullet meanwhile; 0: all
+  bool keeps_mass_ = false;
   double mass_ = 0.0;      // in PyBullet meanwhile
   Vec3 inertia_{0, 0, 0};  // in PyBullet meanwhile
 };

@@ -28,6 +28,7 @@ const Commands::Entry Commands::kTable[] = {
     {"key", &Commands::key, false},
     {"link", &Commands::link, false},
     {"share", &Commands::share, true},
+    {"unshare", &Commands::unshare, false},
     {"obstacle", &Commands::obstacle, true},
     {"connect", &Commands::connect, false},
     {"proxy", &Commands::proxy, false},
@@ -110,10 +111,23 @@ void Commands::data(Words& words, Reply& reply) {
 
 void Commands::share(Words& words, Reply& reply) {
   const int body = words.integer("body");
-  const double damping = words.number("damping", 0.0);
   const std::optional<Piece> shape = readPieceFromWords(words, takeDoubles());
+  if (words.has("object")) {  // it keeps its damping
+    const int object = words.integer("object");
+    words.finish();
+    session_.shareAgain(object, body, shape ? &*shape : nullptr);
+    reply.status = object;
+    return;
+  }
+  const double damping = words.number("damping", 0.0);
   words.finish();
   reply.status = session_.share(body, damping, shape ? &*shape : nullptr);
+}
+
+void Commands::unshare(Words& words, Reply&) {
+  const int object = words.integer("object");
+  words.finish();
+  session_.unshare(object);
 }
 
 void Commands::obstacle(Words& words, Reply&) {

@@ -49,6 +49,7 @@ class Commands {
   void key(Words&, Reply&);
   void link(Words&, Reply&);
   void share(Words&, Reply&);
+  void unshare(Words& words, Reply& reply);
   void obstacle(Words&, Reply&);
   void connect(Words&, Reply&);
   void proxy(Words&, Reply&);

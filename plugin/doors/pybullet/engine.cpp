@@ -64,6 +64,9 @@ std::optional<BodyFacts> Engine::readFacts(int body) const {
   // For a btRigidBody the answer holds old values.
   if (facts.is_multibody) {
     facts.restitution = info.restitution;
+    facts.rolling_friction = info.rolling_friction;
+    facts.spinning_friction = info.spinning_friction;
+    facts.has_soft_contact = info.contact_stiffness > 0.0;
     facts.contact_threshold = info.contact_threshold;
   }
   facts.may_sleep = info.activation_state != b3::kNeverSleeps;

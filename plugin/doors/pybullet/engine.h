@@ -14,12 +14,15 @@ struct BodyFacts {
   double mass = 0.0;    // [kg]; 0: static
   double inertia[3]{};  // principal moments [kg m^2]
   double friction = 0.0;
-  double restitution = 0.0;     // 0 for a btRigidBody: unknown to PyBullet's interface
+  // These are 0 for a btRigidBody: unknown to PyBullet's interface.
+  double restitution = 0.0;
+  double rolling_friction = 0.0, spinning_friction = 0.0;  // [m]
   double linear_damping = 0.0;  // v (1 - d)^dt, or -m d v for a multibody
   double angular_damping = 0.0;
   double contact_threshold = 0.0;  // [m]; 0 for a btRigidBody: unknown, too
   bool is_multibody = true;        // else a btRigidBody, "maximal coordinates", or soft
   bool is_soft = false;
+  bool has_soft_contact = false;  // contact stiffness of its own
   bool may_sleep = false;
   int links = 0;  // besides the base
 };

@@ -62,8 +62,14 @@ class Session {
   int addMeshLink(std::uint32_t peer);
   int addSimulatedLink(const std::string& name, const TandemNetwork& network);
 
-  /// Shares the base of a body without joints. `shape` replaces PyBullet's shape, if given.
+  /// Shares the base of a body without joints. `shape` replaces PyBullet's shape, if given. Returns
+  /// the number of the object.
   int share(int body, double damping, const Piece* shape);
+  /// Shares a body for an object that has none, after unshare() or because its body was removed.
+  void shareAgain(int object, int body, const Piece* shape);
+  /// Gives a shared object back to PyBullet; the others stay shared. Does nothing if it has no
+  /// body.
+  void unshare(int object);
   /// Adds a static body that shared objects, proxies and the hand can touch.
   void addObstacle(int body, const Piece* shape);
   int connect(std::uint32_t peer, int link, const double start[3]);
@@ -90,11 +96,14 @@ class Session {
   void postTick() noexcept;
 
  private:
+  static constexpr int kProxy = -1;
   struct Moving {
     BorrowedBody body;
     TandemBody id;
     TandemState set;         // state that PyBullet was told last
+    int object = kProxy;     // its number
     bool has_stood = false;  // did not move in the last step, despite its velocity
+    bool is_gone = false;    // removed from PyBullet during the step
   };
   struct Standing {
     BorrowedBody body;
@@ -117,14 +126,25 @@ class Session {
   void stopContactWithAll(int body);
   std::vector<Piece> findPieces(const BorrowedBody& body, const Piece* shape) const;
   TandemBody addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state);
-  void addMoving(BorrowedBody body, TandemBody id, const TandemState& state);
+  void addMoving(BorrowedBody body, TandemBody id, const TandemState& state, int object);
+  template <typename ShareGuest>
+  int shareGuest(int body, const Piece* shape, ShareGuest share);
+  std::size_t findObject(int object) const;
+  void release(std::size_t moving, bool is_there);
+  void lose(std::size_t moving, BorrowedBody::Presence presence);
+  void loseObstacle(std::size_t standing, BorrowedBody::Presence presence);
+  void restoreContact(int body);
+  bool keep(std::size_t moving);
+  bool keepObstacle(std::size_t standing);
+  void tellDynamics(TandemBody id, const BodyFacts& facts);
   int keepLink(OpenLink link);
   EngineParameters askParameters() const;
   void begin();
   void finish();
   void sayFarewell(int rounds);
   void lookAtOne();
-  bool isSame(BorrowedBody& body);
+  BorrowedBody::Presence look(BorrowedBody& body);
+  void readMoving();
   void watchStep(Moving& one, const TandemState& after);
   void explainStanding(Moving& one, const TandemState& now);
   int tellLink(std::size_t remote, TandemLinkState state) const;
@@ -141,6 +161,8 @@ class Session {
   bool has_warned_of_step_ = false;
   std::string ended_;  // reason; "" while the site runs
   std::vector<std::string> warnings_;
+  std::vector<int> lost_;       // objects whose body went away
+  bool has_ever_lost_ = false;  // since the start
   std::vector<Moving> moving_;
   std::vector<Standing> standing_;
   std::size_t next_look_ = 0;

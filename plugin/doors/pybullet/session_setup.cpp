@@ -67,68 +67,6 @@ EngineParameters Session::askParameters() const {
   return *asked;
 }
 
-std::vector<Piece> Session::findPieces(const BorrowedBody& body, const Piece* shape) const {
-  if (shape) return {*shape};
-  return readPieces(engine_, body.number(), body.before());
-}
-
-TandemBody Session::addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state) {
-  const BodyFacts& facts = body.before();
-  TandemBodySettings& settings = piece.settings;
-  settings.points = piece.points.data();
-  settings.point_count = piece.points.size() / 3;
-  settings.mass = facts.mass;
-  std::copy_n(facts.inertia, 3, settings.inertia);
-  settings.friction = facts.friction;
-  settings.restitution = facts.restitution;
-  settings.start = state;
-  TandemBody id = TANDEM_NO_BODY;
-  check(tandem_world_add_body(world_.get(), &settings, &id));
-  return id;
-}
-
-void Session::addMoving(BorrowedBody body, TandemBody id, const TandemState& state) {
-  moving_.push_back({std::move(body), id, state});
-  ids_.push_back(id);
-  now_.resize(ids_.size());
-  told_.resize(ids_.size());
-}
-
-int Session::share(int body, double damping, const Piece* shape) {
-  requireSite();
-  requireFree(body);
-  BorrowedBody borrowed(engine_, body);
-  const BodyFacts& facts = borrowed.before();
-  if (facts.links > 0) {
-    refuse(body, "has " + std::to_string(facts.links) +
-                     " links besides its base; only a body without joints can be shared");
-  }
-  if (!(facts.mass > 0.0)) {
-    refuse(body, "is static (fixed base or mass 0); share a moving body, or make it an obstacle");
-  }
-  std::vector<Piece> pieces = findPieces(borrowed, shape);
-  if (pieces.size() != 1 || !pieces[0].isCentred()) {
-    refuse(body,
-           "its shape is not one piece about its centre of mass; give shape=hull with the points "
-           "of its outline");
-  }
-  TandemState state{};
-  if (!engine_.readState(body, state)) refuse(body, "is not there");
-  const TandemBody id = addGuest(borrowed, pieces[0], state);
-  std::uint32_t object = 0;
-  if (const TandemResult result = tandem_site_share(site_.get(), id, damping, &object);
-      result != TANDEM_OK) {
-    const Refusal why(-static_cast<int>(result),
-                      "body " + std::to_string(body) + ": " + tandem_last_error());
-    (void)tandem_world_remove_body(world_.get(), id);
-    throw why;
-  }
-  borrowed.borrow(engine_, 1.0 / peers_);
-  stopContactWithAll(body);
-  addMoving(std::move(borrowed), id, state);
-  return static_cast<int>(object);
-}
-
 void Session::addObstacle(int body, const Piece* shape) {
   requireSite();
   requireFree(body);
@@ -171,21 +109,10 @@ void Session::showProxy(int remote, int body) {
   }
   TandemState state{};
   check(tandem_world_get_states(world_.get(), 1, &id, &state));
-  borrowed.borrow(engine_, proxy_mass_ / borrowed.before().mass);
+  borrowed.borrow(engine_, proxy_mass_ / borrowed.before().mass, true);
   engine_.writeState(body, state);
   stopContactWithAll(body);
-  addMoving(std::move(borrowed), id, state);
-}
-
-void Session::stopContact(int body_a, int body_b) {
-  engine_.setCollides(body_a, body_b, false);
-  without_contact_.emplace_back(body_a, body_b);
-}
-
-// Guests collide in Tandem's world; contact in PyBullet, too, would count twice.
-void Session::stopContactWithAll(int body) {
-  for (const Standing& other : standing_) stopContact(body, other.body.number());
-  for (const Moving& other : moving_) stopContact(body, other.body.number());
+  addMoving(std::move(borrowed), id, state, kProxy);
 }
 
 void Session::close() {
@@ -210,8 +137,9 @@ void Session::close() {
   without_contact_.clear();
   ids_.clear(), now_.clear(), told_.clear();
   warnings_.clear();
+  lost_.clear();
   ended_.clear();
-  is_between_ = has_warned_of_step_ = false;
+  is_between_ = has_warned_of_step_ = has_ever_lost_ = false;
 }
 
 }  // namespace tandem::pybullet

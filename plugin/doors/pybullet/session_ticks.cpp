@@ -65,24 +65,11 @@ void Session::runSafely(void (Session::*part)()) noexcept {
   }
 }
 
-bool Session::isSame(BorrowedBody& body) {
+BorrowedBody::Presence Session::look(BorrowedBody& body) {
   std::string notice;
   const BorrowedBody::Presence presence = body.look(engine_, notice);
   if (!notice.empty()) warn(notice);
-  if (presence == BorrowedBody::Presence::kSame) return true;
-  std::string why =
-      "body " + std::to_string(body.number()) + " was removed from PyBullet while attached";
-  if (presence == BorrowedBody::Presence::kUnmarked) {
-    why += " and another has its number";
-    // PyBullet tells too little of these to know them again.
-    if (!body.before().is_multibody) {
-      why +=
-          ", or its friction and both dampings were set at once: with maximal coordinates, leave "
-          "one of them for the next step";
-    }
-  }
-  end(why);
-  return false;
+  return presence;
 }
 
 // Checks one body per step, so that the cost does not grow with their number.
@@ -91,12 +78,14 @@ void Session::lookAtOne() {
   if (all == 0) return;
   next_look_ = (next_look_ + 1) % all;
   if (next_look_ < moving_.size()) {
-    isSame(moving_[next_look_].body);
+    keep(next_look_);
     return;
   }
-  Standing& one = standing_[next_look_ - moving_.size()];
+  const std::size_t place = next_look_ - moving_.size();
+  if (!keepObstacle(place)) return;
+  Standing& one = standing_[place];
   TandemState pose{};
-  if (!isSame(one.body) || !engine_.readState(one.body.number(), pose)) return;
+  if (!engine_.readState(one.body.number(), pose)) return;
   if (arePosesNear(pose, one.pose)) return;
   one.pose = pose;
   for (std::size_t i = 0; i < one.ids.size(); ++i) {
@@ -116,6 +105,19 @@ void Session::postTick() noexcept {
   runSafely(&Session::finish);
 }
 
+/// Reads the states of all moving bodies, and loses those that were removed.
+void Session::readMoving() {
+  for (std::size_t i = 0; i < moving_.size() && ended_.empty();) {
+    Moving& one = moving_[i];
+    if (!engine_.readState(one.body.number(), now_[i])) {
+      lose(i, BorrowedBody::Presence::kRemoved);
+      continue;
+    }
+    if (one.has_stood) explainStanding(one, now_[i]);
+    if (areNear(now_[i], one.set) || keep(i)) ++i;
+  }
+}
+
 void Session::begin() {
   const double gravity[3] = {parameters_.gravity[0], parameters_.gravity[1],
                              parameters_.gravity[2]};
@@ -126,15 +128,7 @@ void Session::begin() {
     check(tandem_world_set_gravity(world_.get(), parameters_.gravity));
   }
   lookAtOne();
-  for (std::size_t i = 0; i < moving_.size() && ended_.empty(); ++i) {
-    Moving& one = moving_[i];
-    if (!engine_.readState(one.body.number(), now_[i])) {
-      return end("body " + std::to_string(one.body.number()) +
-                 " was removed from PyBullet while attached");
-    }
-    if (one.has_stood) explainStanding(one, now_[i]);
-    if (!areNear(now_[i], one.set)) isSame(one.body);
-  }
+  readMoving();
   if (!ended_.empty()) return;
   if (mesh_) check(tandem_mesh_poll(mesh_.get(), readMonotonicClock()));
   check(tandem_world_begin_step(world_.get(), parameters_.step, parameters_.gravity, ids_.size(),
@@ -183,16 +177,22 @@ void Session::explainStanding(Moving& one, const TandemState& now) {
 
 void Session::finish() {
   for (std::size_t i = 0; i < moving_.size(); ++i) {
-    if (!engine_.readState(moving_[i].body.number(), now_[i])) {
-      return end("body " + std::to_string(moving_[i].body.number()) +
-                 " was removed from PyBullet while attached");
+    Moving& one = moving_[i];
+    one.is_gone = !engine_.readState(one.body.number(), now_[i]);
+    if (one.is_gone) {
+      now_[i] = one.set;
+    } else {
+      watchStep(one, now_[i]);
     }
-    watchStep(moving_[i], now_[i]);
   }
   check(tandem_world_end_step(world_.get(), ids_.size(), ids_.data(), now_.data(), told_.data()));
   for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (moving_[i].is_gone) continue;
     engine_.writeState(moving_[i].body.number(), told_[i]);
     moving_[i].set = told_[i];
+  }
+  for (std::size_t i = moving_.size(); i-- > 0;) {
+    if (moving_[i].is_gone) lose(i, BorrowedBody::Presence::kRemoved);
   }
 }
 
@@ -207,6 +207,7 @@ void Session::read(SessionReading& out) const {
   check(tandem_site_read(site_.get(), &reading, out.objects.size(), out.objects.data(),
                          out.proxies.size(), out.proxies.data(), links.data()));
   for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i] = tellLink(i, links[i]);
+  if (has_ever_lost_) reading.status |= TANDEM_STATUS_BODY_MISSING;
   out.has_ended = !ended_.empty();
   if (out.has_ended) std::fill_n(reading.force, 3, 0.0);
 }
@@ -225,6 +226,10 @@ std::string Session::warnings() const {
     text += line;
   };
   for (const std::string& line : warnings_) add(line);
+  for (const int object : lost_) {
+    const std::string number = std::to_string(object);
+    add("object " + number + " has no body: share one again with object=" + number);
+  }
   if (!ended_.empty()) add(ended_ + ": the site has ended");
   return text;
 }

@@ -154,12 +154,21 @@ class Site:
 
     # Set-up.
 
-    def share(self, body, damping=0.0, shape=None):
+    def share(self, body, damping=0.0, shape=None, object=None):
         """Shares a body without joints and returns its number, from 0. All users share the same bodies
         in the same order. `damping` acts on this copy [N s/m]. Give `shape` if PyBullet does not
         know it (maximal coordinates): ("box", half_extents), ("sphere", radius),
-        ("capsule", radius, height), ("cylinder", radius, height) or ("hull", points)."""
+        ("capsule", radius, height), ("cylinder", radius, height) or ("hull", points).
+        `object`: the number of an object without a body, after unshare() or because its body was
+        removed; it keeps its damping."""
+        if object is not None:
+            return self._command_with_shape("share", body, shape, object=object)
         return self._command_with_shape("share", body, shape, damping=damping)
+
+    def unshare(self, object):
+        """Gives a shared object back to PyBullet, with its own mass and its velocity. The others stay
+        shared; share(body, object=...) shares a body for it again. Between any two steps."""
+        self._command("unshare", object=object)
 
     def obstacle(self, body, shape=None):
         """Makes a static body an obstacle: shared bodies, proxies and the hand touch it in Tandem, and
