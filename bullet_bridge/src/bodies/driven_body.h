@@ -25,6 +25,8 @@ class DrivenBody {
 
   /// Reads the body in the pre-tick or post-tick of a host step that ends at `time` [s].
   void look(double time) noexcept;
+  /// The host has moved the body by `offset_W` [m], with all else in its world.
+  void shiftOrigin(const Vec3& offset_W) noexcept { seen_.p_W += offset_W; }
   /// Time at which the body has the pose last read [s]: the end of the host's step, or of a later
   /// sub-step of the same call.
   [[nodiscard]] double seenAt() const noexcept { return stamp_; }

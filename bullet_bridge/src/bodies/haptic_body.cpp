@@ -444,6 +444,18 @@ void HapticBody::remember() noexcept {
   known_w_ = body_.getAngularVelocity();
 }
 
+void HapticBody::shiftOrigin(const Vec3& offset_W) noexcept {
+  const btVector3 offset = toBullet(offset_W);
+  known_pose_.getOrigin() += offset;
+  original_.pose.getOrigin() += offset;
+  handed_.end.p_W += offset_W;
+  rest_.p_W += offset_W;
+}
+
+void HapticBody::putBack() noexcept {
+  if (isInWorld()) body_.setCenterOfMassTransform(known_pose_);
+}
+
 void HapticBody::setState(const RigidState& state) noexcept {
   if (isInWorld() && fitsBullet(state)) setPoseAndVelocity(state);
 }

@@ -145,6 +145,11 @@ class HapticBody {
   /// Stores the present state, so that only later changes by the host are reported.
   void remember() noexcept;
 
+  /// The host has moved the body by `offset_W` [m], with all else in its world: that is no change.
+  void shiftOrigin(const Vec3& offset_W) noexcept;
+  /// Puts the body where it was left, unless the host has moved it there. After shiftOrigin().
+  void putBack() noexcept;
+
   /// Sets pose and velocity at once (for a body whose state is prescribed).
   void setState(const RigidState& state) noexcept;
 

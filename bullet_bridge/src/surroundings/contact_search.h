@@ -31,6 +31,12 @@ class ContactSearch {
   [[nodiscard]] const Vec3& origin() const noexcept { return wanted_origin_W_; }
   /// Moves the origin of all copies: bodies go to `states`, standing ones by placeStanding().
   void setOrigin(const Vec3& origin_W, const std::vector<RigidState>& states);
+  /// The private origin goes along with the whole world: copies stay where they are.
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    work_.origin_W += offset_W;
+    wanted_origin_W_ += offset_W;
+    for (RigidState& state : moved_states_) state.p_W += offset_W;
+  }
 
   [[nodiscard]] const std::vector<std::unique_ptr<PrivateCopy>>& standing() const {
     return standing_;

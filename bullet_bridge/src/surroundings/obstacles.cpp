@@ -166,6 +166,16 @@ void Obstacles::commit() noexcept {
   impl_->has_next = false;
 }
 
+void Obstacles::shiftOrigin(const Vec3& offset_W) noexcept {
+  impl_->search.shiftOrigin(offset_W);
+  for (std::vector<Obstacle>* list : {&impl_->near_spheres, &impl_->next_near_spheres}) {
+    for (Obstacle& obstacle : *list) {
+      obstacle.p_WB += offset_W;
+      obstacle.p_before_WB += offset_W;
+    }
+  }
+}
+
 const std::vector<Obstacle>& Obstacles::nearSpheres() const noexcept { return impl_->near_spheres; }
 
 void Obstacles::lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,

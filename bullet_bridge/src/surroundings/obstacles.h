@@ -77,6 +77,10 @@ class Obstacles final : public ContactFinder {
     return has_changed;
   }
 
+  /// The host has moved all of its world by `offset_W` [m]. For the thread that ticks, while the
+  /// other waits. Real-time safe.
+  void shiftOrigin(const Vec3& offset_W) noexcept;
+
   /// Obstacles near the spheres, which tell what changed in the last commit(), of shapes that
   /// convertShape() or convertMesh() supports, also as children of compounds.
   [[nodiscard]] const std::vector<Obstacle>& nearSpheres() const noexcept;

@@ -155,6 +155,18 @@ void Island::wake() noexcept {
   impl_->model.is_listed = false;
 }
 
+void Island::shiftOrigin(const Vec3& offset_W) noexcept {
+  Impl& impl = *impl_;
+  wake();
+  for (ModelBody& body : impl.model.bodies) {
+    body.settings.start.p_W += offset_W;
+    body.state.p_W += offset_W;
+  }
+  for (ModelCoupler& coupler : impl.model.couplers) coupler.target.p_W += offset_W;
+  if (impl.slot) impl.slot->shiftOrigin(offset_W);
+  if (impl.spatial) impl.spatial->shiftOrigin(offset_W);
+}
+
 void Island::passTime(double dt) noexcept {
   if (impl_->isLettingIn()) impl_->endJumps(dt);
 }

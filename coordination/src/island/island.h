@@ -186,6 +186,9 @@ class Island {
   void clear(BodyIndex slot) noexcept;
   /// Ends sleep for a cause that the island cannot see: the ContactFinder's data changed.
   void wake() noexcept;
+  /// Adds `offset_W` [m] to all positions. Nothing moves relative to anything, so no contact jumps.
+  /// The owner does the same to its obstacles and contact finder.
+  void shiftOrigin(const Vec3& offset_W) noexcept;
   /// Moves everything by `dt` [s], 0 < dt <= haptic_period.
   void advance(double dt) noexcept;
   /// Lets `dt` [s] pass for an owner that moves the bodies itself.

@@ -44,6 +44,10 @@ class RigidStep {
   bool correct(const IslandModel& model, ContactFinder& finder, const States& before, double h,
                States& after) noexcept;
 
+  /// All positions were shifted. Real-time safe.
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    for (Known& known : known_) known.p_W += offset_W;
+  }
   /// Forgets the last step: the next one does not follow it.
   void forget() noexcept;
 

@@ -29,6 +29,11 @@ class SlotMotion {
   /// Takes over the allowances in the model's memory. Real-time safe.
   void recall(const IslandModel& model) noexcept;
 
+  /// The model's positions were shifted. Real-time safe.
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    for (Vec3& origin_W : origins_) origin_W += offset_W;
+  }
+
   /// Real-time safe.
   void advance(IslandModel& model, double dt) noexcept;
 

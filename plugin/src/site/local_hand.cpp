@@ -23,8 +23,14 @@ LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island&
   body.motion = Motion::kPrescribed;
   body.feels_obstacles = true;
   body.filter = {settings.hand_group, settings.hand_mask};
-  body.start.p_W = sample_.hip.p_W;
+  body.start.p_W = hand_.p_W;
   hip_ = island.addBody(body);
+}
+
+void LocalHand::shiftOrigin(const Vec3& offset_W) noexcept {
+  frame_.shiftOrigin(offset_W);
+  hand_.p_W += offset_W;
+  if (p_before_W_) *p_before_W_ += offset_W;
 }
 
 void LocalHand::place() noexcept {
@@ -33,8 +39,8 @@ void LocalHand::place() noexcept {
   if (isThere() && !was_there_) island_.noteArrival(hip_);
   was_there_ = isThere();
   if (isThere()) {
-    state.p_W = sample_.hip.p_W;
-    state.v_W = sample_.hip.v_W;
+    state.p_W = hand_.p_W;
+    state.v_W = hand_.v_W;
   } else {
     state.v_W.setZero();
   }
@@ -44,7 +50,7 @@ void LocalHand::place() noexcept {
 void LocalHand::lead(double duration) noexcept {
   if (!isThere()) return;
   RigidState state = island_.state(hip_);
-  state.v_W = (sample_.hip.p_W - state.p_W) / duration;
+  state.v_W = (hand_.p_W - state.p_W) / duration;
   island_.setState(hip_, state);
 }
 
@@ -58,10 +64,10 @@ void LocalHand::countWork() noexcept {
     return;
   }
   if (p_before_W_ && force_W_ != Vec3::Zero())
-    energy_.countHand(force_W_, sample_.hip.p_W - *p_before_W_);
-  p_before_W_ = sample_.hip.p_W;
+    energy_.countHand(force_W_, hand_.p_W - *p_before_W_);
+  p_before_W_ = hand_.p_W;
   v_before_W_ = v_known_W_;
-  v_known_W_ = sample_.hip.v_W;
+  v_known_W_ = hand_.v_W;
 }
 
 const Vec3& LocalHand::computeContactForce() noexcept {
@@ -85,7 +91,7 @@ void LocalHand::render(const Vec3& contact_W, const Peers& peers, bool fault) no
 PointState LocalHand::pointAt(double time, double tick_start) noexcept {
   if (time > tick_start && device_.capabilities().is_continuous) {
     const DeviceSample between = device_.read(time);
-    if (between.valid && isFinite(between.hip)) return between.hip;
+    if (between.valid && isFinite(between.hip)) return frame_.toWorld(between.hip);
   }
   return island_.state(hip_).point();
 }

@@ -8,6 +8,7 @@
 #include "site/energy_port.h"
 #include "site/force_guard.h"
 #include "site/rest_mark.h"
+#include "site/session_frame.h"
 
 namespace tandem {
 
@@ -28,6 +29,7 @@ class LocalHand {
   LocalHand(HapticDevice& device, const SiteSettings& settings, Island& island, bool island_moves);
 
   [[nodiscard]] BodyIndex hip() const noexcept { return hip_; }
+  /// The latest sample as the device gave it.
   [[nodiscard]] const DeviceSample& sample() const noexcept { return sample_; }
   /// True if the latest sample has a usable position.
   [[nodiscard]] bool isThere() const noexcept { return is_there_; }
@@ -35,7 +37,10 @@ class LocalHand {
   void read(double now) noexcept {
     sample_ = device_.read(now);
     is_there_ = sample_.valid && isFinite(sample_.hip);
+    hand_ = frame_.toWorld(sample_.hip);
   }
+  /// The host's world got another origin; the hand goes along.
+  void shiftOrigin(const Vec3& offset_W) noexcept;
   /// Moves the HIP to the hand. Without a usable sample the HIP stays and its velocity is zero.
   void place() noexcept;
   /// Gives the HIP a steady velocity to the hand's position, reached after `duration` [s]. For
@@ -74,7 +79,9 @@ class LocalHand {
   BodyIndex hip_ = 0;
   ForceGuard guard_;
   EnergyPort energy_;
+  SessionFrame frame_;  ///< of the device
   DeviceSample sample_;
+  PointState hand_;  ///< of the latest sample, in W
   bool is_there_ = false, was_there_ = true;
   Vec3 v_known_W_ = Vec3::Zero();   ///< of the latest usable sample
   Vec3 v_before_W_ = Vec3::Zero();  ///< of the usable sample before it

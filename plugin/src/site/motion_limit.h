@@ -43,6 +43,10 @@ class MotionLimit {
     return (p_W - last->p_W).norm() > kMargin + dt * std::min(fastest, speed);
   }
 
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    if (last_) last_->p_W += offset_W;
+  }
+
  private:
   static constexpr double kMargin = 0.01;              // [m]
   static constexpr double kMostAcceleration = 2000.0;  // [m/s^2]; impacts included

@@ -26,6 +26,12 @@ struct Neighbour {
   [[nodiscard]] bool isInWorld() const noexcept {
     return bullet ? bullet->isInWorld() : driven->isInWorld();
   }
+  /// The host has moved all of its world by `offset_W` [m].
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    body.shiftOrigin(offset_W);
+    settings.start.p_W += offset_W;
+    if (driven) driven->shiftOrigin(offset_W);
+  }
   /// Empties the slot for another body.
   void becomeEmpty();
   /// True if the host changed it, or made another body at its address. It must be in its world.

@@ -29,6 +29,13 @@ struct SharedObject {
   Momentum owed;         ///< momentum it still gets when it goes back
   RigidState seen;       ///< Bullet's state
 
+  /// The host has moved all of its world by `offset_W` [m].
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    body.shiftOrigin(offset_W);
+    settings.start.p_W += offset_W;
+    seen.p_W += offset_W;
+  }
+
   /// Takes the host's body as it is now, one of `peers` copies. It must be dynamic and in the
   /// world.
   void hold(btDiscreteDynamicsWorld& world, int peers, const Shape& shape) {

@@ -97,15 +97,17 @@ void PacketSender::send(double time) noexcept {
   packet.sequence = sequence_++;
   packet.is_idle = is_idle_;
   packet.time = time;
-  packet.user = sent_user_ = limitUser(hand_.pointAt(time, timeline_.tickStart()));
+  const SessionFrame& frame = peers_.frame();
+  packet.user = sent_user_ = limitUser(frame.toSession(hand_.pointAt(time, timeline_.tickStart())));
   const auto state = [&](std::size_t i) -> const RigidState& {
     return island_.state(bodies_.objects[i].body.index);
   };
   for (const std::size_t i :
        turns_.choose([&](std::size_t i) { return !isSame(sent_[i], state(i)); })) {
-    if (!bodies_.objects[i].is_sent || !maySend(state(i))) continue;
+    const RigidState told = frame.toSession(state(i));
+    if (!bodies_.objects[i].is_sent || !maySend(told)) continue;
     sent_[i] = state(i);
-    packet.objects[packet.object_count++] = {bodies_.objects[i].id, sent_[i]};
+    packet.objects[packet.object_count++] = {bodies_.objects[i].id, told};
   }
   peers_.send(packet, time);
   ++log_.counters.packets_sent;

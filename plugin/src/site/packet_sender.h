@@ -56,7 +56,7 @@ class PacketSender {
   double busy_until_ = 0.0;  ///< last time of motion or touch [s]
   PacketTurns turns_;
   std::vector<RigidState> sent_;  ///< by object, as last sent
-  PointState sent_user_;          ///< as last sent
+  PointState sent_user_;          ///< as last sent, in the frame of the session
 };
 
 }  // namespace tandem

@@ -70,9 +70,10 @@ void Peers::takeInUntil(double time, double now) noexcept {
   }
 }
 
-void Peers::takeIn(Peer& peer, const Arrival& arrival, double time) noexcept {
-  const StatePacket& packet = arrival.packet;
+void Peers::takeIn(Peer& peer, Arrival& arrival, double time) noexcept {
   log_.recordArrival(peer.place, arrival);
+  frame_.toWorld(arrival.packet);
+  const StatePacket& packet = arrival.packet;
   if (!isSane(packet) || packet.sender != peer.id) {
     ++log_.counters.packets_refused;
     log_.raise(kPacketRefused);
@@ -196,6 +197,21 @@ void Peers::send(StatePacket packet, double time) noexcept {
     // A peer that may be gone is granted nothing more; its report says so.
     packet.energy = energy_.report(peer.ledger, is_live(peer) ? sites : 1);
     peer.link->send(packet, time);
+  }
+}
+
+void Peers::shiftOrigin(const Vec3& offset_W) noexcept {
+  frame_.shiftOrigin(offset_W);
+  for (Peer& peer : peers_) {
+    peer.latest.user.p_W += offset_W;
+    for (ObjectState& copy : peer.latest.objects) copy.state.p_W += offset_W;
+    peer.track.shiftOrigin(offset_W);
+    peer.motion.shiftOrigin(offset_W);
+    peer.searched_W += offset_W;
+    for (Tie& tie : peer.ties) {
+      tie.theirs.p_W += offset_W;
+      tie.motion.shiftOrigin(offset_W);
+    }
   }
 }
 

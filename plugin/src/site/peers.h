@@ -6,6 +6,7 @@
 
 #include "site/bodies.h"
 #include "site/peer.h"
+#include "site/session_frame.h"
 #include "site/site_log.h"
 
 namespace tandem {
@@ -61,6 +62,10 @@ class Peers {
   /// followed. Between them a spring would throw both.
   void awaitFollowing(const SharedObject& object, double time) noexcept;
 
+  /// The host's world got another origin; packets stay in the frame of the session.
+  void shiftOrigin(const Vec3& offset_W) noexcept;
+  [[nodiscard]] const SessionFrame& frame() const noexcept { return frame_; }
+
   /// Notes that all obstacles around the proxies' present positions are known.
   void noteSearched() noexcept;
 
@@ -69,7 +74,7 @@ class Peers {
 
  private:
   [[nodiscard]] CouplerSettings makeCoupler(const SharedObject& object) const noexcept;
-  void takeIn(Peer& peer, const Arrival& arrival, double time) noexcept;
+  void takeIn(Peer& peer, Arrival& arrival, double time) noexcept;
   void hear(Peer& peer, const StatePacket& packet, double time) noexcept;
   void hearEnergy(Peer& peer, const StatePacket& packet) noexcept;
   void noteJump(Peer& peer) noexcept;
@@ -97,6 +102,7 @@ class Peers {
   EnergyPort& energy_;
   SiteLog& log_;
   std::vector<Peer> peers_;
+  SessionFrame frame_;
   bool keep_accounts_ = true;
 };
 

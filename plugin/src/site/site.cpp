@@ -12,6 +12,7 @@ Site::~Site() = default;
 ObjectId Site::share(btRigidBody& body, double damping) { return impl_->share(body, damping); }
 void Site::share(ObjectId id, btRigidBody& body) { impl_->share(id, body); }
 void Site::unshare(ObjectId id) { impl_->unshare(id); }
+void Site::shiftOrigin(const Vec3& offset_W) { impl_->shiftOrigin(offset_W); }
 void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
   impl_->connect(remote, link, start_W);
 }

@@ -88,6 +88,12 @@ struct SiteBody {
   HostLoad load;
   HandOver step;
 
+  /// The host has moved all of its world by `offset_W` [m].
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    seen.p_W += offset_W;
+    step.end.p_W += offset_W;
+    if (bullet) bullet->shiftOrigin(offset_W);
+  }
   /// Empties it for another body. It must not be held, which a haptic thread may be reading.
   void becomeEmpty() {
     bullet = nullptr;

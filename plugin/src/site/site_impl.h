@@ -26,6 +26,9 @@ struct Site::Impl final : HostStepListener, SiteParts {
   /// A haptic thread ticks from now on.
   void beginLive();
 
+  // At any time between two host steps: site_origin.cpp
+  void shiftOrigin(const Vec3& offset_W);
+
   // The tick: site_tick.cpp
   std::uint32_t tick(double now, double most_made_up) noexcept override;
 

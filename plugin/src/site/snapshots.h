@@ -84,6 +84,13 @@ class Snapshots {
     return pick([&](double t) { return t > time; }, [](double t, double u) { return t < u; });
   }
 
+  /// Adds `offset_W` to all positions.
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    for (Snapshot& s : ring_)
+      for (RigidState& state : s.states) state.p_W += offset_W;
+    for (RigidState& state : rest_states_) state.p_W += offset_W;
+  }
+
   /// Calls `visit` with the states and the time of each moment later than `time`.
   template <typename Visit>
   void forEachAfter(double time, Visit visit) noexcept {

@@ -86,6 +86,12 @@ void Surroundings::look(double dt, double step_end, double age, bool everywhere)
   searchObstacles(everywhere);
 }
 
+void Surroundings::shiftOrigin(const Vec3& offset_W) noexcept {
+  obstacles_.shiftOrigin(offset_W);
+  for (RigidState& state : mirror_.states) state.p_W += offset_W;
+  for (Neighbour& neighbour : neighbours_) neighbour.shiftOrigin(offset_W);
+}
+
 double Surroundings::computeHorizon(double dt) const noexcept {
   return kLatePeriods * dt + settings_.host_stall;
 }

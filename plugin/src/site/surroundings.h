@@ -72,6 +72,8 @@ class Surroundings {
   void look(double dt, double step_end, double age, bool everywhere = false);
   /// Searches for standing objects; `everywhere` as in look().
   void searchObstacles(bool everywhere);
+  /// The host has moved all of its world by `offset_W` [m]; the thread that ticks waits.
+  void shiftOrigin(const Vec3& offset_W) noexcept;
   /// Longest time until the host's next search, after a step of `dt` [s].
   [[nodiscard]] double computeHorizon(double dt) const noexcept;
   /// True if springs may move a body beyond the searched range.

@@ -90,6 +90,11 @@ class Timeline {
       state = change(state, kept);
     });
   }
+  /// Adds `offset_W` to all kept positions.
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    for (RigidState& state : start_states_) state.p_W += offset_W;
+    snapshots_.shiftOrigin(offset_W);
+  }
   /// Sets the start state of a body that entered the island during the tick.
   void setStart(BodyIndex body, const RigidState& state) noexcept {
     start_states_[static_cast<std::size_t>(body)] = state;

@@ -38,6 +38,8 @@ class UserTrack {
     return time < missed_since_ + missed_for_;
   }
 
+  void shiftOrigin(const Vec3& offset_W) noexcept { latest_.p_W += offset_W; }
+
   /// State at `time`, with this share of the last received velocity.
   [[nodiscard]] PointState at(double time, double velocity_share) const noexcept {
     PointState user{latest_.p_W, velocity_share * latest_.v_W};

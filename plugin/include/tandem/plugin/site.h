@@ -124,6 +124,15 @@ class Site {
   /// with the reason if the body cannot be shared, and as unshare() does.
   void share(ObjectId id, btRigidBody& body);
 
+  /// For hosts that keep their numbers small: tells that the host has moved all of its world by
+  /// `offset_W` [m], every body with its velocity, since its last step. Touch, couplers and forces
+  /// go on as if nothing had happened. The site moves its proxies itself, and adds the offset to
+  /// the device's positions from now on. Packets stay in the frame in which the site began, within
+  /// 1000 m of its origin, so peers never notice. At any time between two steps of the host, also
+  /// with a HapticLoop. Throws std::invalid_argument for an offset that is not finite, and
+  /// tandem::Error with a native model.
+  void shiftOrigin(const Vec3& offset_W);
+
   /// Connects a remote user whose device starts at `start_W`. The scheme chooses the user's
   /// stand-in.
   void connect(PeerId remote, Link& link, const Vec3& start_W);
