@@ -45,7 +45,8 @@ void requireSame(const StateMessage& a, const StateMessage& b) {
   for (std::size_t i = 0; i < a.packet.object_count; ++i) {
     const ObjectState& left = a.packet.objects[i];
     const ObjectState& right = b.packet.objects[i];
-    require(left.id == right.id && left.state.p_W == right.state.p_W);
+    require(left.id == right.id && left.epoch == right.epoch);
+    require(left.state.p_W == right.state.p_W);
     require(left.state.v_W == right.state.v_W && left.state.w_W == right.state.w_W);
     require(computeDistance(left.state.q_WB, right.state.q_WB) <= rounding);
   }

@@ -101,5 +101,24 @@ TEST(Packet, EntriesBeyondTheCountAreNoPartOfIt) {
   EXPECT_FALSE(isSane(packet));
 }
 
+TEST(ObjectEpoch, IsOrderedTheSameEverywhere) {
+  const ObjectEpoch none, first{1, PeerId{1}}, rival{1, PeerId{2}}, second{2, PeerId{1}};
+  EXPECT_TRUE(isNewer(first, none));
+  EXPECT_TRUE(isNewer(rival, first));
+  EXPECT_TRUE(isNewer(second, rival));
+  for (const auto& [older, newer] : {std::pair{none, first}, {first, rival}, {rival, second}})
+    EXPECT_FALSE(isNewer(older, newer));
+  EXPECT_FALSE(isNewer(first, first));
+}
+
+TEST(ObjectEpoch, CountsOnBehindItsLargestNumber) {
+  const ObjectEpoch last{~std::uint32_t{0}, PeerId{3}};
+  const ObjectEpoch next = beginEpoch(last, PeerId{1});
+  EXPECT_EQ(next.count, 1u);  // 0 stands for none
+  EXPECT_TRUE(isNewer(next, last));
+  EXPECT_FALSE(isNewer(last, next));
+  EXPECT_TRUE(isNewer(last, ObjectEpoch{}));
+}
+
 }  // namespace
 }  // namespace tandem

@@ -76,10 +76,14 @@ TEST(PacketDoubles, GiveThePacketBack) {
     packet.object_ids[i] = 100 + i;
     packet.objects[i].orientation[3] = 1.0;
     packet.objects[i].angular_velocity[2] = i;
+    packet.object_epochs[i] = 4294967295U - i;
+    packet.object_epoch_authors[i] = i;
   }
   const TandemPacket back = toPacket(toDoubles(packet));
   EXPECT_EQ(toDoubles(back), toDoubles(packet));
   EXPECT_EQ(back.objects[7].angular_velocity[2], 7.0);
+  EXPECT_EQ(back.object_epochs[0], 4294967295U);
+  EXPECT_EQ(back.object_epoch_authors[7], 7U);
 }
 
 TEST(PacketDoubles, RefuseWhatIsNone) {

@@ -31,7 +31,8 @@ def write_state(f):
 
     content = BLOCK.pack(*(f[name] for name in BLOCK_FIELDS)) + reals("device.", DEVICE_FIELDS)
     for i in range(f["object_count"]):
-        content += struct.pack("<HH", f[f"object.{i}.id"], 0) + reals(f"object.{i}.", OBJECT_FIELDS)
+        head = struct.pack("<HBBI", f[f"object.{i}.id"], f[f"object.{i}.epoch_author"], 0, f[f"object.{i}.epoch"])
+        content += head + reals(f"object.{i}.", OBJECT_FIELDS)
     return content
 
 

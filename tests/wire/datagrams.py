@@ -4,7 +4,7 @@ import math
 import re
 import struct
 
-VERSION = 2
+VERSION = 3
 MAX_TIME = 2**50
 TYPES = {1: "HELLO", 2: "COOKIE", 3: "OPEN", 4: "ACCEPT", 5: "REFUSE",
          16: "STATE", 17: "AGREE", 18: "AGREE_ACK", 19: "BYE", 20: "PATH_CHALLENGE", 21: "PATH_RESPONSE"}
@@ -98,7 +98,7 @@ def read_state(payload):
     require(block["profile"] <= 1, "profile")
     require(block["object_count"] <= 8, "object_count")
     real, width = ("f", 4) if block["profile"] == 0 else ("d", 8)
-    size = BLOCK.size + 6 * width + block["object_count"] * (4 + 13 * width)
+    size = BLOCK.size + 6 * width + block["object_count"] * (8 + 13 * width)
     require(len(payload) == size, "wrong_size")
     require(block["flags"] & ~15 == 0, "flags")
     require(all(0 <= block[name] <= MAX_TIME for name in BLOCK_FIELDS if "_time_us" in name), "time")
@@ -107,15 +107,16 @@ def read_state(payload):
     block.update({f"device.{name}": value for name, value in device.items()})
     ids = set()
     for i in range(block["object_count"]):
-        number, zero = struct.unpack_from("<HH", payload, offset)
+        number, author, zero, epoch = struct.unpack_from("<HBBI", payload, offset)
         require(number <= 255, "object_id")
         require(number not in ids, "object_twice")
         require(zero == 0, "zero")
+        require(author <= 8 and (author == 0) == (epoch == 0), "object_epoch")
         ids.add(number)
-        state, offset = read_reals(payload, offset + 4, real, OBJECT_FIELDS)
+        state, offset = read_reals(payload, offset + 8, real, OBJECT_FIELDS)
         w, x, y, z = state["orientation"]
         require(abs(w * w + x * x + y * y + z * z - 1.0) < 1e-3, "orientation")
-        block[f"object.{i}.id"] = number
+        block.update({f"object.{i}.id": number, f"object.{i}.epoch_author": author, f"object.{i}.epoch": epoch})
         block.update({f"object.{i}.{name}": value for name, value in state.items()})
     return block
 

@@ -85,7 +85,8 @@ inline StateMessage makeState(WireProfile profile) {
   message.packet.object_count = 1;
   message.packet.objects[0] = {3,
                                {Vec3(0.126, -0.0, 0.25), Quat(0.6, 0.0, -0.8, 0.0),
-                                Vec3(0.1, -0.2, 0.3), Vec3(-1.5, 0.001, 12.25)}};
+                                Vec3(0.1, -0.2, 0.3), Vec3(-1.5, 0.001, 12.25)},
+                               {1, kInitiator}};
   return message;
 }
 
@@ -105,8 +106,10 @@ inline StateMessage makeFullState() {
   for (ObjectId i = 0; i < 7; ++i) {
     message.packet.objects[i] = {i * 36,
                                  {Vec3(1000.0 - i, 0.1 * i, -1000.0), Quat(0.5, -0.5, 0.5, -0.5),
-                                  Vec3(100.0, -100.0, i), Vec3(1000.0, -1000.0, i / 3.0)}};
+                                  Vec3(100.0, -100.0, i), Vec3(1000.0, -1000.0, i / 3.0)},
+                                 {i, PeerId{i}}};
   }
+  message.packet.objects[0].epoch = {~std::uint32_t{0}, PeerId{kMaxWirePeer}};
   message.packet.objects[7] = {
       255, {Vec3(0.0, 0.0, 1e-300), Quat(0.0, 0.0, 0.0, -1.0), Vec3::Zero(), Vec3::Zero()}};
   return message;

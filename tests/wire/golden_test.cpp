@@ -84,7 +84,7 @@ TEST(WireGolden, Accept) {
 
 TEST(WireGolden, Refuse) {
   for (const RefuseMessage& refuse :
-       {RefuseMessage{kBack, RefuseCode::kKey, 2}, RefuseMessage{kBack, RefuseCode::kVersion, 3}}) {
+       {RefuseMessage{kBack, RefuseCode::kKey, 3}, RefuseMessage{kBack, RefuseCode::kVersion, 4}}) {
     const Bytes golden =
         readGolden(refuse.version == kWireVersion ? "refuse_key.bin" : "refuse_version.bin");
     EXPECT_EQ(collect([&](ByteSpan out) { return encodeRefuse(refuse, out); }), golden);
@@ -141,6 +141,7 @@ void expectState(const Bytes& golden, const ClearHeader& expected_header,
     const ObjectState& object = packet.objects[i];
     const ObjectState& wanted = expected.packet.objects[i];
     EXPECT_EQ(object.id, wanted.id);
+    EXPECT_EQ(object.epoch, wanted.epoch);
     expectSame(object.state.p_W, wanted.state.p_W);
     expectSame(object.state.q_WB.coeffs(), wanted.state.q_WB.coeffs());
     expectSame(object.state.v_W, wanted.state.v_W);

@@ -32,9 +32,9 @@ Decoded<StateMessage> decode(const Bytes& bytes, const WireLimits& limits = {}) 
 
 TEST(WireState, SizesAreThoseOfTheStandard) {
   EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 0), 88U);
-  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1), 144U);
-  EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 220U);
-  EXPECT_EQ(kMaxStateSize, 976U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1), 148U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 224U);
+  EXPECT_EQ(kMaxStateSize, 1008U);
   EXPECT_LE(kMaxStateSize, kMaxPayloadSize);
 }
 
@@ -202,7 +202,7 @@ TEST_P(WireStateProfiles, EachRealMustBeFiniteAndInBounds) {
 void overwriteReal(Bytes& payload, WireProfile profile, std::size_t index, double value) {
   const std::size_t width = profile == WireProfile::kFloat32 ? 4 : 8;
   const std::size_t heads = index < 6 ? 0 : 1 + (index - 6) / 13;  // object records before it
-  std::uint8_t* const place = payload.data() + kStateBlockSize + index * width + 4 * heads;
+  std::uint8_t* const place = payload.data() + kStateBlockSize + index * width + 8 * heads;
   const auto narrow = static_cast<float>(value);
   if (profile == WireProfile::kFloat32) {
     std::memcpy(place, &narrow, sizeof narrow);

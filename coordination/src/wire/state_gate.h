@@ -60,6 +60,12 @@ class StateGate {
     return WireRefusal::kNone;
   }
 
+  [[nodiscard]] WireRefusal check(const ObjectEpoch& epoch) const noexcept {
+    const auto author = static_cast<std::uint32_t>(epoch.author);
+    const bool is_right = author <= kMaxWirePeer && (author == 0) == (epoch.count == 0);
+    return is_right ? WireRefusal::kNone : WireRefusal::kObjectEpoch;
+  }
+
   [[nodiscard]] WireRefusal checkBlock(const StateMessage& message,
                                        std::int64_t state_time_us) const noexcept {
     if ((message.flags & ~kStateFlags) != 0) return WireRefusal::kFlags;
@@ -83,6 +89,7 @@ class StateGate {
     for (std::size_t i = 0; i < packet.object_count; ++i) {
       const ObjectState& object = packet.objects[i];
       if (const auto fault = seen.add(object.id); fault != WireRefusal::kNone) return fault;
+      if (const auto fault = check(object.epoch); fault != WireRefusal::kNone) return fault;
       if (const auto fault = check(object.state); fault != WireRefusal::kNone) return fault;
     }
     return WireRefusal::kNone;

@@ -11,18 +11,15 @@ namespace {
 constexpr std::uint16_t kMagic = 0x6454;  // "Td"
 
 constexpr std::array<const char*, kWireRefusals> kNames = {
-    "none",        "too_short",    "too_long",
-    "wrong_size",  "magic",        "version",
-    "type",        "session",      "sender",
-    "key_epoch",   "sequence",     "receiver",
-    "role",        "zero",         "code",
-    "terms",       "profile",      "object_count",
-    "flags",       "time",         "energy",
-    "object_id",   "object_twice", "not_finite",
-    "position",    "velocity",     "angular_velocity",
-    "orientation", "part",         "parts",
-    "key",         "value",        "order",
-    "verdict",     "reason"};
+    "none",        "too_short",    "too_long",     "wrong_size",
+    "magic",       "version",      "type",         "session",
+    "sender",      "key_epoch",    "sequence",     "receiver",
+    "role",        "zero",         "code",         "terms",
+    "profile",     "object_count", "flags",        "time",
+    "energy",      "object_id",    "object_twice", "object_epoch",
+    "not_finite",  "position",     "velocity",     "angular_velocity",
+    "orientation", "part",         "parts",        "key",
+    "value",       "order",        "verdict",      "reason"};
 
 bool isType(std::uint8_t type) noexcept {
   const auto within = [type](MessageType first, MessageType last) {

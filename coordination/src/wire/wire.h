@@ -14,7 +14,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-inline constexpr std::uint8_t kWireVersion = 2;
+inline constexpr std::uint8_t kWireVersion = 3;
 inline constexpr std::size_t kHeaderSize = 20;  ///< [bytes]
 inline constexpr std::size_t kTagSize = 16;     ///< tag behind a sealed payload [bytes]
 inline constexpr std::size_t kMaxPayloadSize = kMaxDatagramSize - kHeaderSize - kTagSize;
@@ -48,6 +48,7 @@ enum class WireRefusal : std::uint8_t {
   kEnergy,
   kObjectId,
   kObjectTwice,
+  kObjectEpoch,
   kNotFinite,
   kPosition,
   kVelocity,

@@ -8,8 +8,8 @@
 
 //   0 send_time_us i64 | state_time_us i64 | state_sequence u64 | echo_send_time_us i64
 //  32 echo_hold_us u32 | ack_bits u32 | granted f64 | holdings f64
-//  56 flags u16 | profile u8 | objects u8 | config_hash u32 | DEVICE {p, v} | OBJECT {id u16, zero
-//  u16, p, q, v, w} ...
+//  56 flags u16 | profile u8 | objects u8 | config_hash u32 | DEVICE {p, v} | OBJECT {id u16,
+//  epoch_author u8, zero u8, epoch u32, p, q, v, w} ...
 namespace tandem {
 namespace {
 
@@ -26,7 +26,9 @@ class RecordWriter {
 
   void write(const ObjectState& object) noexcept {
     writer_.write(static_cast<std::uint16_t>(object.id));
-    writer_.write(std::uint16_t{0});
+    writer_.write(static_cast<std::uint8_t>(object.epoch.author));
+    writer_.write(std::uint8_t{0});
+    writer_.write(object.epoch.count);
     const RigidState& state = object.state;
     write(state.p_W);
     write(state.q_WB.w());
@@ -103,9 +105,12 @@ WireRefusal readRecords(wire::ByteReader& reader, const wire::StateGate& gate,
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     ObjectState& object = packet.objects[i];
     object.id = reader.read<std::uint16_t>();
-    const bool zero = reader.read<std::uint16_t>() == 0;
+    object.epoch.author = PeerId{reader.read<std::uint8_t>()};
+    const bool zero = reader.read<std::uint8_t>() == 0;
+    object.epoch.count = reader.read<std::uint32_t>();
     if (const auto fault = seen.add(object.id); fault != WireRefusal::kNone) return fault;
     if (!zero) return WireRefusal::kZero;
+    if (const auto fault = gate.check(object.epoch); fault != WireRefusal::kNone) return fault;
     records.read(object.state);
     if (const auto fault = gate.check(object.state); fault != WireRefusal::kNone) return fault;
     wire::makeUnit(object.state.q_WB);

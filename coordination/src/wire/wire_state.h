@@ -51,7 +51,7 @@ inline constexpr std::size_t kStateBlockSize = 64;  ///< before the records [byt
 [[nodiscard]] constexpr std::size_t computeStateSize(WireProfile profile,
                                                      std::size_t object_count) noexcept {
   const std::size_t real = profile == WireProfile::kFloat32 ? 4 : 8;
-  return kStateBlockSize + 6 * real + object_count * (4 + 13 * real);
+  return kStateBlockSize + 6 * real + object_count * (8 + 13 * real);
 }
 
 inline constexpr std::size_t kMaxStateSize =

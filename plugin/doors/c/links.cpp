@@ -52,7 +52,9 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
     read.energy = {packet.energy_granted, packet.energy_holdings};
   read.object_count = static_cast<std::uint32_t>(packet.object_count);
   for (std::uint32_t i = 0; i < read.object_count; ++i)
-    read.objects[i] = {packet.object_ids[i], fromPacket(packet.objects[i])};
+    read.objects[i] = {packet.object_ids[i],
+                       fromPacket(packet.objects[i]),
+                       {packet.object_epochs[i], PeerId{packet.object_epoch_authors[i]}}};
   return read;
 }
 
@@ -70,6 +72,8 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
   for (std::uint32_t i = 0; i < packet.object_count; ++i) {
     written.object_ids[i] = packet.objects[i].id;
     written.objects[i] = c_door::toC(packet.objects[i].state);
+    written.object_epochs[i] = packet.objects[i].epoch.count;
+    written.object_epoch_authors[i] = static_cast<std::uint32_t>(packet.objects[i].epoch.author);
   }
   return written;
 }

@@ -10,7 +10,7 @@ namespace tandem::pybullet {
 namespace {
 
 constexpr std::size_t kHead = 13;
-constexpr std::size_t kPerObject = 14;
+constexpr std::size_t kPerObject = 16;
 
 /// Checks that `value` is a whole number in [0, most].
 double toWhole(double value, double most, const char* what) {
@@ -44,6 +44,8 @@ std::vector<double> toDoubles(const TandemPacket& packet) {
     append(state.orientation, 4);
     append(state.velocity, 3);
     append(state.angular_velocity, 3);
+    doubles.push_back(static_cast<double>(packet.object_epochs[i]));
+    doubles.push_back(static_cast<double>(packet.object_epoch_authors[i]));
   }
   return doubles;
 }
@@ -74,6 +76,9 @@ TandemPacket toPacket(const std::vector<double>& doubles) {
     std::copy_n(at + 4, 4, state.orientation);
     std::copy_n(at + 8, 3, state.velocity);
     std::copy_n(at + 11, 3, state.angular_velocity);
+    packet.object_epochs[i] = static_cast<std::uint32_t>(toWhole(at[14], kMostId, "an epoch"));
+    packet.object_epoch_authors[i] =
+        static_cast<std::uint32_t>(toWhole(at[15], kMostId, "an epoch's author"));
     at += kPerObject;
   }
   return packet;

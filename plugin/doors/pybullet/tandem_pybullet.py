@@ -45,8 +45,9 @@ State = namedtuple("State", "position orientation velocity angular_velocity")
 Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash packets_sent "
                                 "packets_taken has_ended objects proxies links")
 
-#: A state that manual links carry between sites; `objects`: (id, State) pairs. The energies [J] are the
-#: sender's part of its ledger with the receiver; NaN: it keeps no account.
+#: A state that manual links carry between sites; `objects`: (id, State, epoch) each, an epoch being its
+#: number and its author; both are 0 until a site puts the object elsewhere. The energies [J] are the sender's
+#: part of its ledger with the receiver; NaN: it keeps no account.
 Packet = namedtuple("Packet", "sender is_idle sequence time position velocity energy_granted "
                               "energy_holdings objects")
 
@@ -99,10 +100,11 @@ class Link:
         numbers = [packet.sender, packet.is_idle, packet.sequence, packet.time, *packet.position,
                    *packet.velocity, packet.energy_granted, packet.energy_holdings,
                    len(packet.objects)]
-        for number, state in packet.objects:
+        for number, state, epoch in packet.objects:
             numbers.append(number)
             for part in state:
                 numbers.extend(part)
+            numbers.extend(epoch)
         self._site._send_doubles("push", numbers, link=self.number)
 
     def pop(self):
@@ -112,8 +114,9 @@ class Link:
             return None
         sender, is_idle, sequence, time = numbers[:4]
         objects = []
-        for at in range(13, len(numbers), 14):
-            objects.append((int(numbers[at]), _state_of(numbers[at + 1:at + 14])))
+        for at in range(13, len(numbers), 16):
+            epoch = (int(numbers[at + 14]), int(numbers[at + 15]))
+            objects.append((int(numbers[at]), _state_of(numbers[at + 1:at + 14]), epoch))
         return Packet(int(sender), bool(is_idle), int(sequence), time, tuple(numbers[4:7]),
                       tuple(numbers[7:10]), numbers[10], numbers[11], objects)
 

@@ -298,6 +298,9 @@ typedef struct TandemPacket {
   size_t object_count;
   uint32_t object_ids[TANDEM_MAX_OBJECTS_PER_PACKET];
   TandemState objects[TANDEM_MAX_OBJECTS_PER_PACKET];
+  /* Epoch of each object, and the site that began it: both are 0 until a site puts it elsewhere. */
+  uint32_t object_epochs[TANDEM_MAX_OBJECTS_PER_PACKET];
+  uint32_t object_epoch_authors[TANDEM_MAX_OBJECTS_PER_PACKET];
 } TandemPacket;
 
 /* Creates a link whose packets the caller carries. It holds up to 256 packets each way; more are

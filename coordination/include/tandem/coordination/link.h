@@ -9,7 +9,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Shared objects in one packet. With eight, the longest datagram has 1004 bytes, below one MTU.
+/// Shared objects in one packet. With eight, the longest datagram has 1044 bytes, below one MTU.
 inline constexpr int kMaxObjectsPerPacket = 8;
 
 /// Shared objects of a site. If they exceed one packet, they take turns.
@@ -18,10 +18,39 @@ inline constexpr int kMaxSharedObjects = 256;
 /// Packet period of a sender that reports itself idle [s].
 inline constexpr double kIdlePacketPeriod = 1.0 / 16.0;
 
+/// Names the time since an object was last put elsewhere: by a teleport, a reset, a restored state.
+/// Copies of different epochs do not pull at each other.
+struct ObjectEpoch {
+  std::uint32_t count = 0;  ///< 0: never put elsewhere; then the author is 0
+  PeerId author{};          ///< site that began it
+
+  [[nodiscard]] friend bool operator==(const ObjectEpoch& a, const ObjectEpoch& b) noexcept {
+    return a.count == b.count && a.author == b.author;
+  }
+  [[nodiscard]] friend bool operator!=(const ObjectEpoch& a, const ObjectEpoch& b) noexcept {
+    return !(a == b);
+  }
+};
+
+/// True if `a` replaces `b`. Sites that begin epochs at the same time agree: of equal counts the
+/// higher author wins. Counts wrap. Pure; real-time safe.
+[[nodiscard]] inline bool isNewer(const ObjectEpoch& a, const ObjectEpoch& b) noexcept {
+  if (a.count == b.count) return a.author > b.author;
+  if (a.count == 0 || b.count == 0) return b.count == 0;
+  return a.count - b.count < 0x80000000u;
+}
+
+/// The epoch that `author` begins when `newest` is the newest that it knows. Pure; real-time safe.
+[[nodiscard]] inline ObjectEpoch beginEpoch(const ObjectEpoch& newest, PeerId author) noexcept {
+  const std::uint32_t next = newest.count + 1;
+  return {next == 0 ? 1 : next, author};
+}
+
 /// One shared object's copy at the sender.
 struct ObjectState {
   ObjectId id = 0;
   RigidState state;
+  ObjectEpoch epoch = {};  ///< of this copy
 };
 
 /// The sender's part of the energy ledger with the receiver (EnergyLedger). Both may be negative.
