@@ -68,6 +68,9 @@ StatePacket drawLie(test::Random& random, std::uint64_t sequence, double now) {
   if (random.below(5) > 0) packet.energy = {random.logUniform(1e-6, 1e9), -1e9};
   packet.object_count = 1;
   packet.objects[0] = {0, {far(), Quat::Identity(), far(), far()}};
+  if (random.below(2) > 0)
+    packet.objects[0].epoch = {static_cast<std::uint32_t>(random.below(4)) * 0x60000000u,
+                               PeerId{static_cast<std::uint32_t>(random.below(4))}};
   packet.objects[0].state.q_WB =
       Quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 0.5).normalized();
   return packet;

@@ -137,8 +137,8 @@ TEST(Peers, TiesOfALostPeerActAgainOnceTheyAreRenewed) {
   Conversation::addObject(late, 1, Vec3(2.1, 0, 0));
   talk.arrive(back, 0.3);
   talk.arrive(late, 0.3);
-  EXPECT_TRUE(talk.peer.isRenewed(talk.peer.ties[0]));
-  EXPECT_FALSE(talk.peer.isRenewed(talk.peer.ties[1]));
+  EXPECT_TRUE(talk.peer.isRenewed(talk.peer.ties[0], talk.rig.bodies.objects[0]));
+  EXPECT_FALSE(talk.peer.isRenewed(talk.peer.ties[1], talk.rig.bodies.objects[1]));
   // The target starts at our copy, so that the spring is not stretched.
   EXPECT_LT((talk.target(0).p_W - Vec3(1.0, 0, 0)).norm(), 1e-15);
 

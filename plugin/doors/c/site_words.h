@@ -57,6 +57,7 @@ inline constexpr SiteWord kSiteWords[] = {
     word<&TandemSiteSettings::hip_radius>("hip_radius"),
     word<&TandemSiteSettings::hand_group>("hand_group"),
     word<&TandemSiteSettings::hand_mask>("hand_mask"),
+    word<&TandemSiteSettings::puts_reset_objects>("puts_reset_objects", "puts_reset_objects", true),
     word<&TandemSiteSettings::hand_feels_moving_bodies>("hand_feels_moving_bodies",
                                                         "hand_feels_moving_bodies", true),
     word<&TandemSiteSettings::inner_step>("inner_step"),

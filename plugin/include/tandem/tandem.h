@@ -411,7 +411,8 @@ typedef struct TandemSiteSettings {
   int hand_mask;            /* collision groups that the hand and proxies meet */
   /* The hand feels moving bodies with nothing shared, too; 0: the host's bits stay the same. */
   int hand_feels_moving_bodies;
-  const char* scheme; /* "remote_dynamic_proxy", "kinematic_proxy" or "virtual_coupling" */
+  int puts_reset_objects; /* 0: an object that a peer's host put elsewhere is led there */
+  const char* scheme;     /* "remote_dynamic_proxy", "kinematic_proxy" or "virtual_coupling" */
   TandemTickSource tick_source;
   int has_guide;      /* bodies may only move along `guide` */
   double guide[3];    /* unit vector */

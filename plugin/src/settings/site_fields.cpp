@@ -105,6 +105,10 @@ std::vector<SiteField> makeFields() {
       field<&S::max_peer_speed>("max_peer_speed", "m/s",
                                 "a peer's state that moved faster is approached smoothly",
                                 kPositiveOrInfinite, kOwn),
+      field<&S::puts_reset_objects>(
+          "puts_reset_objects", "",
+          "an object that a peer's host put elsewhere is put there at once; 0: it is led there",
+          kFlag, kOwn),
       field<&S::fault_slew>("fault_slew", "N/s", "after a fault the force fades by this", kPositive,
                             kOwn),
   };

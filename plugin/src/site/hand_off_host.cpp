@@ -21,8 +21,9 @@ void HandOffStep::before(double dt) noexcept {
       site_.rest.disturb();
       return site_.desk.run([&] { site_.passStepWithout(dt); });
     }
-    renewObjects();
+    renewObjects(dt);
     lookAtBodies(dt);
+    lookAroundTeleports();
   }
   site_.desk.run([&] { goIn(dt, looks_quiet); });
   if (site_.rest.isQuiet()) return;
@@ -43,6 +44,7 @@ void HandOffStep::after(double dt) noexcept {
   site_.rest.disturb();
   if (!findChanges()) return site_.desk.run([&] { site_.clock.endStep(dt); });
   site_.bodies.forEachPresent([&](SiteBody& body) { takeBack(body); });
+  showPuts();
   site_.bodies.forEachPresent([&](SiteBody& body) { site_.rest.parkIfItStood(body); });
   if (!site_.ticksInHostStep()) site_.surroundings.lookAtDriven(step_end_);
   site_.objects.findReturned();
@@ -88,7 +90,7 @@ bool HandOffStep::findChanges() noexcept {
 
 /// Takes objects out that the host changed, and holds those again that may still be held: Bullet
 /// makes no step with them.
-void HandOffStep::renewObjects() {
+void HandOffStep::renewObjects(double dt) {
   if (site_.objects.areLeaving()) {
     site_.desk.run([&] {
       site_.surroundings.takeLeaving();
@@ -100,7 +102,7 @@ void HandOffStep::renewObjects() {
   site_.surroundings.searchObstacles(true);
   site_.desk.run([&] {
     site_.surroundings.takeObstacles();
-    site_.objects.take();
+    site_.objects.take(dt);
     site_.surroundings.catchUp();
   });
 }
@@ -125,6 +127,22 @@ void HandOffStep::lookAtBodies(double dt) noexcept {
   site_.surroundings.lookAtDamping();
 }
 
+/// The island has to know what is around a body that the host put elsewhere before it goes on.
+void HandOffStep::lookAroundTeleports() {
+  bool is_any = false;
+  for (const SharedObject& object : site_.bodies.objects) {
+    const HandOver& step = object.body.step;
+    if (!object.body.is_held || object.body.is_leaving || !step.is_told || !step.change.moved ||
+        step.change.offset_W.norm() < object.bounding_radius)
+      continue;
+    site_.surroundings.expectAt(object.body.index, object.bullet->state());
+    is_any = true;
+  }
+  if (!is_any || site_.settings.guide) return;
+  site_.surroundings.searchObstacles(true);
+  site_.desk.run([&] { site_.surroundings.takeObstacles(); });
+}
+
 /// Gives Bullet the states of its bodies at the end of the step.
 void HandOffStep::handOff(double dt) noexcept {
   for (Peer& peer : site_.peers)
@@ -140,6 +158,18 @@ void HandOffStep::handOff(double dt) noexcept {
     if (site_.clock.hasJumped()) bullet.setState(computeStart(body.step.end, dt));
     bullet.handOff(body.step.end, dt, body.step.foreseen.mean);
     ++site_.log.counters.bodies_handed_off;
+  });
+}
+
+/// Shows Bullet where peers' resets put objects: what is around is searched there.
+void HandOffStep::showPuts() noexcept {
+  site_.bodies.forEachPresent([&](SiteBody& body) {
+    if (!body.step.is_put) return;
+    if (body.bullet->isParked()) site_.rest.unpark(body);
+    body.step.forgetReaction();
+    body.step.end = body.step.put;
+    body.bullet->setState(body.step.put);
+    site_.surroundings.expectAt(body.index, body.step.put);
   });
 }
 

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
+#include "site/teleport.h"
+
 // The tick, and the work that the host's step hands to the ticking thread. hand_off_host.cpp has
 // the host's thread.
 
 namespace tandem {
-namespace {
-
-/// A host that moves a body farther than this in a step puts it elsewhere; peers feel less as a
-/// pull [m].
-constexpr double kTeleport = 0.05;
-
-}  // namespace
 
 HandOffStep::HandOffStep(SiteParts& parts) : IslandStep(parts) {
   site_.island.setContactFinder(&site_.surroundings.contactFinder());
@@ -124,9 +119,10 @@ void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexc
                                return state;
                              });
   site_.hand.energy().refill();
-  if (change.offset_W.norm() < kTeleport) return;
-  for (const SharedObject& object : site_.bodies.objects)
-    if (&object.body == &body) site_.peers.awaitFollowing(object, site_.timeline.time());
+  const double way = change.offset_W.norm();
+  for (SharedObject& object : site_.bodies.objects)
+    if (&object.body == &body && isTeleport(way, change.rotation_W, object.bounding_radius))
+      site_.peers.beginEpoch(object);
 }
 
 /// Looks up the states of all bodies at the end of the host's step.
@@ -136,23 +132,41 @@ void HandOffStep::findEnds() noexcept {
     body.step.end = states ? (*states)[static_cast<std::size_t>(body.index)]
                            : site_.timeline.stateAt(body.index, step_end_);
     body.step.foreseen = site_.forces.takeForeseen(body, step_end_);
+    body.step.is_put = false;
     body.step.is_ghost = site_.island.isGhost(body.index);
     body.step.may_park = body.load.isSettled();
   });
+  for (SharedObject& object : site_.bodies.objects) {
+    if (!object.awaits_put || !object.body.is_held) continue;
+    object.body.step.is_put = true;
+    object.body.step.put = site_.peers.findPlace(object);
+  }
 }
 
 /// The way out: the island takes solver impulses, neighbours and obstacles.
 void HandOffStep::goOut(double dt) noexcept {
   site_.clock.endStep(dt);
   site_.bodies.forEach([&](SiteBody& body) { receive(body, dt); });
+  takePuts();
   site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
   if (!site_.ticksInHostStep()) site_.surroundings.steerDriven(false);
   if (!site_.desk.isOpen()) makeRoomFor(dt);
-  site_.objects.take();
+  site_.objects.take(dt);
   site_.surroundings.take();
   if (!site_.timeline.hasBegun()) return;
   site_.rest.mark(site_.island, site_.island.state(site_.hand.hip()).p_W);
   if (site_.island.isAsleep()) site_.surroundings.mirror();
+}
+
+/// Puts objects where peers' resets have them. Bullet's bodies are there already, and all around is
+/// known.
+void HandOffStep::takePuts() noexcept {
+  for (SharedObject& object : site_.bodies.objects) {
+    if (!object.body.is_held || !object.body.step.is_put) continue;
+    object.body.step.is_put = false;
+    site_.timeline.put(object.body.index, object.body.step.put);
+    site_.peers.finishPut(object);
+  }
 }
 
 void HandOffStep::receive(SiteBody& body, double dt) noexcept {

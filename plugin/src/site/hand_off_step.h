@@ -38,11 +38,13 @@ class HandOffStep final : public IslandStep {
   [[nodiscard]] bool hasNoTicks() const noexcept;
   void leaveAlone(double dt) noexcept;
   bool findChanges() noexcept;
-  void renewObjects();
+  void renewObjects(double dt);
   void giveBack();
   void lookAtBodies(double dt) noexcept;
+  void lookAroundTeleports();
   void handOff(double dt) noexcept;
   void takeBack(SiteBody& body) noexcept;
+  void showPuts() noexcept;
   void lookFarther();
   void fallQuiet();
   // In the thread that ticks, at the request of the host's thread.
@@ -53,6 +55,7 @@ class HandOffStep final : public IslandStep {
   void findEnds() noexcept;
   void goOut(double dt) noexcept;
   void receive(SiteBody& body, double dt) noexcept;
+  void takePuts() noexcept;
 
   double step_end_ = 0.0;  ///< of the host's present step [s]
   bool is_alone_ = false;  ///< nobody ticks: all bodies are Bullet's

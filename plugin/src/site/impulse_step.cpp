@@ -54,6 +54,7 @@ void ImpulseStep::before(double dt) noexcept {
   const double period = site_.timeline.period();
   if (std::abs(dt - period) > 1e-3 * period) site_.log.raiseFromHost(kHostStepWrong);
   site_.followHostClock(dt);
+  site_.noteTeleports();
   const double end = site_.clock.time() + dt;
   site_.clock.setStep(dt);
   site_.timeline.announce(end, dt);
@@ -79,7 +80,7 @@ void ImpulseStep::after(double dt) noexcept {
   makeRoomFor(dt);
   if (!site_.settings.guide) {
     site_.objects.findReturned();
-    site_.objects.take();
+    site_.objects.take(dt);
   }
   lookAround(dt);
   ++site_.log.counters.searches;

@@ -58,6 +58,7 @@ void NativeStep::showProxy(Peer& peer) noexcept {
 void NativeStep::before(double dt) noexcept {
   if (!areBodiesPresent()) return site_.passStepWithout(dt);
   site_.followHostClock(dt);
+  site_.noteTeleports();
   const double end = site_.clock.time() + dt;
   if (site_.ticksInHostStep()) site_.runTicksUntil(end);
   site_.clock.setStep(dt);

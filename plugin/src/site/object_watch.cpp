@@ -1,11 +1,13 @@
 #include "site/object_watch.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "tandem/bullet_bridge/shapes.h"
 
 #include "bullet_bridge/src/bodies/body_look.h"
 #include "bullet_bridge/src/world/world_access.h"
+#include "site/teleport.h"
 
 namespace tandem {
 
@@ -81,7 +83,7 @@ void ObjectWatch::takeLeaving() noexcept {
     object.owed = forces_.computeOwed(body);
     island_.clear(body.index);
     island_.setState(body.index, last);
-    body.is_held = false;
+    body.is_held = object.awaits_put = false;
     object.is_sent = object.is_there;
   }
 }
@@ -147,7 +149,17 @@ bool ObjectWatch::hold(SharedObject& object) {
   return true;
 }
 
-void ObjectWatch::take() noexcept {
+/// An object that Bullet has, or had, is elsewhere now if it cannot have moved there by itself.
+void ObjectWatch::notePlace(SharedObject& object, const RigidState& now, double dt) noexcept {
+  const RigidState& last = island_.state(object.body.index);
+  const double by_itself = dt * std::max(now.v_W.norm(), last.v_W.norm());
+  const double way = std::max(0.0, (now.p_W - last.p_W).norm() - by_itself);
+  const double rate = std::max(now.w_W.norm(), last.w_W.norm());
+  const Quat turn = dt * rate < 0.1 ? Quat(now.q_WB * last.q_WB.conjugate()) : Quat::Identity();
+  if (isTeleport(way, turn, object.bounding_radius)) peers_.beginEpoch(object);
+}
+
+void ObjectWatch::take(double dt) noexcept {
   takeLeaving();
   if (left_ == 0) return;
   for (SharedObject& object : bodies_.objects) {
@@ -156,6 +168,7 @@ void ObjectWatch::take() noexcept {
       object.is_new = false;
       object.is_sent = true;
       --left_;
+      notePlace(object, object.settings.start, dt);
       body.is_held = true;
       body.seen = object.settings.start;
       island_.fill(body.index, object.settings);
@@ -166,6 +179,7 @@ void ObjectWatch::take() noexcept {
     } else if (!body.is_held) {
       object.is_sent = object.is_there;
       if (!object.is_there) continue;
+      notePlace(object, object.seen, dt);
       island_.setState(body.index, object.seen);
       body.seen = object.seen;
     }

@@ -70,14 +70,15 @@ class ObjectWatch {
   /// @name For the thread that ticks, while the host's thread waits. Real-time safe.
   /// @{
   void takeLeaving() noexcept;
-  /// Applies the results of findReturned().
-  void take() noexcept;
+  /// Applies the results of findReturned(), in the host's step of `dt` [s].
+  void take(double dt) noexcept;
   /// @}
 
  private:
   [[nodiscard]] bool mayHold(const SharedObject& object) const noexcept;
   void leave(SharedObject& object);
   bool hold(SharedObject& object);
+  void notePlace(SharedObject& object, const RigidState& now, double dt) noexcept;
 
   btDiscreteDynamicsWorld& world_;
   const SiteSettings& settings_;

@@ -21,6 +21,10 @@ struct SharedObject {
   ObjectId id = 0;
   double damping = 0.0;  ///< of this copy [N s/m]
   double bounding_radius = 0.0;
+  ObjectEpoch epoch;        ///< of our copy; for the thread that ticks
+  ObjectEpoch said;         ///< what peers are told: `epoch`, once our copy has followed
+  bool awaits_put = false;  ///< the next host step puts it where peer `leader` has it
+  int leader = 0;           ///< peer that began `epoch`, or told us
 
   // While the island does not hold it: ObjectWatch.
   bool is_there = true;  ///< it is in the host's world; for the host's thread

@@ -99,6 +99,7 @@ void PacketSender::send(double time) noexcept {
   packet.time = time;
   const SessionFrame& frame = peers_.frame();
   packet.user = sent_user_ = limitUser(frame.toSession(hand_.pointAt(time, timeline_.tickStart())));
+  peers_.sayEpochs();
   const auto state = [&](std::size_t i) -> const RigidState& {
     return island_.state(bodies_.objects[i].body.index);
   };
@@ -107,7 +108,8 @@ void PacketSender::send(double time) noexcept {
     const RigidState told = frame.toSession(state(i));
     if (!bodies_.objects[i].is_sent || !maySend(told)) continue;
     sent_[i] = state(i);
-    packet.objects[packet.object_count++] = {bodies_.objects[i].id, told};
+    packet.objects[packet.object_count++] = {bodies_.objects[i].id, told,
+                                             bodies_.objects[i].said};
   }
   peers_.send(packet, time);
   ++log_.counters.packets_sent;

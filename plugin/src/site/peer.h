@@ -10,6 +10,7 @@
 #include "coordination/src/link/link_health.h"
 #include "coordination/src/schemes/remote_user.h"
 #include "site/motion_limit.h"
+#include "site/objects.h"
 #include "site/proxy.h"
 #include "site/tie.h"
 #include "site/user_track.h"
@@ -46,12 +47,14 @@ struct Peer {
   bool is_restrained = false;                ///< gains or targets differ from a live peer's
   Vec3 searched_W = Vec3::Zero();            ///< where obstacles near the proxy were last searched
 
-  /// False for an object that the peer has not sent since the peer or the object came back.
-  [[nodiscard]] bool isRenewed(const Tie& tie) const noexcept {
+  /// False for an object that the peer has not sent since the peer or the object came back, or
+  /// since our copy was put elsewhere.
+  [[nodiscard]] bool isRenewed(const Tie& tie, const SharedObject& ours) const noexcept {
     const auto is_since = [&](const std::optional<std::uint64_t>& packet) {
       return !packet || (tie.sequence && *tie.sequence >= *packet);
     };
-    return is_since(rejoined_by) && is_since(tie.awaited) && tie.away_until == 0.0;
+    return is_since(rejoined_by) && is_since(tie.awaited) && tie.epoch == ours.epoch &&
+           !ours.awaits_put;
   }
 };
 

@@ -68,12 +68,13 @@ bool Peers::mayComeIn(const Peer& peer, const HostStep& host_step) const noexcep
 }
 
 bool Peers::doCopiesAgree(const Peer& peer) const noexcept {
-  return std::all_of(
-      bodies_.objects.begin(), bodies_.objects.end(), [&](const SharedObject& object) {
-        const Tie& tie = peer.ties[object.id];
-        const Vec3& ours_W = island_.state(object.body.index).p_W;
-        return peer.isRenewed(tie) && (tie.theirs.p_W - ours_W).norm() < settings_.proxy.radius;
-      });
+  return std::all_of(bodies_.objects.begin(), bodies_.objects.end(),
+                     [&](const SharedObject& object) {
+                       const Tie& tie = peer.ties[object.id];
+                       const Vec3& ours_W = island_.state(object.body.index).p_W;
+                       return peer.isRenewed(tie, object) &&
+                              (tie.theirs.p_W - ours_W).norm() < settings_.proxy.radius;
+                     });
 }
 
 /// Moves a ghost that may return to the user's position.
@@ -109,8 +110,11 @@ void Peers::followDetours(Peer& peer, double period) noexcept {
 
 void Peers::restrainTies(const Peer& peer) noexcept {
   const double share = peer.health.objectShare();
-  for (const Tie& tie : peer.ties)
-    island_.setCouplerShare(tie.coupler, peer.isRenewed(tie) ? share : 0.0);
+  for (std::size_t i = 0; i < peer.ties.size(); ++i) {
+    const Tie& tie = peer.ties[i];
+    const bool acts = peer.isRenewed(tie, bodies_.objects[i]);
+    island_.setCouplerShare(tie.coupler, acts ? share : 0.0);
+  }
 }
 
 void Peers::restrainProxy(Peer& peer, HostStep& host_step) noexcept {

@@ -13,10 +13,6 @@ namespace {
 /// and a body may be too fast for packets for a moment.
 constexpr std::uint64_t kTurnsMissed = 16;
 
-/// A peer's copy has so long to follow ours to where the host put it [s]: a detour, and a round
-/// trip of a second.
-constexpr double kLongestAway = 4.0;
-
 }  // namespace
 
 Peers::Peers(const SiteSettings& settings, Island& island, Bodies& bodies, EnergyPort& energy,
@@ -130,15 +126,20 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
     if (copy.id >= peer.ties.size()) continue;
     Tie& tie = peer.ties[copy.id];
     if (tie.sequence && packet.sequence <= *tie.sequence) continue;
-    const bool was_renewed = peer.isRenewed(tie);
-    if (!isAway(tie, copy, time)) tie.away_until = 0.0;
+    SharedObject& object = bodies_.objects[copy.id];
+    const bool was_renewed = peer.isRenewed(tie, object);
+    const bool is_reset = isNewer(copy.epoch, object.epoch);
+    if (is_reset) adopt(object, copy, peer.place);
+    tie.epoch = copy.epoch;
     tie.sequence = packet.sequence;
     tie.heard_at = peer.packets_heard;
     has_news = true;
     const bool jumped = tie.motion.isJump(copy.state.p_W, copy.state.v_W, packet.time, time,
                                           settings_.max_peer_speed);
-    if (!was_renewed && peer.isRenewed(tie)) {
-      tie.detour.start(island_.state(bodies_.objects[copy.id].body.index), copy.state);
+    if (!peer.isRenewed(tie, object)) {
+      if (was_renewed) island_.setCouplerShare(tie.coupler, 0.0);
+    } else if (!was_renewed || is_reset) {
+      tie.detour.start(island_.state(object.body.index), copy.state);
       island_.setCouplerShare(tie.coupler, peer.health.objectShare());
       peer.is_restrained = true;  // so that ticks lead its targets
     } else if (jumped) {
@@ -163,26 +164,13 @@ void Peers::letGoOfMissing(Peer& peer) noexcept {
     peer.next_checked = (peer.next_checked + 1) % count;
     Tie& tie = peer.ties[peer.next_checked];
     const bool is_missing = peer.packets_heard - tie.heard_at >= kTurnsMissed * turns;
-    if (is_missing && tie.sequence && peer.isRenewed(tie)) awaitNews(peer, tie);
+    if (is_missing && tie.sequence && peer.isRenewed(tie, bodies_.objects[peer.next_checked]))
+      awaitNews(peer, tie);
   }
 }
 
 void Peers::awaitNews(const SharedObject& object) noexcept {
   for (Peer& peer : peers_) awaitNews(peer, peer.ties[object.id]);
-}
-
-void Peers::awaitFollowing(const SharedObject& object, double time) noexcept {
-  for (Peer& peer : peers_) {
-    Tie& tie = peer.ties[object.id];
-    tie.away_until = time + kLongestAway;
-    island_.setCouplerShare(tie.coupler, 0.0);
-  }
-}
-
-/// True while a peer's copy is still on its way to where our host put ours.
-bool Peers::isAway(const Tie& tie, const ObjectState& copy, double time) const noexcept {
-  const Vec3& ours_W = island_.state(bodies_.objects[copy.id].body.index).p_W;
-  return time < tie.away_until && !((copy.state.p_W - ours_W).norm() < settings_.proxy.radius);
 }
 
 void Peers::awaitNews(const Peer& peer, Tie& tie) noexcept {

@@ -53,14 +53,22 @@ class Peers {
   /// Sends a packet to all peers, each with its own energy report.
   void send(StatePacket packet, double time) noexcept;
 
+  /// Where a peer's reset has an object that awaits to be put there.
+  [[nodiscard]] RigidState findPlace(const SharedObject& object) const noexcept;
+  /// Our copy is there: it is of the peer's epoch from now on.
+  void finishPut(SharedObject& object) noexcept;
+  /// Our copies that have been led to where a peer put them are of its epoch from now on. Called
+  /// before a packet is made.
+  void sayEpochs() noexcept;
+
   /// Called once a tick. `host_step` shows changes of a proxy in Bullet.
   void followLinks(double now, double period, HostStep& host_step) noexcept;
 
   /// Lets go of an object until the peers' next states of it: ours is held again.
   void awaitNews(const SharedObject& object) noexcept;
-  /// Lets go of an object that the host put elsewhere at `time` [s], until the peers' copies have
-  /// followed. Between them a spring would throw both.
-  void awaitFollowing(const SharedObject& object, double time) noexcept;
+  /// The host put our copy elsewhere: begins an epoch. Peers' copies pull again when they are of
+  /// it, too. Between them and ours a spring would throw both.
+  void beginEpoch(SharedObject& object) noexcept;
 
   /// The host's world got another origin; packets stay in the frame of the session.
   void shiftOrigin(const Vec3& offset_W) noexcept;
@@ -80,8 +88,13 @@ class Peers {
   void noteJump(Peer& peer) noexcept;
   bool hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept;
   void letGoOfMissing(Peer& peer) noexcept;
-  [[nodiscard]] bool isAway(const Tie& tie, const ObjectState& copy, double time) const noexcept;
   void awaitNews(const Peer& peer, Tie& tie) noexcept;
+
+  // peer_epochs.cpp
+  void enterEpoch(SharedObject& object, const ObjectEpoch& epoch) noexcept;
+  void adopt(SharedObject& object, const ObjectState& copy, int leader) noexcept;
+  [[nodiscard]] bool mayPut(const SharedObject& object) const noexcept;
+  [[nodiscard]] bool isLed(const SharedObject& object) const noexcept;
 
   // peer_restraint.cpp
   void followLink(Peer& peer, double now, double period, HostStep& host_step) noexcept;

@@ -50,7 +50,9 @@ struct HandOver {
   RigidState end;             ///< at the end of the step
   Foresight::Given foreseen;  ///< in the step, for Bullet's contacts and joints
   bool is_ghost = false;      ///< collides with nothing
-  bool may_park = false;      ///< the host's forces are settled
+  bool is_put = false;        ///< a peer's reset puts it to `put` at the end of the step
+  RigidState put;
+  bool may_park = false;  ///< the host's forces are settled
   // Read by the host's thread on the way out.
   bool stands = false;          ///< it is where it was a step ago
   bool was_parked = false;      ///< parked when Bullet's step ended

@@ -1,5 +1,7 @@
 #include "site/site_parts.h"
 
+#include "site/teleport.h"
+
 namespace tandem {
 namespace {
 
@@ -39,6 +41,17 @@ void SiteParts::runTicksUntil(double time) noexcept {
     const double next = timeline.nextTick(clock.time());
     if (next >= time - kClockTolerance) return;
     tick(next, kMostMadeUp);
+  }
+}
+
+void SiteParts::noteTeleports() noexcept {
+  for (SharedObject& object : bodies.objects) {
+    if (!object.body.is_held) continue;
+    const RigidState now = object.body.bullet->state(), last = island.state(object.body.index);
+    const Quat turn = now.q_WB * last.q_WB.conjugate();
+    if (!isTeleport((now.p_W - last.p_W).norm(), turn, object.bounding_radius)) continue;
+    island.setState(object.body.index, now);
+    peers.beginEpoch(object);
   }
 }
 

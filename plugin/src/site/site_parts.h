@@ -26,6 +26,8 @@ struct SiteParts {
   void runTicksUntil(double time) noexcept;
   /// Updates the host's clock for its step of `dt`, which has just begun.
   void followHostClock(double dt) noexcept;
+  /// Where Bullet moves the bodies: begins epochs of objects that the host put elsewhere.
+  void noteTeleports() noexcept;
   /// Passes a host step in which a body is missing: the hand still gets its fading force.
   void passStepWithout(double dt) noexcept;
   /// True if all bodies are in the host's world; stops the site if not.

@@ -70,6 +70,10 @@ class Surroundings {
   /// up to `age` old [s]. `everywhere`: also around parked bodies with nothing awake near them,
   /// which are otherwise searched less often.
   void look(double dt, double step_end, double age, bool everywhere = false);
+  /// The next searches expect a body there: it is put elsewhere.
+  void expectAt(BodyIndex body, const RigidState& state) noexcept {
+    mirror_.set(body, state, true);
+  }
   /// Searches for standing objects; `everywhere` as in look().
   void searchObstacles(bool everywhere);
   /// The host has moved all of its world by `offset_W` [m]; the thread that ticks waits.

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "tandem/coordination/link.h"
+
 #include "coordination/src/island/island.h"
 #include "site/detour.h"
 #include "site/motion_limit.h"
@@ -17,11 +19,9 @@ struct Tie {
   std::optional<std::uint64_t> sequence;  ///< packet of that state
   std::optional<std::uint64_t> awaited;   ///< no force before this packet or a later one
   std::uint64_t heard_at = 0;             ///< Peer::packets_heard at that state
-  /// The host put our copy elsewhere: no force until the peer's copy has followed, or this time
-  /// [s].
-  double away_until = 0.0;
-  double velocity_share = 1.0;  ///< of the target's velocity; silence lowers it
-  MotionLimit motion;           ///< of the peer's copy
+  ObjectEpoch epoch;                      ///< of that state; no force while ours is another one
+  double velocity_share = 1.0;            ///< of the target's velocity; silence lowers it
+  MotionLimit motion;                     ///< of the peer's copy
 
   /// The coupler's target.
   [[nodiscard]] RigidState computeTarget() const noexcept {

@@ -85,6 +85,14 @@ void Timeline::announceAfterNow(double end, double step) noexcept {
     step_end_ = std::max(step_end_ + step, std::nextafter(step_end_, kNever));
 }
 
+void Timeline::put(BodyIndex body, const RigidState& state) noexcept {
+  island_.setState(body, state);
+  changeKeptAfter(start_ - period_, body, [&](const RigidState&, double kept) {
+    return computeStart(state, time_ - kept);
+  });
+  setStart(body, computeStart(state, time_ - tick_start_));
+}
+
 void Timeline::keepStates(double time) noexcept {
   const auto copy = [&](std::vector<RigidState>& states) {
     for (std::size_t b = 0; b < states.size(); ++b)

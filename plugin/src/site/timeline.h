@@ -95,6 +95,9 @@ class Timeline {
     for (RigidState& state : start_states_) state.p_W += offset_W;
     snapshots_.shiftOrigin(offset_W);
   }
+  /// Puts a body elsewhere. Its kept states move along, so that none leads there from its old
+  /// place.
+  void put(BodyIndex body, const RigidState& state) noexcept;
   /// Sets the start state of a body that entered the island during the tick.
   void setStart(BodyIndex body, const RigidState& state) noexcept {
     start_states_[static_cast<std::size_t>(body)] = state;

@@ -60,6 +60,8 @@ struct SiteCounters {
   std::uint64_t promoted = 0;            ///< host bodies taken into the island
   std::uint64_t demoted = 0;             ///< host bodies given back to Bullet
   std::uint64_t objects_left = 0;        ///< times that a shared object was left to Bullet
+  std::uint64_t objects_reset = 0;       ///< times that the host put a shared object elsewhere
+  std::uint64_t resets_followed = 0;     ///< times that a peer's host did so
 };
 
 /// One user's side of a networked haptic cooperation, attached to a Bullet world of the host.

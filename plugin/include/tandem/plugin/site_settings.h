@@ -74,6 +74,10 @@ struct SiteSettings {
   /// Limit of the energy that the hand gets from the connection. Needs hand-off and an account at
   /// all sites.
   PassivitySettings passivity;
+  /// A peer's host that puts a shared object elsewhere takes our copy along at once. False: it is
+  /// led there in about two seconds, at up to 20 m/s, as always with a guide, a native model or
+  /// impulse injection.
+  bool puts_reset_objects = true;
   double max_slew = 1e4;         ///< limit of the device force's rise [N/s]; may be infinite
   double max_peer_speed = 20.0;  ///< a peer's state that moved faster counts as a jump and is led
                                  ///< to smoothly [m/s]; may be infinite
