@@ -264,6 +264,7 @@ void HapticBody::handOff(const RigidState& end, double dt, const Momentum& fores
   const RigidState start = state();
   if (!handed_.pending) handed_.flags = body_.getFlags();
   handed_.end = end;
+  handed_.p_W_start = start.p_W;
   handed_.q_WB_start = start.q_WB;
   handed_.pending = true;
   if (handed_.asleep) {
@@ -291,6 +292,11 @@ void HapticBody::handOff(const RigidState& end, double dt, const Momentum& fores
   handed_.expected_w = body_.getAngularVelocity() + by_torque;
   body_.setLinearVelocity(v);
   body_.setAngularVelocity(w);
+}
+
+Vec3 HapticBody::computeExpectedVelocity(const Vec3& arm_W) const noexcept {
+  if (!handed_.pending) return Vec3::Zero();
+  return fromBullet(handed_.expected_v) + fromBullet(handed_.expected_w).cross(arm_W);
 }
 
 HostChange HapticBody::restore() noexcept {
@@ -350,6 +356,7 @@ void HapticBody::park() noexcept {
   // Bullet decides about sleep, together with all bodies that it touches.
   if (sleep_ == Sleep::kAsHost && body_.isActive()) return;
   parked_ = slept_ = true;
+  handed_.p_W_start = handed_.end.p_W;
   rest_ = handed_.end;
   standStill();
   known_gravity_ = body_.getGravity();

@@ -105,6 +105,12 @@ class HapticBody {
   /// interpolation right.
   HostChange restore() noexcept;
 
+  /// Centre of mass while Bullet's solver acted in the last step, in W [m].
+  [[nodiscard]] const Vec3& solvedAt() const noexcept { return handed_.p_W_start; }
+  /// Pre-tick, after handOff(). Velocity of the point at `arm_W` from the centre [m] that Bullet's
+  /// solver starts with, in W [m/s].
+  [[nodiscard]] Vec3 computeExpectedVelocity(const Vec3& arm_W) const noexcept;
+
   /// Post-tick, after restore() or wakeIfHit(). Sets the state that the island made of the solver's
   /// change instead of the `end` of handOff().
   void place(const RigidState& state) noexcept;
@@ -166,7 +172,8 @@ class HapticBody {
   /// Data that handOff() leaves for restore().
   struct Handed {
     RigidState end;
-    Quat q_WB_start;                   // orientation when Bullet's solver acted
+    Vec3 p_W_start = Vec3::Zero();     // position when Bullet's solver acted
+    Quat q_WB_start;                   // orientation then
     btVector3 expected_v, expected_w;  // velocities after the step if only known forces act
     bool is_foreseen = false;          // `end` holds impulses of Bullet's solver
     int flags = 0;

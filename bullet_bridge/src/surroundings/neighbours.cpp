@@ -121,6 +121,30 @@ bool NeighbourSearch::isAnythingComing(const NeighbourSeed& seed, double horizon
   return comes;
 }
 
+bool NeighbourSearch::isStranger(const btCollisionObject& object) const {
+  if (object.isStaticObject() || !object.hasContactResponse()) return false;
+  const btRigidBody* body = btRigidBody::upcast(&object);
+  if (body == nullptr) return object.getInternalType() == btCollisionObject::CO_FEATHERSTONE_LINK;
+  return !contains(found_, body) && !std::binary_search(excluded_.begin(), excluded_.end(), body);
+}
+
+bool NeighbourSearch::isStrangerNear(const btRigidBody& body, double horizon) const {
+  const NeighbourSeed seed = makeSeed(body);
+  const Vec3 skin = Vec3::Constant(computeDistance(seed.v_W.norm() + kFastestComer, horizon));
+  bool is_near = false;
+  Visitor visitor([&](btCollisionObject* object) {
+    if (is_near || !isStranger(*object)) return;
+    const btVector3 v = object->getInterpolationLinearVelocity();
+    const Region box = computeRegion(*object->getCollisionShape(), object->getWorldTransform());
+    const NeighbourSeed other{fromBullet(box.low), fromBullet(box.high), fromBullet(v), {}};
+    const double speed = (seed.v_W - other.v_W).norm();
+    is_near = computeGap(seed, other) < computeDistance(speed, horizon);
+  });
+  host_.getBroadphase()->aabbTest(toBullet(Vec3(seed.low_W - skin)),
+                                  toBullet(Vec3(seed.high_W + skin)), visitor);
+  return is_near;
+}
+
 /// Makes the next wave: each candidate once, nearest first. Ties follow the order in which the host
 /// added them.
 void NeighbourSearch::takeNearest() {

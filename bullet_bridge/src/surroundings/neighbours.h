@@ -59,6 +59,10 @@ class NeighbourSearch {
   /// would report it. Joints are those of the last find().
   [[nodiscard]] bool isAnythingComing(const NeighbourSeed& seed, double horizon) const;
 
+  /// True if a stranger may touch `body` within `horizon` [s]: a moving object, with contact
+  /// response, that is neither excluded nor found.
+  [[nodiscard]] bool isStrangerNear(const btRigidBody& body, double horizon) const;
+
   /// True if the host's world has an awake kinematic body. Checks all objects.
   [[nodiscard]] bool isAnythingDriven() const;
 
@@ -74,6 +78,7 @@ class NeighbourSearch {
   void takeNearest();
   void findJointed();
   [[nodiscard]] bool mayBeNeighbour(const btRigidBody& body) const;
+  [[nodiscard]] bool isStranger(const btCollisionObject& object) const;
 
   btDiscreteDynamicsWorld& host_;
   std::size_t capacity_;

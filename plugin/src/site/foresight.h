@@ -23,8 +23,9 @@ class Foresight {
   /// Takes the solver's impulses `reaction` over a host step of `dt` [s]: a new force from `now`
   /// [s] on. Returns what the body gets at once.
   [[nodiscard]] Momentum expect(double now, double dt, const Momentum& reaction) noexcept {
-    const Momentum lasting{findLasting(reaction.linear_W, last_.linear_W),
-                           findLasting(reaction.angular_W, last_.angular_W)};
+    const Momentum lasting{
+        computeLastingShare(reaction.linear_W, last_.linear_W) * reaction.linear_W,
+        computeLastingShare(reaction.angular_W, last_.angular_W) * reaction.angular_W};
     last_ = reaction;
     if (lasting.isZero() && isNone()) return {};
     const Momentum kick{0.5 * lasting.linear_W, 0.5 * lasting.angular_W};
@@ -87,13 +88,6 @@ class Foresight {
     Vec3 f_W, t_W;  ///< [N, N m]
   };
 
-  /// The part of `now` that acted in the step before, too: a blow does not go on.
-  static Vec3 findLasting(const Vec3& now, const Vec3& before) noexcept {
-    const double common = now.dot(before), own = now.squaredNorm();
-    if (!(common > 0.0)) return Vec3::Zero();
-    return std::min(common / own, 1.0) * now;
-  }
-
   void add(const Part& part) noexcept {
     if (!parts_.empty() && parts_.size() == parts_.capacity()) parts_.erase(parts_.begin());
     if (parts_.size() < parts_.capacity()) parts_.push_back(part);
@@ -101,6 +95,20 @@ class Foresight {
 
   std::vector<Part> parts_;
   Momentum last_;
+};
+
+/// Force by which strangers press a body onto its supports. Bullet's view of the supports resists
+/// with as much, so the body's motion does not show it. The island needs it for friction, and for
+/// what the supports stand on.
+struct PressForce {
+  Vec3 f_W = Vec3::Zero(), t_W = Vec3::Zero();  ///< [N, N m]
+
+  /// Takes what lasts of the supports' impulses over a host step of `dt` [s].
+  void expect(double dt, const Momentum& lasting) noexcept {
+    f_W = -lasting.linear_W / dt;
+    t_W = -lasting.angular_W / dt;
+  }
+  [[nodiscard]] bool isNone() const noexcept { return f_W.isZero(0.0) && t_W.isZero(0.0); }
 };
 
 }  // namespace tandem

@@ -29,9 +29,11 @@ void HandOffStep::before(double dt) noexcept {
   if (site_.rest.isQuiet()) return;
   giveBack();
   handOff(dt);
+  site_.press.show(dt);
 }
 
 void HandOffStep::after(double dt) noexcept {
+  site_.press.takeOut();
   if (isWaiting()) return wait(dt);
   if (is_alone_) return site_.desk.run([&] { site_.clock.endStep(dt); });
   if (site_.rest.staysQuiet() && !site_.surroundings.isAnythingComing()) {
@@ -43,13 +45,14 @@ void HandOffStep::after(double dt) noexcept {
   }
   site_.rest.disturb();
   if (!findChanges()) return site_.desk.run([&] { site_.clock.endStep(dt); });
-  site_.bodies.forEachPresent([&](SiteBody& body) { takeBack(body); });
+  takeBack(dt);
   showPuts();
   site_.bodies.forEachPresent([&](SiteBody& body) { site_.rest.parkIfItStood(body); });
   if (!site_.ticksInHostStep()) site_.surroundings.lookAtDriven(step_end_);
   site_.objects.findReturned();
   // With a haptic thread the island's mirror is as old as Bullet's step.
   site_.surroundings.look(dt, step_end_, site_.desk.isOpen() ? dt : 0.0);
+  site_.press.look(dt);
   site_.desk.run([&] { goOut(dt); });
   site_.bodies.forEachPresent([](SiteBody& body) {
     if (body.step.shift.moved) body.bullet->place(body.step.end);
@@ -174,7 +177,26 @@ void HandOffStep::showPuts() noexcept {
 }
 
 /// Reads what Bullet's solver did: joints, and contact with bodies that the island does not hold.
-void HandOffStep::takeBack(SiteBody& body) noexcept {
+void HandOffStep::takeBack(double dt) {
+  site_.bodies.forEachPresent([&](SiteBody& body) { restore(body); });
+  site_.press.finish(dt);
+  site_.bodies.forEachPresent([&](SiteBody& body) {
+    HandOver& step = body.step;
+    HostChange& change = step.shift;
+    // A body that sleeps on lets its supports hold it.
+    if (body.bullet->isParked()) change = {};
+    const SupportRows::Given support =
+        body.bullet->isParked() ? SupportRows::Given{} : site_.press.computeSupport(body);
+    step.is_supported = !support.all.isZero();
+    step.lasting_support = support.lasting;
+    const Momentum& foreseen = step.foreseen.sum;
+    step.reaction = {dropRounding(change.impulse_W), dropRounding(change.angular_impulse_W)};
+    step.hit = {dropRounding(change.impulse_W - foreseen.linear_W),
+                dropRounding(change.angular_impulse_W - foreseen.angular_W)};
+  });
+}
+
+void HandOffStep::restore(SiteBody& body) noexcept {
   HostChange& change = body.step.shift;
   change = {};
   HapticBody& bullet = *body.bullet;
@@ -185,10 +207,6 @@ void HandOffStep::takeBack(SiteBody& body) noexcept {
   } else if (bullet.wakeIfHit(change)) {
     site_.rest.noteWoken(body);
   }
-  const Momentum& foreseen = body.step.foreseen.sum;
-  body.step.reaction = {dropRounding(change.impulse_W), dropRounding(change.angular_impulse_W)};
-  body.step.hit = {dropRounding(change.impulse_W - foreseen.linear_W),
-                   dropRounding(change.angular_impulse_W - foreseen.angular_W)};
 }
 
 /// A new neighbour may meet stretched springs. With a haptic thread the obstacles found now act

@@ -141,6 +141,7 @@ void HandOffStep::findEnds() noexcept {
     object.body.step.is_put = true;
     object.body.step.put = site_.peers.findPlace(object);
   }
+  site_.press.findContacts(step_end_);
 }
 
 /// The way out: the island takes solver impulses, neighbours and obstacles.

@@ -43,7 +43,8 @@ class HandOffStep final : public IslandStep {
   void lookAtBodies(double dt) noexcept;
   void lookAroundTeleports();
   void handOff(double dt) noexcept;
-  void takeBack(SiteBody& body) noexcept;
+  void takeBack(double dt);
+  void restore(SiteBody& body) noexcept;
   void showPuts() noexcept;
   void lookFarther();
   void fallQuiet();

@@ -36,8 +36,8 @@ void HostForces::setWeight(SiteBody& body, const Vec3& f_gravity_W) noexcept {
 
 void HostForces::renew(const SiteBody& body) noexcept {
   const HostLoad& load = body.load;
-  setWrench(body.index, load.f_gravity_W + load.f_host_W + load.foresight.force(),
-            load.t_host_W + load.foresight.torque());
+  setWrench(body.index, load.f_gravity_W + load.f_host_W + load.foresight.force() + load.press.f_W,
+            load.t_host_W + load.foresight.torque() + load.press.t_W);
 }
 
 void HostForces::setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept {
@@ -115,9 +115,10 @@ void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
     step.end = change(step.end, clock_.time());
     step.shift.moved = true;
   }
-  const bool was_none = body.load.foresight.isNone();
+  const bool was_none = body.load.foresight.isNone() && body.load.press.isNone();
+  body.load.press.expect(dt, step.lasting_support);
   const Momentum kick = body.load.foresight.expect(timeline_.time(), dt, step.reaction);
-  if (was_none && kick.isZero()) return;
+  if (was_none && kick.isZero() && body.load.press.isNone()) return;
   const RigidState before = island_.state(body.index);
   push(body, kick);
   step.end.v_W += island_.state(body.index).v_W - before.v_W;
@@ -159,6 +160,7 @@ void HostForces::end() noexcept {
   bodies_.forEach([&](SiteBody& body) {
     body.load.f_host_W = body.load.t_host_W = Vec3::Zero();
     body.load.foresight.end(timeline_.time());
+    body.load.press = {};
     setWrench(body.index, body.load.f_gravity_W, Vec3::Zero());
   });
 }

@@ -22,6 +22,7 @@ struct HostLoad {
   Momentum owed;                                          ///< of the host's forces, not yet given
   std::vector<LateMomentum> late;                         ///< not yet in Bullet's state; reserved
   Foresight foresight;                                    ///< of Bullet's contacts and joints
+  PressForce press;                                       ///< of strangers onto supports
 
   /// Allocates.
   void makeRoom() {
@@ -33,7 +34,7 @@ struct HostLoad {
   /// True if no force of the host acts, and none is owed or foreseen.
   [[nodiscard]] bool isSettled() const noexcept {
     return f_host_W == Vec3::Zero() && t_host_W == Vec3::Zero() && owed.isZero() &&
-           foresight.isNone();
+           foresight.isNone() && press.isNone();
   }
 
  private:
@@ -59,12 +60,15 @@ struct HandOver {
   bool was_near_awake = false;  ///< parked, but Bullet woke it: an awake body is near
   Momentum reaction;            ///< impulse of Bullet's solver
   Momentum hit;                 ///< part of it that was not foreseen
+  bool is_supported = false;    ///< part of it is from supports that the island has, too
+  Momentum lasting_support;     ///< what they gave in the step before, too
   HostChange shift;             ///< pose that it led to
   int steps_stood = 0;          ///< host steps without motion or impact
 
   /// Nothing is taken back from a body that leaves after this step.
   void forgetReaction() noexcept {
-    reaction = hit = {};
+    reaction = hit = lasting_support = {};
+    is_supported = false;
     shift = {};
     was_parked = true;
   }

@@ -33,6 +33,7 @@ SiteParts::SiteParts(const SiteSettings& wanted, btDiscreteDynamicsWorld& world,
       peers(settings, island, bodies, hand.energy(), log),
       sender(settings, island, timeline, bodies, hand, peers, log),
       surroundings(world, settings, island, timeline, clock, bodies, peers, hand, forces, log),
+      press(world, island, timeline, bodies, surroundings),
       objects(world, settings, island, timeline, bodies, peers, hand, forces, surroundings, log),
       rest(world, settings.hip_radius, log) {}
 

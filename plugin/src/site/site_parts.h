@@ -4,6 +4,7 @@
 #include "live/island_desk.h"
 #include "site/object_watch.h"
 #include "site/packet_sender.h"
+#include "site/press.h"
 #include "site/rest.h"
 #include "site/surroundings.h"
 
@@ -57,6 +58,7 @@ struct SiteParts {
   Peers peers;
   PacketSender sender;
   Surroundings surroundings;
+  Press press;
   ObjectWatch objects;
   Rest rest;
 };

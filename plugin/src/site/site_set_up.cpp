@@ -140,6 +140,7 @@ void Site::Impl::finishSetUp() {
   log.makeRoom(bodies.objects.size(), static_cast<std::size_t>(peers.count()));
   sender.setObjectCount(bodies.objects.size());
   surroundings.makeRoom();
+  press.makeRoom();
   bodies.forEach([](SiteBody& body) {
     body.load.makeRoom();
     body.bullet->remember();

@@ -96,6 +96,10 @@ class Surroundings {
   [[nodiscard]] bool isAnythingDriven() const;
   /// True if a body that the last look() did not find comes to the hand. Meanwhile the hand rests.
   [[nodiscard]] bool isAnythingComing() const;
+  /// True if a moving object that the island does not hold may touch the body within `horizon` [s].
+  [[nodiscard]] bool isStrangerNear(const SiteBody& body, double horizon) const {
+    return search_.isStrangerNear(body.bullet->body(), horizon);
+  }
   /// The host's world ends: takeObstacles() then removes all obstacles.
   void forgetWorld() { obstacles_.forgetWorld(); }
   /// @}

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "bodies/haptic_body.h"
+
+namespace tandem {
+
+/// A body at a contact, and where restore() or wakeIfHit() leave what Bullet's solver did to it.
+/// Both null: the solver does not move it.
+struct SupportBody {
+  const HapticBody* bullet = nullptr;
+  HostChange* change = nullptr;
+};
+
+/// One side of a line: a body, with its masses while Bullet's solver acts.
+struct SupportSide {
+  SupportBody body;
+  double mass = 1.0;                                            ///< [kg]
+  Vec3 arm_W = Vec3::Zero();                                    ///< from its centre [m]
+  Vec3 inverse_mass = Vec3::Zero();                             ///< along the axes of W [1/kg]
+  Eigen::Matrix3d inverse_inertia_W = Eigen::Matrix3d::Zero();  ///< [1/(kg m^2)]
+
+  SupportSide() = default;
+  SupportSide(const SupportBody& of, const Vec3& p_W);
+
+  /// Velocity of the contact that Bullet's solver starts with [m/s].
+  [[nodiscard]] Vec3 expect() const noexcept;
+  /// Change of that velocity by the solver [m/s].
+  [[nodiscard]] Vec3 computeChange() const noexcept;
+  /// Inverse of the mass that an impulse along an axis moves [1/kg].
+  [[nodiscard]] double computeInverseMass(const Vec3& along_W) const noexcept;
+  /// Adds an impulse [N s] to the change, and the way over `dt` [s] that it leads to.
+  void give(const Vec3& j_W, double dt) const noexcept;
+  [[nodiscard]] Momentum computeMomentum(const Vec3& j_W) const noexcept {
+    return {j_W, arm_W.cross(j_W)};
+  }
+};
+
+/// A contact of two bodies along one axis, and the impulse there in a step of the host.
+struct SupportLine {
+  SupportLine(const SupportBody& body_a, const SupportBody& body_b, const Vec3& p_W,
+              const Vec3& along, double free)
+      : a(body_a, p_W),
+        b(body_b, p_W),
+        along_W(along),
+        free_speed(free),
+        inverse_mass(a.computeInverseMass(along) + b.computeInverseMass(along)) {}
+
+  /// Relative velocity along the axis that Bullet's solver starts with [m/s].
+  [[nodiscard]] double expect() const noexcept { return along_W.dot(a.expect() - b.expect()); }
+  /// One step of a sweep: changes the impulse within limits [N s] until the axis holds. Returns the
+  /// size of the change.
+  double improve(double least, double most, double dt) noexcept;
+
+  SupportSide a, b;
+  Vec3 along_W;         ///< impulses along it push a
+  double free_speed;    ///< change of velocity along it that meets no resistance [m/s]
+  double inverse_mass;  ///< of both along it [1/kg]
+  double impulse = 0;   ///< on a [N s]
+};
+
+}  // namespace tandem
