@@ -98,6 +98,7 @@ struct SiteBody {
   void shiftOrigin(const Vec3& offset_W) noexcept {
     seen.p_W += offset_W;
     step.end.p_W += offset_W;
+    step.put.p_W += offset_W;
     if (bullet) bullet->shiftOrigin(offset_W);
   }
   /// Empties it for another body. It must not be held, which a haptic thread may be reading.
