@@ -734,6 +734,20 @@ class RunTime(unittest.TestCase):
                 site.close()
             return worst, way
 
+    def test_contact_points_of_pybullet(self):
+        """Contacts that stay PyBullet's come as from PyBullet."""
+        with Client(gravity=-9.81) as client, tandem.Site(far_hand(), client=client.id) as site:
+            cube, table = client.add_cube((0, 0, 0.0405)), client.add_cube(mass=0)
+            site.share(cube)
+            for _ in range(60):
+                site.step()
+            native = p.getContactPoints(cube, table, physicsClientId=client.id)
+            self.assertGreater(len(native), 0)
+            self.assertEqual(site.contact_points(cube, table), native)
+            self.assertEqual(site.contact_points(table), p.getContactPoints(
+                table, physicsClientId=client.id))
+            self.assertEqual(site.contact_points(77), ())
+
     def test_filters(self):
         """Pairs, groups and masks of bodies that PyBullet alone knows act on a shared body."""
         for kind in ("none", "pair", "mask"):

@@ -52,6 +52,31 @@ void setWorldGravity(btDiscreteDynamicsWorld& world, const Vec3& gravity_W) noex
   world.setGravity(toBullet(gravity_W));
 }
 
+std::vector<WorldContact> findContacts(btDiscreteDynamicsWorld& world) {
+  std::vector<WorldContact> contacts;
+  const auto rate = 1.0 / static_cast<double>(world.getSolverInfo().m_timeStep);
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      WorldContact contact;
+      contact.a = btRigidBody::upcast(manifold.getBody0());
+      contact.b = btRigidBody::upcast(manifold.getBody1());
+      contact.p_a = fromBullet(point.getPositionWorldOnA());
+      contact.p_b = fromBullet(point.getPositionWorldOnB());
+      contact.n = fromBullet(point.m_normalWorldOnB);
+      contact.distance = static_cast<double>(point.getDistance());
+      contact.force = rate * static_cast<double>(point.m_appliedImpulse);
+      contact.friction =
+          rate * fromBullet(point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+                            point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2);
+      contacts.push_back(contact);
+    }
+  }
+  return contacts;
+}
+
 void stepWorld(btDiscreteDynamicsWorld& world, double dt, int max_substeps, double fixed_step) {
   world.stepSimulation(static_cast<btScalar>(dt), max_substeps, static_cast<btScalar>(fixed_step));
 }

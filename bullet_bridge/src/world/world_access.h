@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "tandem/coordination/types.h"
 
 class btDiscreteDynamicsWorld;
@@ -34,6 +36,20 @@ void applyForce(btRigidBody& body, const Vec3& f_W, const Vec3& t_W) noexcept;
 
 /// Sets the gravity [m/s^2] of all bodies that use the world's.
 void setWorldGravity(btDiscreteDynamicsWorld& world, const Vec3& gravity_W) noexcept;
+
+/// A point of contact that Bullet's dispatcher knows. Vectors are in W.
+struct WorldContact {
+  const btRigidBody* a = nullptr;  ///< null: no rigid body
+  const btRigidBody* b = nullptr;
+  Vec3 p_a = Vec3::Zero(), p_b = Vec3::Zero();  ///< on the surfaces [m]
+  Vec3 n = Vec3::Zero();                        ///< on b, towards a
+  double distance = 0.0;                        ///< along n [m]; negative: they overlap
+  double force = 0.0;                           ///< on a along n in the latest step [N]
+  Vec3 friction = Vec3::Zero();                 ///< force on a across n [N]
+};
+
+/// All points of contact as of the latest step.
+[[nodiscard]] std::vector<WorldContact> findContacts(btDiscreteDynamicsWorld& world);
 
 /// Calls stepSimulation(). Throws if a callback of the host throws.
 void stepWorld(btDiscreteDynamicsWorld& world, double dt, int max_substeps, double fixed_step);

@@ -49,6 +49,8 @@ class World {
 
   /// Number of a body in the world; a known body keeps its number.
   TandemBody number(btRigidBody& rigid);
+  /// Number of a body that has one, else TANDEM_NO_BODY.
+  [[nodiscard]] TandemBody find(const btRigidBody* rigid) const noexcept;
   /// Reserves memory for the next number().
   void reserveNumber();
   void forget(TandemBody body) noexcept;

@@ -48,6 +48,12 @@ TandemBody World::number(btRigidBody& rigid) {
   return static_cast<TandemBody>(bodies_.size());
 }
 
+TandemBody World::find(const btRigidBody* rigid) const noexcept {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i] && bodies_[i]->rigid == rigid) return static_cast<TandemBody>(i + 1);
+  return TANDEM_NO_BODY;
+}
+
 void World::reserveNumber() { bodies_.reserve(bodies_.size() + 1); }
 
 void World::forget(TandemBody body) noexcept { bodies_[body - 1].reset(); }

@@ -35,6 +35,7 @@ const Commands::Entry Commands::kTable[] = {
     {"hand", &Commands::hand, false},
     {"force", &Commands::force, false},
     {"read", &Commands::read, false},
+    {"contacts", &Commands::contacts, false},
     {"warnings", &Commands::warnings, false},
     {"push", &Commands::push, true},
     {"pop", &Commands::pop, false},
@@ -187,6 +188,21 @@ void Commands::read(Words& words, Reply& reply) {
   for (const TandemState& state : all.objects) reply.put(state);
   for (const TandemState& state : all.proxies) reply.put(state);
   for (const int state : all.links) reply.put(static_cast<double>(state));
+}
+
+void Commands::contacts(Words& words, Reply& reply) {
+  words.finish();
+  const std::vector<Session::Contact> contacts = session_.contacts();
+  reply.put(static_cast<double>(contacts.size()));
+  for (const Session::Contact& contact : contacts) {
+    const TandemContact& at = contact.in_tandem;
+    reply.put(static_cast<double>(contact.body_a));
+    reply.put(static_cast<double>(contact.body_b));
+    for (const double* vector : {at.point_a, at.point_b, at.normal}) reply.put(vector, 3);
+    reply.put(at.distance);
+    reply.put(at.force);
+    reply.put(at.friction, 3);
+  }
 }
 
 void Commands::warnings(Words& words, Reply& reply) {

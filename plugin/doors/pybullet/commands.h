@@ -56,6 +56,7 @@ class Commands {
   void hand(Words&, Reply&);
   void force(Words&, Reply&);
   void read(Words&, Reply&);
+  void contacts(Words&, Reply&);
   void warnings(Words&, Reply&);
   void push(Words&, Reply&);
   void pop(Words&, Reply&);

@@ -87,6 +87,13 @@ class Session {
   std::string explainPeer(std::uint32_t peer) const;
   TandemLink* manualLink(int link) const;
   void read(SessionReading& reading) const;
+  /// Contacts in Tandem's world, of which PyBullet does not know. Its bodies have PyBullet's
+  /// numbers there; -1: a body that PyBullet does not have.
+  struct Contact {
+    int body_a, body_b;
+    TandemContact in_tandem;
+  };
+  std::vector<Contact> contacts() const;
   /// Facts that a user should know, one line each: from set-up, and since then.
   std::string warnings() const;
 
@@ -130,6 +137,7 @@ class Session {
   template <typename ShareGuest>
   int shareGuest(int body, const Piece* shape, ShareGuest share);
   std::size_t findObject(int object) const;
+  int findBody(TandemBody id) const;
   void release(std::size_t moving, bool is_there);
   void lose(std::size_t moving, BorrowedBody::Presence presence);
   void loseObstacle(std::size_t standing, BorrowedBody::Presence presence);

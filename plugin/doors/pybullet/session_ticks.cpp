@@ -212,6 +212,29 @@ void Session::read(SessionReading& out) const {
   if (out.has_ended) std::fill_n(reading.force, 3, 0.0);
 }
 
+/// PyBullet's number of a body in Tandem's world.
+int Session::findBody(TandemBody id) const {
+  for (const Moving& one : moving_)
+    if (one.id == id) return one.body.number();
+  for (const Standing& one : standing_)
+    if (std::find(one.ids.begin(), one.ids.end(), id) != one.ids.end()) return one.body.number();
+  return -1;
+}
+
+std::vector<Session::Contact> Session::contacts() const {
+  requireSite();
+  std::size_t count = 0;
+  check(tandem_world_get_contacts(world_.get(), 0, nullptr, &count));
+  std::vector<TandemContact> found(count);
+  check(tandem_world_get_contacts(world_.get(), count, found.data(), &count));
+  std::vector<Contact> contacts;
+  contacts.reserve(count);
+  for (const TandemContact& contact : found) {
+    contacts.push_back({findBody(contact.a), findBody(contact.b), contact});
+  }
+  return contacts;
+}
+
 std::string Session::warnings() const {
   std::string text;
   if (site_) {

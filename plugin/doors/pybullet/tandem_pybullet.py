@@ -275,6 +275,29 @@ class Site:
         """States of the shared bodies in the haptic island."""
         return self.read().objects
 
+    def contact_points(self, body_a=-1, body_b=-1):
+        """Like p.getContactPoints(body_a, body_b), with the contacts that Tandem solves as well: between
+        shared bodies, obstacles and proxies, which PyBullet does not see. Tuples are as PyBullet's,
+        with link -1; the friction of Tandem's is in the first direction, as one force."""
+        bodies = {key: body for key, body in (("bodyA", body_a), ("bodyB", body_b)) if body >= 0}
+        points = list(pybullet.getContactPoints(physicsClientId=self._client, **bodies) or ())
+        numbers = self._ask("contacts")
+        for at in range(1, 1 + 16 * int(numbers[0]), 16):
+            a, b = int(numbers[at]), int(numbers[at + 1])
+            on_a, on_b, normal = (tuple(numbers[at + i:at + i + 3]) for i in (2, 5, 8))
+            friction = numbers[at + 13:at + 16]
+            if body_a not in (-1, a) or body_b not in (-1, b):
+                if body_a not in (-1, b) or body_b not in (-1, a):
+                    continue
+                a, b, on_a, on_b = b, a, on_b, on_a
+                normal = tuple(-x for x in normal)
+                friction = [-x for x in friction]
+            size = sum(x * x for x in friction) ** 0.5
+            along = tuple(x / size for x in friction) if size > 0 else (0.0, 0.0, 0.0)
+            points.append((0, a, b, -1, -1, on_a, on_b, normal, numbers[at + 11], numbers[at + 12],
+                           size, along, 0.0, (0.0, 0.0, 0.0)))
+        return tuple(points)
+
     def mesh_status(self, peer):
         """PeerStatus of a peer of the mesh; `phase` is one of PHASES, times in seconds."""
         phase, silence, round_trip, loss = self._ask("mesh_status", peer=peer)

@@ -181,6 +181,23 @@ TandemResult tandem_world_set_dynamics(TandemWorld* world, TandemBody body,
 TandemResult tandem_world_apply_force(TandemWorld* world, TandemBody body, const double force[3],
                                       const double torque[3]);
 
+/* A point at which two bodies touch, in W. */
+typedef struct TandemContact {
+  TandemBody a; /* TANDEM_NO_BODY: a body without a number */
+  TandemBody b;
+  double point_a[3]; /* on the surface of each [m] */
+  double point_b[3];
+  double normal[3];   /* on b, towards a */
+  double distance;    /* along the normal [m]; negative: they overlap */
+  double force;       /* on a along the normal, in the latest step [N] */
+  double friction[3]; /* force on a across the normal [N] */
+} TandemContact;
+
+/* Reads the contacts of the world as of its latest step, with those that the island solves. Writes
+   at most `room`; `count` receives how many there are. [host] */
+TandemResult tandem_world_get_contacts(const TandemWorld* world, size_t room,
+                                       TandemContact* contacts, size_t* count);
+
 /* Steps a world of Tandem's like Bullet's stepSimulation(): up to `max_substeps` of `fixed_step`
    [s]. With max_substeps 0 it makes one step of dt. [host] */
 TandemResult tandem_world_step(TandemWorld* world, double dt, int max_substeps, double fixed_step);
