@@ -734,6 +734,28 @@ class RunTime(unittest.TestCase):
                 site.close()
             return worst, way
 
+    def test_names(self):
+        """Two users who share in different orders pair the same bodies."""
+        with Client(60) as here, Client(60) as there:
+            sites, bodies = [], []
+            for i, client in enumerate((here, there)):
+                ball, cube = client.add_cube((0, 0, 0)), client.add_cube((0, 0.5, 0))
+                bodies.append((ball, cube))
+                site = tandem.Site(far_hand(), self_id=i + 1, client=client.id)
+                names = {"ball": ball, "cube": cube} if i else {"cube": cube, "ball": ball}
+                self.assertEqual(site.share_all(names), {"ball": 0, "cube": 1})
+                site.connect(2 - i, site.simulated_link("named"), (10, 0, 0), None)
+                sites.append(site)
+            p.resetBaseVelocity(bodies[0][0], (0.2, 0, 0), physicsClientId=here.id)
+            for _ in range(60):
+                for site in sites:
+                    site.step()
+            for client, (ball, cube) in zip((here, there), bodies):
+                self.assertGreater(client.position(ball)[0], 3e-3)
+                self.assertAlmostEqual(client.position(cube)[0], 0, delta=1e-6)
+            for site in sites:
+                site.close()
+
     def test_contact_points_of_pybullet(self):
         """Contacts that stay PyBullet's come as from PyBullet."""
         with Client(gravity=-9.81) as client, tandem.Site(far_hand(), client=client.id) as site:

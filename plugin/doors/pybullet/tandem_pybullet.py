@@ -168,6 +168,12 @@ class Site:
             return self._command_with_shape("share", body, shape, object=object)
         return self._command_with_shape("share", body, shape, damping=damping)
 
+    def share_all(self, bodies, damping=0.0):
+        """Shares bodies by name: {"cube": body, "ball": other}. Returns {name: number of the object}.
+        Numbers follow the order of the names, so users who share the same names pair the same
+        objects, whatever the order of theirs. Comes before share(); give the names to mesh()."""
+        return {name: self.share(bodies[name], damping) for name in sorted(bodies)}
+
     def unshare(self, object):
         """Gives a shared object back to PyBullet, with its own mass and its velocity. The others stay
         shared; share(body, object=...) shares a body for it again. Between any two steps."""
@@ -223,15 +229,16 @@ class Site:
         """A link that the script carries: send what Link.pop() returns, Link.push() what arrives."""
         return Link(self, self._command("link", kind="manual"))
 
-    def mesh(self, self_id, bind, peers, agreements=None):
+    def mesh(self, self_id, bind, peers, agreements=None, objects=()):
         """Sealed UDP links to all `peers` over one socket bound to `bind`, "0.0.0.0:7001". Returns
-        {peer's id: Link}. `agreements`: {key: value} that must be equal at all sites. Step in real
-        time."""
+        {peer's id: Link}. `agreements`: {key: value} that must be equal at all sites, and so must the
+        names `objects`, of share_all(). Step in real time."""
         # Make all lines first: an invalid one must not leave the others waiting in the plugin.
         lines = [_line("peer", {"id": peer.id, "key": peer.key, "address": peer.address})
                  for peer in peers]
         lines += [_line("agree", {"key": key, "value": value})
-                  for key, value in (agreements or {}).items()]
+                  for key, value in [*(agreements or {}).items(),
+                                     *((f"object.{name}", "shared") for name in objects)]]
         for line in lines:
             self._check(self._send(line))
         self._command("mesh", self=self_id, bind=bind)

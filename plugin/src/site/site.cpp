@@ -10,6 +10,9 @@ Site::Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticD
 Site::~Site() = default;
 
 ObjectId Site::share(btRigidBody& body, double damping) { return impl_->share(body, damping); }
+std::vector<ObjectId> Site::share(const std::vector<NamedBody>& bodies) {
+  return impl_->share(bodies);
+}
 void Site::share(ObjectId id, btRigidBody& body) { impl_->share(id, body); }
 void Site::unshare(ObjectId id) { impl_->unshare(id); }
 void Site::shiftOrigin(const Vec3& offset_W) { impl_->shiftOrigin(offset_W); }

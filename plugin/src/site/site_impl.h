@@ -20,6 +20,7 @@ struct Site::Impl final : HostStepListener, SiteParts {
 
   // Set-up: site_set_up.cpp
   ObjectId share(btRigidBody& rigid, double damping);
+  std::vector<ObjectId> share(const std::vector<NamedBody>& named);
   void share(ObjectId id, btRigidBody& rigid);
   void unshare(ObjectId id);
   void connect(PeerId id, Link& link, const Vec3& start_W);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tandem/bullet_bridge/bullet_abi.h"
+#include "tandem/coordination/configuration.h"
 #include "tandem/plugin/site_settings.h"
 
 class btDiscreteDynamicsWorld;
@@ -64,6 +65,17 @@ struct SiteCounters {
   std::uint64_t resets_followed = 0;     ///< times that a peer's host did so
 };
 
+/// A body with the name by which all peers know its object.
+struct NamedBody {
+  std::string name;  ///< 1 to 57 characters of A-Z a-z 0-9 . _ -
+  btRigidBody* body = nullptr;
+  double damping = 0.0;  ///< of this copy [N s/m]
+};
+
+/// Items for a mesh's configuration, by which peers compare the names of their objects before they
+/// are coupled: "object.cube", "shared". Throws std::invalid_argument for an invalid name.
+[[nodiscard]] std::vector<ConfigurationItem> describeObjects(const std::vector<std::string>& names);
+
 /// One user's side of a networked haptic cooperation, attached to a Bullet world of the host.
 ///
 /// A tick reads the device, takes the packets that arrived, renders the force and advances the
@@ -108,10 +120,17 @@ class Site {
   /// all move as one mass m would.
   ///
   /// `damping` b acts on this copy [N s/m]. All peers share the same objects in the same order,
-  /// which identifies them. At most kMaxSharedObjects. With hand-off the body sleeps in Bullet
-  /// while it rests and costs no more than any sleeping body; motion, pushes and hits wake it.
-  /// Throws tandem::Error with the reason for a body that cannot be shared.
+  /// which identifies them, or by name. At most kMaxSharedObjects. With hand-off the body sleeps in
+  /// Bullet while it rests and costs no more than any sleeping body; motion, pushes and hits wake
+  /// it. Throws tandem::Error with the reason for a body that cannot be shared.
   ObjectId share(btRigidBody& body, double damping = 0.0);
+
+  /// Shares bodies by name, in any order: an object's id is the place of its name among all names
+  /// in rising order. So peers that share the same names pair the same objects; describeObjects()
+  /// lets a mesh compare the names. Returns the ids in the order of `bodies`. Comes before any
+  /// other share(). Throws as that one, and for an invalid name or one that occurs twice; then
+  /// nothing is shared.
+  std::vector<ObjectId> share(const std::vector<NamedBody>& bodies);
 
   /// Gives a shared object back to Bullet, with its own mass and the velocity that it has. Peers
   /// let go of their copies after 16 packets without it, and the other objects stay shared. At any
