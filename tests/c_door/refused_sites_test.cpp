@@ -50,6 +50,16 @@ std::vector<Case> siteCases() {
          TandemSite* site = nullptr;
          return tandem_site_create(&settings, scene.world, scene.spare, &site);
        }},
+      {"ShiftOwnWorld", TANDEM_CANNOT, "a world of Tandem's keeps its origin",
+       [](Scene& scene) {
+         const double offset[3] = {1.0, 0.0, 0.0};
+         return tandem_site_shift_origin(scene.site, offset);
+       }},
+      {"ShiftByNan", TANDEM_INVALID_ARGUMENT, "offset",
+       [](Scene& scene) {
+         const double offset[3] = {1.0, kNan, 0.0};
+         return tandem_site_shift_origin(scene.site, offset);
+       }},
       {"ShareStatic", TANDEM_CANNOT, "is static; give a shared object a mass",
        [](Scene& scene) { return tandem_site_share(scene.site, scene.wall, 0.0, nullptr); }},
       {"ShareTwice", TANDEM_CANNOT, "is shared already",

@@ -115,5 +115,25 @@ TEST(DoorUnshare, NamesTheObjectThatIsMissing) {
   EXPECT_NE(warningsOf(of).find("object 0 is left to Bullet"), std::string::npos);
 }
 
+// A host's whole world is moved: no force, and no velocity.
+TEST(DoorOrigin, IsShiftedWithTheHostsWorld) {
+  BulletRig rig;
+  TandemWorld* world = nullptr;
+  ok(tandem_world_attach(&rig.world, TANDEM_ATTACH_ABI, &world));
+  DoorSite of(world, FreeDoorCube::makeSettings());
+  btRigidBody& cube = rig.addCube(0.2, 0.02, Vec3::Zero());
+  TandemBody body = TANDEM_NO_BODY;
+  ok(tandem_world_find_body(world, &cube, &body));
+  ok(tandem_site_share(of.site, body, 0.0, nullptr));
+  rig.step(1.0 / 60.0);
+  const double offset[3] = {64.0, 0.0, 0.0};
+  cube.setCenterOfMassTransform(toBullet(Vec3(64.0, 0.0, 0.0), Quat::Identity()));
+  ok(tandem_site_shift_origin(of.site, offset));
+  rig.step(1.0 / 60.0);
+  EXPECT_EQ(of.object().position[0], 64.0);
+  EXPECT_EQ(of.object().velocity[0], 0.0);
+  EXPECT_EQ(cube.getCenterOfMassPosition().x(), btScalar(64.0));
+}
+
 }  // namespace
 }  // namespace tandem

@@ -72,6 +72,14 @@ void SiteEnd::unshare(std::uint32_t object) {
   shared_[object] = TANDEM_NO_BODY;
 }
 
+void SiteEnd::shiftOrigin(const Vec3& offset_W) {
+  (void)world_.bullet();
+  if (world_.isOwn())
+    throw Error(
+        "a world of Tandem's keeps its origin; only a host's own Bullet world can be shifted");
+  site_.shiftOrigin(offset_W);
+}
+
 void SiteEnd::shareAgain(std::uint32_t object, TandemBody body) {
   checkObject(object);
   WorldBody& known = findShareable(world_, body, shared_[object]);

@@ -33,6 +33,7 @@ class SiteEnd {
   void unshare(std::uint32_t object);
   void shareAgain(std::uint32_t object, TandemBody body);
   [[nodiscard]] TandemObjectState objectState(std::uint32_t object) const;
+  void shiftOrigin(const Vec3& offset_W);
   TandemBody connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W);
   std::uint32_t tick(double now);
   void startLoop(int priority);

@@ -105,6 +105,10 @@ TandemResult tandem_site_share_again(TandemSite* site, uint32_t object, TandemBo
   return guarded([&] { open(site).shareAgain(object, body); });
 }
 
+TandemResult tandem_site_shift_origin(TandemSite* site, const double offset[3]) {
+  return guarded([&] { open(site).shiftOrigin(readVec3("offset", offset)); });
+}
+
 TandemResult tandem_site_object_state(const TandemSite* site, uint32_t object,
                                       TandemObjectState* state) {
   return guarded([&] {

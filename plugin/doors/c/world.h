@@ -46,6 +46,7 @@ class World {
   [[nodiscard]] BulletAbi abi() const noexcept { return abi_; }
   /// Throws std::invalid_argument for a host's world. `what` names the refused function.
   [[nodiscard]] OwnWorld& own(const char* what) const;
+  [[nodiscard]] bool isOwn() const noexcept { return own_ != nullptr; }
 
   /// Number of a body in the world; a known body keeps its number.
   TandemBody number(btRigidBody& rigid);

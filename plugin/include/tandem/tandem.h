@@ -467,6 +467,11 @@ TandemResult tandem_site_unshare(TandemSite* site, uint32_t object);
    [host] */
 TandemResult tandem_site_share_again(TandemSite* site, uint32_t object, TandemBody body);
 
+/* Tells that the host has moved all of its Bullet world by `offset` since its last step, to keep
+   its numbers small. Touch and couplers go on, the device's positions go along, and peers notice
+   nothing. Fails for a world of Tandem's. [host] */
+TandemResult tandem_site_shift_origin(TandemSite* site, const double offset[3]);
+
 /* Who moves a shared object. */
 typedef enum TandemObjectState {
   TANDEM_OBJECT_HELD = 0,    /* the island */

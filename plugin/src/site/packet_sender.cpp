@@ -108,8 +108,7 @@ void PacketSender::send(double time) noexcept {
     const RigidState told = frame.toSession(state(i));
     if (!bodies_.objects[i].is_sent || !maySend(told)) continue;
     sent_[i] = state(i);
-    packet.objects[packet.object_count++] = {bodies_.objects[i].id, told,
-                                             bodies_.objects[i].said};
+    packet.objects[packet.object_count++] = {bodies_.objects[i].id, told, bodies_.objects[i].said};
   }
   peers_.send(packet, time);
   ++log_.counters.packets_sent;
