@@ -9,6 +9,7 @@
 
 #include "coordination/src/island/collision_filter.h"
 
+class btCollisionObject;
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
