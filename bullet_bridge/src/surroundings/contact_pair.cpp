@@ -184,6 +184,7 @@ void ContactPair::report(const PartPair& pair, WorkSpace& work) const noexcept {
     if (std::abs(contact.distance) < kRounding) contact.distance = 0.0;
     contact.a = a->index;
     contact.b = b->index;
+    contact.surface = b->index == kStanding ? b->original : nullptr;
     contact.n_W = side * fromBullet(point.m_normalWorldOnB).normalized();
     contact.p_W =
         work.origin_W +

@@ -11,6 +11,7 @@
 #include "surroundings/contact_search.h"
 #include "surroundings/known_shapes.h"
 #include "surroundings/obstacle_search.h"
+#include "surroundings/shown_contacts.h"
 #include "world/world_lookup.h"
 
 namespace tandem {
@@ -54,9 +55,13 @@ struct Obstacles::Impl {
 
   explicit Impl(btDiscreteDynamicsWorld& world)
       : host(world),
+        shown(world),
         search(static_cast<double>(world.getSolverInfo().m_restitutionVelocityThreshold)) {}
 
   [[nodiscard]] btCollisionObject* findBody(BodyIndex index) const;
+  [[nodiscard]] btCollisionObject* findPartner(const RigidContact& contact) const;
+  void showPair(std::vector<const ContactSum*>::iterator first,
+                std::vector<const ContactSum*>::iterator last);
   void remove(btCollisionObject* original);
   void unfilter(const PrivateCopy& keeper, const PrivateCopy& other);
   void forgetOrphans();
@@ -86,6 +91,7 @@ struct Obstacles::Impl {
   }
 
   btDiscreteDynamicsWorld& host;
+  ShownContacts shown;
   ContactSearch search;
   std::vector<Ball> balls;
   std::vector<Obstacle> near_spheres, next_near_spheres;
@@ -96,6 +102,8 @@ struct Obstacles::Impl {
   // Work space of update().
   std::vector<btCollisionObject*> found;
   std::vector<Region> regions;
+  // Work space of showContacts().
+  std::vector<const ContactSum*> points, points_of_pair;
 };
 
 Obstacles::Obstacles(btDiscreteDynamicsWorld& host) : impl_(std::make_unique<Impl>(host)) {}
@@ -128,6 +136,7 @@ void Obstacles::forgetWorld() {
   while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
   while (!impl_->search.standing().empty())
     impl_->remove(impl_->search.standing().back()->original);
+  impl_->shown.clear();
   impl_->search.prepare();
   impl_->next_near_spheres.clear();
   impl_->has_next = true;
@@ -186,6 +195,57 @@ void Obstacles::lookAround(const std::vector<RigidState>& states, const std::vec
 void Obstacles::find(const std::vector<RigidState>& states,
                      std::vector<RigidContact>& contacts) noexcept {
   impl_->search.find(states, contacts);
+}
+
+void Obstacles::hideContacts() noexcept { impl_->shown.hide(); }
+void Obstacles::unhideContacts() { impl_->shown.unhide(); }
+
+void Obstacles::showContacts(const std::vector<ContactSum>& sums, const std::vector<char>& still) {
+  Impl& impl = *impl_;
+  impl.shown.hide();
+  impl.shown.begin();
+  impl.points.clear();
+  for (const ContactSum& sum : sums) impl.points.push_back(&sum);
+  const auto bodies_of = [](const ContactSum* sum) {
+    return std::pair(sum->contact.a, sum->contact.b);
+  };
+  std::stable_sort(
+      impl.points.begin(), impl.points.end(),
+      [&](const ContactSum* x, const ContactSum* y) { return bodies_of(x) < bodies_of(y); });
+  for (auto first = impl.points.begin(); first != impl.points.end();) {
+    const auto is_of_pair = [&](const ContactSum* sum) {
+      return bodies_of(sum) == bodies_of(*first) &&
+             sum->contact.surface == (*first)->contact.surface;
+    };
+    // Of a body's points on several fixed surfaces those on the first come first.
+    const auto last = std::stable_partition(first, impl.points.end(), is_of_pair);
+    impl.showPair(first, last);
+    first = last;
+  }
+  const auto is_still = [&](BodyIndex body) {
+    return body == kStanding || still[static_cast<std::size_t>(body)] != 0;
+  };
+  impl.shown.end([&](BodyIndex a, BodyIndex b) { return is_still(a) && is_still(b); });
+}
+
+/// Bodies may have left since the points were counted.
+void Obstacles::Impl::showPair(std::vector<const ContactSum*>::iterator first,
+                               std::vector<const ContactSum*>::iterator last) {
+  const btCollisionObject* a = findBody((*first)->contact.a);
+  const btCollisionObject* b = findPartner((*first)->contact);
+  if (a == nullptr || b == nullptr) return;
+  points_of_pair.assign(first, last);
+  shown.show(*a, *b, points_of_pair);
+}
+
+/// Null if it is known no more, or not in the world.
+btCollisionObject* Obstacles::Impl::findPartner(const RigidContact& contact) const {
+  if (contact.b != kStanding) return findBody(contact.b);
+  for (const auto& object : search.standing())
+    if (object->original == contact.surface &&
+        findInWorld(host, object->original, object->world_index) >= 0)
+      return object->original;
+  return nullptr;
 }
 
 std::uint64_t Obstacles::searches() const noexcept { return impl_->search.searches(); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coordination/src/island/contact_finder.h"
+#include "coordination/src/island/contact_tally.h"
 #include "coordination/src/island/island.h"
 
 class btDiscreteDynamicsWorld;
@@ -89,6 +90,14 @@ class Obstacles final : public ContactFinder {
                   std::vector<char>& awake, std::vector<char>& near) noexcept override;
   void find(const std::vector<RigidState>& states,
             std::vector<RigidContact>& contacts) noexcept override;
+
+  /// For the host's thread, before and after Bullet's step: the host sees the contacts that the
+  /// island decided, as manifolds of its world with their impulses (ShownContacts).
+  void hideContacts() noexcept;
+  void unhideContacts();
+  /// New contacts, for unhideContacts(). `still`, by index: bodies that nothing moves now. Pairs at
+  /// rest stay shown until one of the two moves.
+  void showContacts(const std::vector<ContactSum>& sums, const std::vector<char>& still);
 
   /// Number of pairs passed to Bullet's narrowphase so far.
   [[nodiscard]] std::uint64_t searches() const noexcept;

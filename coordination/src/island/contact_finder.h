@@ -26,6 +26,8 @@ struct RigidContact {
   double min_bounce_speed = 0.0;  ///< restitution acts above this approach speed [m/s]
   /// Greatest torque against rolling, and against spinning about n, per normal force [m].
   double rolling = 0.0, spinning = 0.0;
+  /// The finder's mark of a fixed surface, for its own use.
+  const void* surface = nullptr;
 };
 
 /// Finds rigid contacts between bodies of the island, and with fixed surfaces.

@@ -167,6 +167,20 @@ void Island::shiftOrigin(const Vec3& offset_W) noexcept {
   if (impl.spatial) impl.spatial->shiftOrigin(offset_W);
 }
 
+void Island::cutContacts(double duration) noexcept {
+  if (!impl_->spatial) return;
+  impl_->spatial->tally().cut(duration, [&](BodyIndex body) { return isStill(body); });
+}
+
+const std::vector<ContactSum>& Island::takeContacts() noexcept {
+  static const std::vector<ContactSum> none;
+  return impl_->spatial ? impl_->spatial->tally().take() : none;
+}
+
+bool Island::isStill(BodyIndex body) const noexcept {
+  return !isDynamic(body) || (impl_->spatial && impl_->spatial->isResting(body));
+}
+
 void Island::passTime(double dt) noexcept {
   if (impl_->isLettingIn()) impl_->endJumps(dt);
 }

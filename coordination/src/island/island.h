@@ -10,6 +10,7 @@
 
 #include "island/collision_filter.h"
 #include "island/contact_finder.h"
+#include "island/contact_tally.h"
 #include "island/virtual_coupler.h"
 
 #pragma GCC visibility push(default)
@@ -193,6 +194,14 @@ class Island {
   void advance(double dt) noexcept;
   /// Lets `dt` [s] pass for an owner that moves the bodies itself.
   void passTime(double dt) noexcept;
+  /// A host step of `duration` [s] ends now, for takeContacts().
+  void cutContacts(double duration) noexcept;
+  /// Points of rigid contact in the host steps since the last call, for a host that wants to see
+  /// them. Those between bodies that rest are reported once, and last. Valid until the next
+  /// cutContacts().
+  [[nodiscard]] const std::vector<ContactSum>& takeContacts() noexcept;
+  /// True if no contact moves the body: it rests on something rigid, or forces move it never.
+  [[nodiscard]] bool isStill(BodyIndex body) const noexcept;
   /// Moves the slots through the past `duration` [s], for bodies that enter with a state older than
   /// the island's. They touch each other, fixed surfaces and all other bodies. The other bodies
   /// move steadily from `from` to `to` and deviate where a slot pushes them. `asides` has their

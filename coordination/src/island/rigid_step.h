@@ -51,6 +51,14 @@ class RigidStep {
   /// Forgets the last step: the next one does not follow it.
   void forget() noexcept;
 
+  /// Calls `visit(contact, impulse)` for each point of the last step with its impulse on body a, in
+  /// W [N s].
+  template <typename Visit>
+  void visitPoints(Visit visit) const {
+    for (const Point& point : points_)
+      visit(point.contact, point.row.toWorld(point.row.impulse).toVec3());
+  }
+
   /// Number of contact points solved so far, and of their relaxations.
   [[nodiscard]] std::uint64_t points() const noexcept { return point_count_; }
   [[nodiscard]] std::uint64_t relaxations() const noexcept { return relaxation_count_; }

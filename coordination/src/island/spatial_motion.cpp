@@ -44,6 +44,7 @@ bool any(const std::vector<char>& flags) noexcept {
 SpatialMotion::SpatialMotion(const IslandModel& model)
     : rigid_step_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
       rigid_step_aside_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
+      tally_(model.finder ? kMaxRigidContacts : 0),
       smooth_(model, countMostTouches(model)),
       sleepers_(model) {
   const std::size_t n = model.bodies.size();
@@ -75,6 +76,7 @@ void SpatialMotion::refit(const IslandModel& model, BodyIndex b, bool is_damping
 void SpatialMotion::setAside() noexcept {
   std::swap(rigid_step_, rigid_step_aside_);
   rigid_step_.forget();
+  is_aside_ = true;
   resting_aside_ = resting_;
   still_aside_ = still_;
 }
@@ -82,6 +84,7 @@ void SpatialMotion::setAside() noexcept {
 void SpatialMotion::takeBack(const IslandModel& model,
                              const std::vector<BodyIndex>& slots) noexcept {
   std::swap(rigid_step_, rigid_step_aside_);
+  is_aside_ = false;
   for (std::size_t b = 0; b < resting_.size(); ++b) prepareAlone(model, static_cast<BodyIndex>(b));
   smooth_.chooseLimits(model);
   resting_ = resting_aside_;
@@ -115,6 +118,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
   if (!model.is_listed) model.listPresent();
   for (const BodyIndex b : model.present) states_[b] = model.bodies[b].state;
   findLoners(model, dt, counters);
+  if (!is_aside_) tally_.startAdvance();
 
   if (any(together_)) {
     smooth_.choose(model, together_, alone_, touches_);
@@ -123,6 +127,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
   advanceAlone(model, dt);
   if (mustRepeat(model, dt)) {
     ++counters.repeated;
+    if (!is_aside_) tally_.startAdvance();
     double way = 0.0;
     for (const BodyIndex b : model.present)
       way = std::max(way, (states_[b].p_W - model.bodies[b].state.p_W).norm());
@@ -144,6 +149,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
     advanceTogether(model, dt, counters);
     advanceAlone(model, dt);
   }
+  if (!is_aside_) tally_.endAdvance();
   if (model.finder) letRest(model, dt);
   bool at_rest = true;
   for (const BodyIndex b : model.present) {
@@ -356,8 +362,13 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
     const bool foreseen = rigid_step_.correct(model, *model.finder, before_rigid_, h, states_);
     counters.rigid_points = rigid_step_.points();
     counters.rigid_relaxations = rigid_step_.relaxations();
-    if (foreseen) return;
+    if (foreseen) break;
   }
+  if (is_aside_) return;
+  tally_.startStep(h);
+  rigid_step_.visitPoints([&](const RigidContact& contact, const Vec3& impulse_W) {
+    tally_.count(contact, impulse_W);
+  });
 }
 
 /// Finds the bodies that may touch something rigid. Wakes those at rest that an awake one may

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "island/contact_tally.h"
 #include "island/island_model.h"
 #include "island/oscillator_map.h"
 #include "island/rigid_step.h"
@@ -51,6 +52,8 @@ class SpatialMotion {
   [[nodiscard]] bool isAtRest(BodyIndex b) const noexcept {
     return at_rest_[b] && (resting_[b] || !rigid_near_[b]);
   }
+  /// Points of rigid contact since the last host step.
+  [[nodiscard]] ContactTally& tally() noexcept { return tally_; }
   /// Puts a body at rest to sleep, if no sphere is near.
   void letSleep(IslandModel& model, BodyIndex b) noexcept;
 
@@ -89,6 +92,8 @@ class SpatialMotion {
   std::vector<char> awake_;          ///< per body: rigid and not resting
   std::vector<double> reach_;        ///< per body: reach for the ContactFinder [m]
   RigidStep rigid_step_, rigid_step_aside_;
+  ContactTally tally_;
+  bool is_aside_ = false;  ///< between setAside() and takeBack()
   std::vector<char> resting_aside_;
   std::vector<double> still_aside_;
   std::vector<double> allowance_;  ///< per body: expected longest motion of a part [m]

@@ -59,6 +59,7 @@ void HandOffStep::after(double dt) noexcept {
   });
   giveBack();
   lookFarther();
+  site_.surroundings.showContacts();
   ++site_.log.counters.searches;
   fallQuiet();
 }

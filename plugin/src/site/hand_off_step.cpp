@@ -147,6 +147,7 @@ void HandOffStep::findEnds() noexcept {
 /// The way out: the island takes solver impulses, neighbours and obstacles.
 void HandOffStep::goOut(double dt) noexcept {
   site_.clock.endStep(dt);
+  site_.surroundings.takeContacts();
   site_.bodies.forEach([&](SiteBody& body) { receive(body, dt); });
   takePuts();
   site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);

@@ -25,6 +25,14 @@ void Surroundings::mirror() noexcept {
   for (const BodyIndex b : island_.awakeBodies()) mirror_.moves[static_cast<std::size_t>(b)] = 1;
 }
 
+void Surroundings::takeContacts() noexcept {
+  const std::vector<ContactSum>& sums = island_.takeContacts();
+  contacts_.assign(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(
+                                                    std::min(sums.size(), contacts_.capacity())));
+  for (std::size_t b = 0; b < still_.size(); ++b)
+    still_[b] = island_.isStill(static_cast<BodyIndex>(b)) ? 1 : 0;
+}
+
 void Surroundings::takeLeaving() noexcept {
   if (leaving_.empty() && !has_more_) return;
   takeObstacles();

@@ -7,12 +7,14 @@ void Site::Impl::beforeHostStep(double dt) noexcept {
   if (log.hasDiverged() && !has_given_back_ && settings.contact_model == ContactModel::kIsland)
     giveBack(false);
   if (has_given_back_) return desk.run([&] { passStepWithout(dt); });
+  surroundings.hideContacts();
   host_step->before(dt);
 }
 
 void Site::Impl::afterHostStep(double dt) noexcept {
   if (has_given_back_) return desk.run([&] { clock.endStep(dt); });
   host_step->after(dt);
+  surroundings.unhideContacts();
 }
 
 /// The host destroys its world while a site is attached. This call gives everything back while

@@ -17,6 +17,9 @@ constexpr double kLatePeriods = 2.5;
 constexpr double kStandingMargin = 0.04;
 constexpr double kSafety = 1.5;
 
+/// More points of a host step are not shown.
+constexpr std::size_t kMostShownContacts = 1024;
+
 /// Parked bodies with nothing awake near them are searched around once in this many looks.
 constexpr int kLooksToFull = 8;
 
@@ -53,6 +56,8 @@ void Surroundings::makeRoom() {
   const auto count = static_cast<std::size_t>(island_.bodyCount());
   mirror_.states.resize(count);
   mirror_.moves.resize(count);
+  still_.resize(count);
+  contacts_.reserve(kMostShownContacts);
   from_states_.resize(count);
   to_states_.resize(count);
   asides_.resize(count);

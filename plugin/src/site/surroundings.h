@@ -100,6 +100,11 @@ class Surroundings {
   [[nodiscard]] bool isStrangerNear(const SiteBody& body, double horizon) const {
     return search_.isStrangerNear(body.bullet->body(), horizon);
   }
+  /// Around Bullet's step, which must not see the contacts that are shown to the host.
+  void hideContacts() noexcept { obstacles_.hideContacts(); }
+  void unhideContacts() { obstacles_.unhideContacts(); }
+  /// In between: what takeContacts() told.
+  void showContacts() { obstacles_.showContacts(contacts_, still_); }
   /// The host's world ends: takeObstacles() then removes all obstacles.
   void forgetWorld() { obstacles_.forgetWorld(); }
   /// @}
@@ -108,6 +113,8 @@ class Surroundings {
   /// @{
   /// Copies the island's states for the host's thread.
   void mirror() noexcept;
+  /// Copies the rigid contacts of the host's step for the host's thread.
+  void takeContacts() noexcept;
   /// Removes leaving neighbours and applies the results of lookFarther().
   void takeLeaving() noexcept;
   /// Applies the results of look().
@@ -165,6 +172,8 @@ class Surroundings {
   std::vector<Neighbour> neighbours_;  ///< one per slot of the island
   Mirror mirror_;
   std::vector<NeighbourSeed> seeds_;
+  std::vector<ContactSum> contacts_;  ///< of the last host step
+  std::vector<char> still_;           ///< by body: nothing moves it
   std::vector<Neighbour*> leaving_;   ///< removed, changed, or no longer near
   int looks_to_full_ = 0;             ///< looks until the next one around all bodies
   double horizon_ = 0.0;              ///< longest time until the next search [s]

@@ -61,6 +61,7 @@ void Timeline::moveTo(double until) noexcept {
   }
   if (step_end_ > time_ + kSameTime) return;
   keepStates(step_end_);
+  island_.cutContacts(host_step_);
   step_end_ = host_step_ > 0.0 ? step_end_ + host_step_ : kNever;
 }
 
