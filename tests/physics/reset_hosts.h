@@ -20,25 +20,17 @@ struct ResetHosts {
     double jitter = 0.0;  // [s]; packets overtake
     double settle = 0.5;  // run after the start [s]
     Vec3 start = Vec3(0.0, 0.0, NeighbourScene::kHalf);
+    bool has_one_clock = false;  // packets tell the time of the whole run, not of their program
   };
 
   explicit ResetHosts(const Wanted& as) : wanted(as) {
     for (int i = 0; i < as.sites; ++i) {
-      scenes.push_back(std::make_unique<NeighbourScene>(true));
-      NeighbourScene& scene = *scenes.back();
-      scene.settings.self = idOf(i);
-      scene.settings.peers = as.sites;
-      scene.settings.coordination = {50.0, 3.0};  // stable at these delays
-      scene.settings.puts_reset_objects = as.puts;
-      scene.rig.addBody(scene.rig.makeShape<btBoxShape>(btVector3(20, 20, 1)), 0.0,
-                        Vec3(0.0, 0.0, -1.0));
-      scene.start(as.start);
+      scenes.emplace_back();
+      begun.push_back(0.0);
       links.emplace_back();
-      for (int j = 0; j < as.sites; ++j) {
-        links.back().push_back(std::make_unique<FakeLink>(4096));
-        if (j != i) scene.site->connect(idOf(j), *links.back().back(), Vec3(0, 15, 5));
-      }
+      for (int j = 0; j < as.sites; ++j) links.back().push_back(std::make_unique<FakeLink>(4096));
     }
+    for (int i = 0; i < as.sites; ++i) begin(i);
     run(as.settle);
   }
 
@@ -47,12 +39,22 @@ struct ResetHosts {
     double fastest = 0.0;
     for (int step = 0; step < duration * wanted.rate - 1e-6; ++step) {
       for (int i = 0; i < wanted.sites; ++i) {
+        if (!scenes[i]) continue;
         scenes[i]->rig.step(1.0 / wanted.rate);
         carryFrom(i);
         fastest = std::max(fastest, NeighbourScene::velocityOf(*scenes[i]->cube).norm());
       }
+      now += 1.0 / wanted.rate;
     }
     return fastest;
+  }
+
+  /// Ends a site's program; after `outage` [s] another begins, with packets from 0.
+  void restart(int site, double outage) {
+    scenes[site].reset();
+    run(outage);
+    for (auto& link : links[site]) link = std::make_unique<FakeLink>(4096);
+    begin(site);
   }
 
   void put(int site, const Vec3& p_W, const Quat& q_WB = Quat::Identity()) {
@@ -76,6 +78,8 @@ struct ResetHosts {
   }
 
   Wanted wanted;
+  double now = 0.0;           // [s]
+  std::vector<double> begun;  // by site: when its program began [s]
   std::vector<std::unique_ptr<NeighbourScene>> scenes;
   std::vector<std::vector<std::unique_ptr<FakeLink>>> links;
   Random random{16};
@@ -83,22 +87,40 @@ struct ResetHosts {
  private:
   static PeerId idOf(int site) { return PeerId{static_cast<std::uint32_t>(site) + 1}; }
 
+  void begin(int site) {
+    begun[site] = now;
+    scenes[site] = std::make_unique<NeighbourScene>(true);
+    NeighbourScene& scene = *scenes[site];
+    scene.settings.self = idOf(site);
+    scene.device.sample.hip.p_W = Vec3(0.0, 2.0 * site, 10.0);  // hands are apart
+    scene.settings.peers = wanted.sites;
+    scene.settings.coordination = {50.0, 3.0};  // stable at these delays
+    scene.settings.puts_reset_objects = wanted.puts;
+    scene.rig.addBody(scene.rig.makeShape<btBoxShape>(btVector3(20, 20, 1)), 0.0,
+                      Vec3(0.0, 0.0, -1.0));
+    scene.start(wanted.start);
+    for (int j = 0; j < wanted.sites; ++j)
+      if (j != site) scene.site->connect(idOf(j), *links[site][j], Vec3(0, 15, 5));
+  }
   void carryFrom(int from) {
     for (int to = 0; to < wanted.sites; ++to) {
       FakeLink& out = *links[from][to];
       for (const StatePacket& packet : out.sent) {
         if (random.uniform(0.0, 1.0) < wanted.loss) continue;
-        arrive(*links[to][from], packet);
-        if (random.uniform(0.0, 1.0) < wanted.loss) arrive(*links[to][from], packet);
+        arrive(from, to, packet);
+        if (random.uniform(0.0, 1.0) < wanted.loss) arrive(from, to, packet);
       }
       out.sent.clear();
     }
   }
-  void arrive(FakeLink& link, const StatePacket& packet) {
-    const double time = packet.time + wanted.delay + random.uniform(0.0, wanted.jitter);
-    const auto behind = std::find_if(link.arrivals.begin(), link.arrivals.end(),
+  void arrive(int from, int to, StatePacket packet) {
+    const double sent = packet.time + begun[from];
+    if (wanted.has_one_clock) packet.time = sent;
+    const double time = sent + wanted.delay + random.uniform(0.0, wanted.jitter) - begun[to];
+    auto& arrivals = links[to][from]->arrivals;
+    const auto behind = std::find_if(arrivals.begin(), arrivals.end(),
                                      [&](const Arrival& other) { return other.time > time; });
-    link.arrivals.insert(behind, {packet, time});
+    arrivals.insert(behind, {packet, time});
   }
 };
 

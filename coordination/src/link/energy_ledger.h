@@ -27,6 +27,9 @@ class EnergyLedger {
     return more;
   }
 
+  /// The peer has restarted: its next report is a first one.
+  void beginAnew() noexcept { heard_.reset(); }
+
   /// Grants the peer its part of what this site holds above its tank: half the difference between
   /// two sites, and less for each of several. Returns the energy to deduct here [J].
   [[nodiscard]] double grant(double available, double tank, int sites) noexcept {

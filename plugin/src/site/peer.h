@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "site/motion_limit.h"
 #include "site/objects.h"
 #include "site/proxy.h"
+#include "site/restart_watch.h"
 #include "site/tie.h"
 #include "site/user_track.h"
 
@@ -27,6 +29,9 @@ struct Peer {
   std::optional<Arrival> pending;  ///< fetched, not yet applied
   StatePacket latest;
   bool is_heard = false;  ///< `latest` holds a packet
+  RestartWatch restart;
+  /// The peer restarted at this time of its own [s]: packets of before are dropped.
+  double begun_at = -std::numeric_limits<double>::infinity();
   EnergyLedger ledger;
   bool keeps_account = true;  ///< as of its newest packet
 

@@ -75,7 +75,17 @@ void Peers::takeIn(Peer& peer, Arrival& arrival, double time) noexcept {
     log_.raise(kPacketRefused);
     return;
   }
-  const bool is_latest = !peer.is_heard || packet.sequence > peer.latest.sequence;
+  const bool is_of_now = packet.time >= peer.begun_at;
+  bool is_latest = !peer.is_heard || (is_of_now && packet.sequence > peer.latest.sequence);
+  if (is_latest) {
+    peer.restart.noteNewest();
+  } else if (peer.restart.isRestart(packet, peer.latest, time)) {
+    beginAnew(peer, packet);
+    is_latest = true;
+  } else if (!is_of_now) {
+    ++log_.counters.packets_stale;
+    return;
+  }
   if (is_latest) {
     peer.is_heard = true;
     peer.latest = packet;
@@ -84,6 +94,22 @@ void Peers::takeIn(Peer& peer, Arrival& arrival, double time) noexcept {
   }
   const bool has_news = hearObjects(peer, packet, time) || is_latest;
   ++(has_news ? log_.counters.packets_taken : log_.counters.packets_stale);
+}
+
+/// The peer's program has restarted: nothing of its old packets counts any more.
+void Peers::beginAnew(Peer& peer, const StatePacket& packet) noexcept {
+  ++log_.counters.peers_restarted;
+  peer.restart.noteNewest();
+  peer.begun_at = packet.time;
+  peer.rejoined_by = packet.sequence;
+  peer.ledger.beginAnew();
+  for (Tie& tie : peer.ties) {
+    tie.sequence.reset();
+    tie.awaited.reset();
+    tie.epoch = {};
+    tie.heard_at = peer.packets_heard;
+    island_.setCouplerShare(tie.coupler, 0.0);
+  }
 }
 
 /// Applies a user state that is newer than all before.

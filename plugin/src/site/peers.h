@@ -83,6 +83,7 @@ class Peers {
  private:
   [[nodiscard]] CouplerSettings makeCoupler(const SharedObject& object) const noexcept;
   void takeIn(Peer& peer, Arrival& arrival, double time) noexcept;
+  void beginAnew(Peer& peer, const StatePacket& packet) noexcept;
   void hear(Peer& peer, const StatePacket& packet, double time) noexcept;
   void hearEnergy(Peer& peer, const StatePacket& packet) noexcept;
   void noteJump(Peer& peer) noexcept;

@@ -62,6 +62,7 @@ struct SiteCounters {
   std::uint64_t demoted = 0;             ///< host bodies given back to Bullet
   std::uint64_t objects_left = 0;        ///< times that a shared object was left to Bullet
   std::uint64_t objects_reset = 0;       ///< times that the host put a shared object elsewhere
+  std::uint64_t peers_restarted = 0;     ///< times that a peer counted its packets from 0 again
   std::uint64_t resets_followed = 0;     ///< times that a peer's host did so
 };
 
