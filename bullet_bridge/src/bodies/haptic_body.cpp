@@ -34,6 +34,9 @@ namespace {
 constexpr double kSamePlace = 1e-12;
 constexpr double kSlow = 1e-9;
 
+/// Damping that is off by our doing, not the host's.
+constexpr btScalar kNoDamping = btScalar(-0.0);
+
 constexpr int kGyroscopicFlags = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT |
                                  BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
                                  BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
@@ -121,7 +124,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   original_ = {body.getInvMass(),          body.getInvInertiaDiagLocal(), measureWeight(body),
                body.getLinearDamping(),    body.getAngularDamping(),      body.getActivationState(),
                body.getDeactivationTime(), body.getWorldTransform()};
-  body.setDamping(0, 0);
+  body.setDamping(kNoDamping, kNoDamping);
   has_additional_damping_ = hasAdditionalDamping(body);
   warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
                                 has_additional_damping_);
@@ -133,6 +136,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   // Sets the weight by a known computation, so that takeHostChanges() can separate it from the
   // host's forces to the bit.
   body.setGravity(body.getGravity());
+  weight_ = measureWeight(body);
   remember();
 }
 
@@ -141,21 +145,36 @@ HapticBody::~HapticBody() {
   if (handed_.pending) body_.setFlags(handed_.flags);
   takeDamping();
   body_.setDamping(original_.linear_damping, original_.angular_damping);
-  if (hasItsMass())
-    restoreMass(body_, original_.inverse_mass, original_.inverse_inertia, original_.weight);
+  // A body that was parked has missed a gravity that its world got meanwhile.
+  if (parked_ && sleep_ == Sleep::kNever && hasMissedWorldGravity())
+    body_.setGravity(world_.getGravity());
+  restoreMassProps();
   if (sleep_ == Sleep::kNever) restoreActivation();
 }
 
-bool HapticBody::hasItsMass() const noexcept {
-  return body_.getInvMass() == inverse_mass_ &&
-         equalBits(body_.getInvInertiaDiagLocal(), inverse_inertia_);
+/// Restores mass and inertia, each unless the host has set another.
+void HapticBody::restoreMassProps() {
+  const bool is_own_mass = body_.getInvMass() == inverse_mass_;
+  const bool is_own_inertia = equalBits(body_.getInvInertiaDiagLocal(), inverse_inertia_);
+  const btVector3 inverse_inertia =
+      is_own_inertia ? original_.inverse_inertia : body_.getInvInertiaDiagLocal();
+  // The host may have set mass and weight anew to what they were. Bullet rounds a weight in two
+  // ways.
+  const bool has_own_share = inverse_mass_ != original_.inverse_mass;
+  if (is_own_mass && (has_own_share || measureWeight(body_) == weight_)) {
+    restoreMass(body_, original_.inverse_mass, inverse_inertia, original_.weight);
+  } else if (is_own_inertia) {
+    body_.setInvInertiaDiagLocal(inverse_inertia);
+    body_.updateInertiaTensor();
+  }
 }
 
-/// Reads a damping that the host set while ours is off.
+/// Reads a damping that the host set while ours is off, zero too: ours is minus zero.
 void HapticBody::takeDamping() noexcept {
-  if (body_.getLinearDamping() != 0) original_.linear_damping = body_.getLinearDamping();
-  if (body_.getAngularDamping() != 0) original_.angular_damping = body_.getAngularDamping();
-  body_.setDamping(0, 0);
+  const btScalar linear = body_.getLinearDamping(), angular = body_.getAngularDamping();
+  if (!std::signbit(linear)) original_.linear_damping = linear;
+  if (!std::signbit(angular)) original_.angular_damping = angular;
+  body_.setDamping(kNoDamping, kNoDamping);
 }
 
 double HapticBody::linearDamping() const noexcept {

@@ -183,7 +183,7 @@ class HapticBody {
 
   void scaleMass(double share);
   void readShift(HostChange& change) const noexcept;
-  [[nodiscard]] bool hasItsMass() const noexcept;
+  void restoreMassProps();
   void takeDamping() noexcept;
   void replaceMissingWeight() noexcept;
   [[nodiscard]] bool hasLeftItsRest(const RigidState& state) const noexcept;
@@ -205,6 +205,7 @@ class HapticBody {
   bool slept_ = false;  // at the last pre-tick
   RigidState rest_;     // pose at which it fell asleep
   btScalar inverse_mass_;
+  btVector3 weight_{0, 0, 0};  ///< by our computation, at the start [N]
   btVector3 inverse_inertia_;  // with the mass share
   Original original_;
   BodyLook look_;

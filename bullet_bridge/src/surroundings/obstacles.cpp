@@ -110,6 +110,7 @@ Obstacles::Obstacles(btDiscreteDynamicsWorld& host) : impl_(std::make_unique<Imp
 
 Obstacles::~Obstacles() {
   while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
+  impl_->forgetOrphans();
 }
 
 void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
@@ -137,6 +138,7 @@ void Obstacles::forgetWorld() {
   while (!impl_->search.standing().empty())
     impl_->remove(impl_->search.standing().back()->original);
   impl_->shown.clear();
+  impl_->forgetOrphans();
   impl_->search.prepare();
   impl_->next_near_spheres.clear();
   impl_->has_next = true;

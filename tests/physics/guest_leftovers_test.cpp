@@ -1,0 +1,102 @@
+// What a site gives back at its end, after the host changed it meanwhile. `tandem bench guest`
+// found each.
+
+#include <gtest/gtest.h>
+
+#include "physics/neighbour_scene.h"
+
+namespace tandem {
+namespace {
+
+using test::kGravity;
+using test::NeighbourScene;
+
+/// A shared cube on a floor.
+struct Leftovers : NeighbourScene {
+  btRigidBody* floor = nullptr;
+
+  Leftovers() : NeighbourScene(true) {
+    floor = &addFloor();
+    addCube(Vec3(0.0, 0.0, kHalf));
+    start();
+    run(0.5);
+  }
+
+  /// Acceleration that the host's gravity gives the cube [m/s^2].
+  [[nodiscard]] double fall() const {
+    cube->clearForces();
+    cube->applyGravity();
+    return static_cast<double>(cube->getTotalForce().z() * cube->getInvMass());
+  }
+};
+
+TEST(GuestLeftovers, AnotherInertiaLeavesTheMassAsItWas) {
+  Leftovers scene;
+  btRigidBody& cube = *scene.cube;
+  const btVector3 inverse = btVector3(5000, 6000, 7000);
+  cube.setInvInertiaDiagLocal(inverse);
+  cube.updateInertiaTensor();
+  scene.run(0.1);
+  scene.site.reset();
+  EXPECT_EQ(static_cast<double>(cube.getInvMass()),
+            static_cast<double>(btScalar(1) / btScalar(2.0 * NeighbourScene::kCubeMass)));
+  EXPECT_EQ(fromBullet(cube.getInvInertiaDiagLocal()), fromBullet(inverse));
+}
+
+Vec3 weightOf(btRigidBody& body) {
+  body.clearForces();
+  body.applyGravity();
+  return fromBullet(body.getTotalForce());
+}
+
+/// Bullet rounds a weight in two ways.
+TEST(GuestLeftovers, AMassSetAnewKeepsTheRoundingOfItsWeight) {
+  NeighbourScene scene(true);
+  scene.settings.peers = 1;
+  for (int i = 1; i < 50; ++i) {
+    const double mass = 0.037 * i;
+    btRigidBody& bare = scene.addBox(Vec3(5.0, 0.2 * i, 0.0), mass);
+    btRigidBody& shared = scene.addBox(Vec3(0.0, 0.2 * i, 0.0), mass);
+    Site site(scene.settings, scene.rig.world, scene.device);
+    site.share(shared);
+    for (btRigidBody* body : {&bare, &shared})
+      body->setMassProps(static_cast<btScalar>(mass), body->getLocalInertia() * btScalar(2));
+    site.unshare(0);
+    EXPECT_EQ(weightOf(shared), weightOf(bare)) << mass << " kg";
+  }
+}
+
+TEST(GuestLeftovers, ADampingOfZeroStaysZero) {
+  NeighbourScene scene(true);
+  scene.addFloor();
+  scene.addCube(Vec3(0.0, 0.0, NeighbourScene::kHalf));
+  scene.cube->setDamping(btScalar(0.3), btScalar(0.3));
+  scene.start();
+  scene.run(0.1);
+  scene.cube->setDamping(0, 0);
+  scene.run(0.1);
+  scene.site.reset();
+  EXPECT_EQ(static_cast<double>(scene.cube->getLinearDamping()), 0.0);
+  EXPECT_EQ(static_cast<double>(scene.cube->getAngularDamping()), 0.0);
+}
+
+TEST(GuestLeftovers, AParkedBodyGetsTheGravityThatItMissed) {
+  Leftovers scene;
+  scene.rig.world.setGravity(btVector3(0, 0, -5));
+  scene.site.reset();
+  EXPECT_NEAR(scene.fall(), -5.0, test::byWidth(1e-12, 1e-5));
+}
+
+TEST(GuestLeftovers, AFloorThatWasAwayHoldsBodiesAgain) {
+  Leftovers scene;
+  scene.rig.world.removeRigidBody(scene.floor);
+  scene.run(0.02);
+  scene.rig.world.addRigidBody(scene.floor);
+  scene.site.reset();
+  EXPECT_EQ(scene.floor->getNumObjectsWithoutCollision(), 0);
+  scene.run(0.5);
+  EXPECT_GT(NeighbourScene::positionOf(*scene.cube).z(), 0.9 * NeighbourScene::kHalf);
+}
+
+}  // namespace
+}  // namespace tandem
