@@ -98,5 +98,26 @@ TEST(GuestLeftovers, AFloorThatWasAwayHoldsBodiesAgain) {
   EXPECT_GT(NeighbourScene::positionOf(*scene.cube).z(), 0.9 * NeighbourScene::kHalf);
 }
 
+/// A joint's force ends where the host takes the body away from it.
+TEST(GuestLeftovers, ABodyTakenOffAJointHangsOnToNothing) {
+  NeighbourScene scene(true);
+  scene.addCube(Vec3::Zero());
+  btPoint2PointConstraint joint(*scene.cube, btVector3(0, 0, btScalar(0.1)));
+  scene.rig.world.addConstraint(&joint);
+  scene.start();
+  scene.run(0.5);
+  scene.rig.world.removeConstraint(&joint);
+  scene.rig.world.setGravity(btVector3(0, 0, 0));
+  btTransform pose = scene.cube->getWorldTransform();
+  pose.setOrigin(btVector3(1, 0, 0));
+  scene.cube->setWorldTransform(pose);
+  scene.cube->setInterpolationWorldTransform(pose);
+  scene.cube->setLinearVelocity(btVector3(0, 0, 0));
+  scene.cube->setAngularVelocity(btVector3(0, 0, 0));
+  scene.run(0.1);
+  EXPECT_LT(fromBullet(scene.cube->getLinearVelocity()).norm(), 1e-6);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), 0.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace tandem

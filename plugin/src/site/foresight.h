@@ -38,6 +38,13 @@ class Foresight {
     if (!isNone()) add({now, {}, Vec3::Zero(), Vec3::Zero()});
   }
 
+  /// Expects nothing any more, and takes nothing back of what it gave: the host has set the body's
+  /// motion anew.
+  void forget() noexcept {
+    last_ = {};
+    parts_.clear();
+  }
+
   [[nodiscard]] bool isNone() const noexcept {
     return force() == Vec3::Zero() && torque() == Vec3::Zero();
   }

@@ -111,7 +111,7 @@ void HandOffStep::passHostChanges(double dt) noexcept {
 
 /// Moves the island's body along when the host repositions its body. Kept states for coming host
 /// steps move too.
-void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexcept {
+void HandOffStep::moveBody(SiteBody& body, const HostChange& change) noexcept {
   site_.timeline.changeAfter(site_.clock.time() + kClockTolerance, body.index,
                              [&](RigidState state) {
                                state.p_W += change.offset_W;
@@ -120,6 +120,8 @@ void HandOffStep::moveBody(const SiteBody& body, const HostChange& change) noexc
                              });
   site_.hand.energy().refill();
   const double way = change.offset_W.norm();
+  // Joints and contacts of the place that it left do not go on.
+  if (isTeleport(way, change.rotation_W, 0.0)) site_.forces.forgetForesight(body);
   for (SharedObject& object : site_.bodies.objects)
     if (&object.body == &body && isTeleport(way, change.rotation_W, object.bounding_radius))
       site_.peers.beginEpoch(object);

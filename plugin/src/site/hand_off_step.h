@@ -52,7 +52,7 @@ class HandOffStep final : public IslandStep {
   void goIn(double dt, bool looks_quiet) noexcept;
   void restOn(double dt) noexcept;
   void passHostChanges(double dt) noexcept;
-  void moveBody(const SiteBody& body, const HostChange& change) noexcept;
+  void moveBody(SiteBody& body, const HostChange& change) noexcept;
   void findEnds() noexcept;
   void goOut(double dt) noexcept;
   void receive(SiteBody& body, double dt) noexcept;

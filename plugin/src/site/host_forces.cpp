@@ -126,6 +126,11 @@ void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
   renew(body);
 }
 
+void HostForces::forgetForesight(SiteBody& body) noexcept {
+  body.load.foresight.forget();
+  renew(body);
+}
+
 Momentum HostForces::computeOwed(const SiteBody& body) noexcept {
   settle();
   const double ahead = std::max(0.0, timeline_.time() - clock_.time());

@@ -35,6 +35,8 @@ class HostForces {
   /// Takes what Bullet's solver did to a body in the host step of `dt` that has ended: momentum
   /// that was not foreseen, the pose that it led to, and the force that goes on.
   void takeReaction(SiteBody& body, double dt) noexcept;
+  /// Ends the force that goes on.
+  void forgetForesight(SiteBody& body) noexcept;
   /// Momentum that was given for Bullet's solver in the host step up to `end` [s].
   [[nodiscard]] Foresight::Given takeForeseen(SiteBody& body, double end) noexcept {
     return body.load.foresight.take(clock_.time(), end);
