@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Runs the long tests of the network: most in virtual time, for minutes each, and two over real sockets.
+# Runs the long tests: those of the network, most in virtual time, for minutes each, and two over real sockets; and
+# random worlds.
 # scripts/test.sh runs a part of them.
 #
-#   scripts/soak.sh [forged|peers|churn|matrix|flood|attacks]...     all six by default
+#   scripts/soak.sh [forged|peers|churn|matrix|flood|attacks|guest]...     the first six by default
 #
 # forged: 1e8 forged, changed, cut, replayed and random datagrams at a live pair. peers: four sites for 24 hours with
 # 1 s delay, 100 ms jitter, a quarter lost and a quarter doubled. churn: 10,000 times a site leaves, is killed or gets
@@ -11,6 +12,8 @@
 # each. Under the flood its memory may grow by 64 kB more than without. Another hundredth of all its ticks may be late,
 # and another hundredth of its peer's states lost. attacks: two `tandem peer` for ten minutes, with a man in the middle
 # without the key (tests/wire/attack.py), five attacks at the same time. They must be live all the time but a second.
+# guest: a million random worlds (tandem bench guest) of seed TANDEM_GUEST_SEED, or of a seed of its own that it prints;
+# hours on two cores.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 
@@ -112,17 +115,25 @@ attacks() {
   step "attacks: passed"
 }
 
+# A million random worlds; out/soak/guest.json lists those that fail.
+guest() {
+  local seed=${TANDEM_GUEST_SEED:-$(date +%s)}
+  step "guest: seed $seed"
+  mkdir -p "$out"
+  "$checkout/build/release/demos/tandem" bench guest --cases 1000000 --seed "$seed" --out "$out/guest"
+}
+
 (( $# > 0 )) || set -- forged peers churn matrix flood attacks
 for name in "$@"; do
   case "$name" in
-    forged|peers|churn|matrix|flood|attacks) ;;
-    -h|--help) sed -n '2,15s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
-    *) echo "soak.sh: $name: there is no such test; allowed: forged, peers, churn, matrix, flood, attacks" >&2; exit 2 ;;
+    forged|peers|churn|matrix|flood|attacks|guest) ;;
+    -h|--help) sed -n '2,18s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    *) echo "soak.sh: $name: there is no such test; allowed: forged, peers, churn, matrix, flood, attacks, guest" >&2; exit 2 ;;
   esac
 done
 "$checkout/scripts/packages.sh" install build test
 configure_preset release -DTANDEM_BUILD_TESTS=ON
-build_preset release tandem_net_tests tandem_matrix_tests tandem_flood tandem
+build_preset release tandem_net_tests tandem_matrix_tests tandem_flood tandem tandem-bench
 for name in "$@"; do
   case "$name" in
     forged) soak forged tandem_net_tests Mesh.ForgedAndReplayedDatagramsChangeNothing \
@@ -132,5 +143,6 @@ for name in "$@"; do
     matrix) soak matrix tandem_matrix_tests '*ConditionMatrixTest*' TANDEM_MATRIX_CELLS=150 TANDEM_MATRIX_SEEDS=3 ;;
     flood)  flood ;;
     attacks) attacks ;;
+    guest) guest ;;
   esac
 done

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "bench/guest/guest_world.h"
+
+namespace tandem::demos::bench {
+
+[[nodiscard]] Vec3 placeOf(const GuestBody& body);
+/// True if a body is near enough to the scene to be judged.
+[[nodiscard]] bool isInArena(const GuestBody& body);
+/// True if forces move it.
+[[nodiscard]] bool isMoving(const GuestBody& body);
+/// Energy of motion and weight of all bodies in the arena, with the masses that the host sees [J].
+[[nodiscard]] double energyOf(const GuestWorld& world);
+
+}  // namespace tandem::demos::bench

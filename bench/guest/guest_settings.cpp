@@ -1,0 +1,88 @@
+#include <string>
+#include <vector>
+
+#include "bench/guest/guest_site.h"
+
+// Settings of bodies that a site must leave or restore, to the bit.
+
+namespace tandem::demos::bench {
+namespace {
+
+bool isSame(const btVector3& a, const btVector3& b) {
+  return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
+}
+
+/// Active and asleep are one: physics decides. Others are the host's. A shared body does not sleep,
+/// so a site cannot know that its host asks for the same, and restores what was before.
+int kindOfActivation(const btRigidBody& body, bool was_shared) {
+  const int state = body.getActivationState();
+  if (state == DISABLE_SIMULATION || (state == DISABLE_DEACTIVATION && !was_shared)) return state;
+  return ACTIVE_TAG;
+}
+
+/// Position of an object among a world's bodies; -1: the floor; -2: another one.
+int indexOf(GuestWorld& world, const btCollisionObject* object) {
+  for (std::size_t b = 0; b < world.bodies().size(); ++b)
+    if (world.bodies()[b]->rigid == object) return static_cast<int>(b);
+  return object == &world.floor() ? -1 : -2;
+}
+
+std::vector<int> ignoredBy(GuestWorld& world, btRigidBody& body) {
+  std::vector<int> ignored;
+  for (int i = 0; i < body.getNumObjectsWithoutCollision(); ++i)
+    ignored.push_back(indexOf(world, body.getObjectWithoutCollision(i)));
+  return ignored;
+}
+
+}  // namespace
+
+std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t body) {
+  const GuestBody& own = *world.bodies()[body];
+  btRigidBody &a = *own.rigid, &b = *twin.bodies()[body]->rigid;
+  std::string text;
+  const auto expect = [&](bool is_equal, const char* name) {
+    if (!is_equal) text += std::string(" ") + name;
+  };
+  expect(a.getInvMass() == b.getInvMass(), "mass");
+  expect(isSame(a.getInvInertiaDiagLocal(), b.getInvInertiaDiagLocal()), "inertia");
+  expect(isSame(a.getGravity(), b.getGravity()), "gravity");
+  expect(a.getFlags() == b.getFlags(), "flags");
+  expect(a.getCollisionFlags() == b.getCollisionFlags(), "collision_flags");
+  expect(a.getLinearDamping() == b.getLinearDamping(), "linear_damping");
+  expect(a.getAngularDamping() == b.getAngularDamping(), "angular_damping");
+  expect(isSame(a.getLinearFactor(), b.getLinearFactor()), "linear_factor");
+  expect(isSame(a.getAngularFactor(), b.getAngularFactor()), "angular_factor");
+  expect(a.getLinearSleepingThreshold() == b.getLinearSleepingThreshold(), "sleeping_threshold");
+  expect(a.getFriction() == b.getFriction(), "friction");
+  expect(a.getRollingFriction() == b.getRollingFriction(), "rolling_friction");
+  expect(a.getSpinningFriction() == b.getSpinningFriction(), "spinning_friction");
+  expect(a.getRestitution() == b.getRestitution(), "restitution");
+  expect(a.getContactStiffness() == b.getContactStiffness(), "contact_stiffness");
+  expect(a.getContactProcessingThreshold() == b.getContactProcessingThreshold(), "threshold");
+  expect(a.getCcdMotionThreshold() == b.getCcdMotionThreshold(), "ccd");
+  expect(a.getUserIndex() == b.getUserIndex(), "user_index");
+  expect(isSame(a.getCollisionShape()->getLocalScaling(), b.getCollisionShape()->getLocalScaling()),
+         "scaling");
+  expect(a.getCollisionShape()->getMargin() == b.getCollisionShape()->getMargin(), "margin");
+  expect(kindOfActivation(a, own.was_shared) == kindOfActivation(b, own.was_shared), "activation");
+  expect(ignoredBy(world, a) == ignoredBy(twin, b), "ignored_pairs");
+  expect(a.getNumConstraintRefs() == b.getNumConstraintRefs(), "joints");
+  if (!world.hasWorld() || !own.is_in_world) return text;
+  expect(a.getBroadphaseHandle()->m_collisionFilterGroup ==
+             b.getBroadphaseHandle()->m_collisionFilterGroup,
+         "group");
+  expect(a.getBroadphaseHandle()->m_collisionFilterMask ==
+             b.getBroadphaseHandle()->m_collisionFilterMask,
+         "mask");
+  // The weight that applyGravity() adds has the rounding of setMassProps().
+  a.clearForces();
+  b.clearForces();
+  a.applyGravity();
+  b.applyGravity();
+  expect(isSame(a.getTotalForce(), b.getTotalForce()), "weight");
+  a.clearForces();
+  b.clearForces();
+  return text;
+}
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,185 @@
+#include "bench/guest/guest_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "tandem/bullet_bridge/convert.h"
+
+#include "bench/guest/guest_energy.h"
+
+namespace tandem::demos::bench {
+namespace {
+
+constexpr double kFallen = -0.03;     // no centre that can stand is lower [m]
+constexpr double kMeets = 0.3;        // a body nearer than this may touch a far one [m]
+constexpr double kReach = 8.0;        // steps over which a site foresees motion
+constexpr double kLeastEnergy = 1.0;  // of what penetration and rounding give [J]
+constexpr double kMoverEnergy = 2.0;  // that a mover gives to a mass [J/kg]
+constexpr double kMostGrowth = 3.0;
+
+/// Fastest point of a body [m/s], as a site may foresee it.
+double speedOf(const GuestWorld& world) {
+  double fastest = 0.0;
+  for (const auto& body : world.bodies())
+    fastest = std::max(
+        fastest, fromBullet(body->rigid->getLinearVelocity()).norm() +
+                     2.0 * body->plan.size * fromBullet(body->rigid->getAngularVelocity()).norm());
+  return fastest;
+}
+
+bool isFinite(const btRigidBody& rigid) {
+  return fromBullet(rigid.getWorldTransform().getOrigin()).allFinite() &&
+         fromBullet(rigid.getLinearVelocity()).allFinite() &&
+         fromBullet(rigid.getAngularVelocity()).allFinite() &&
+         fromBullet(rigid.getWorldTransform().getBasis()[0]).allFinite();
+}
+
+bool isSame(const btRigidBody& a, const btRigidBody& b) {
+  return a.getWorldTransform() == b.getWorldTransform() &&
+         a.getLinearVelocity() == b.getLinearVelocity() &&
+         a.getAngularVelocity() == b.getAngularVelocity();
+}
+
+std::string tell(const GuestBody& body) {
+  const Vec3 p_W = placeOf(body), v_W = fromBullet(body.rigid->getLinearVelocity());
+  return fmt::format("{:.4f} {:.4f} {:.4f}, {:.3g} {:.3g} {:.3g} m/s", p_W.x(), p_W.y(), p_W.z(),
+                     v_W.x(), v_W.y(), v_W.z());
+}
+
+}  // namespace
+
+GuestVerdict::GuestVerdict(const GuestCase& one, std::vector<std::unique_ptr<GuestSite>>& sites)
+    : case_(one), sites_(sites) {
+  allowed_ = kLeastEnergy;
+  double mass = 0.0;
+  bool has_mover = false;
+  for (const GuestPlan& plan : one.bodies) {
+    mass += plan.mass;
+    has_mover |= plan.role == GuestRole::kMover || plan.role == GuestRole::kCharacter;
+  }
+  if (has_mover) allowed_ += kMoverEnergy * mass * one.sites;
+  for (const auto& site : sites) {
+    allowed_ += energyOf(site->world());
+    twins_ += energyOf(site->twin());
+    is_met_.emplace_back(one.bodies.size(), char{0});
+  }
+}
+
+void GuestVerdict::beforeActs() {
+  before_ = 0.0;
+  for (const auto& site : sites_) before_ += energyOf(site->world());
+}
+
+void GuestVerdict::afterActs() {
+  double after = 0.0, twins = 0.0;
+  for (const auto& site : sites_) {
+    after += energyOf(site->world());
+    twins += energyOf(site->twin());
+  }
+  allowed_ += std::max(0.0, after - before_) + std::max(0.0, twins - twins_);
+  twins_ = twins;
+}
+
+std::optional<GuestFinding> GuestVerdict::look() {
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    GuestSite& site = *sites_[i];
+    if (auto found = findNotFinite(site)) return found;
+    excuse(site.world());
+    excuse(site.twin());
+    if (!case_.has_large_margins)
+      if (auto found = findFallen(site)) return found;
+    if (auto found = findDifferent(i)) return found;
+    if (!site.leftOver().empty()) return GuestFinding{GuestFailure::kRestored, site.leftOver()};
+  }
+  return case_.has_large_margins ? std::nullopt : findEnergy();
+}
+
+std::optional<GuestFinding> GuestVerdict::findNotFinite(GuestSite& site) const {
+  for (std::size_t b = 0; b < site.world().bodies().size(); ++b)
+    if (!isFinite(*site.world().bodies()[b]->rigid) && isFinite(*site.twin().bodies()[b]->rigid))
+      return GuestFinding{GuestFailure::kNotFinite, fmt::format("body {} is not finite", b)};
+  if (!site.device().isForceSane())
+    return GuestFinding{GuestFailure::kNotFinite, "the device got no sane force"};
+  if (site.site() && (site.site()->status() & kStateNotFinite))
+    return GuestFinding{GuestFailure::kNotFinite, "the island diverged"};
+  return std::nullopt;
+}
+
+/// A body that passes through another in one step, or is hit by one that does, may fall.
+void GuestVerdict::excuse(GuestWorld& world) const {
+  for (const auto& body : world.bodies()) {
+    const double way = fromBullet(body->rigid->getLinearVelocity()).norm() * case_.step();
+    if (!(way > 0.5 * body->plan.size) || !isInArena(*body)) continue;
+    for (const auto& other : world.bodies())
+      if ((placeOf(*other) - placeOf(*body)).norm() < 0.1 + way) other->may_fall = true;
+  }
+}
+
+std::optional<GuestFinding> GuestVerdict::findFallen(GuestSite& site) const {
+  for (std::size_t b = 0; b < site.world().bodies().size(); ++b) {
+    const GuestBody &own = *site.world().bodies()[b], &twin = *site.twin().bodies()[b];
+    if (own.may_fall || twin.may_fall || !isMoving(own) || !isInArena(own)) continue;
+    if (placeOf(own).z() > kFallen || placeOf(twin).z() < kFallen) continue;
+    return GuestFinding{GuestFailure::kFell,
+                        fmt::format("body {} fell: {}; its twin: {}", b, tell(own), tell(twin))};
+  }
+  return std::nullopt;
+}
+
+std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
+  GuestSite& site = *sites_[index];
+  const auto& bodies = site.world().bodies();
+  fastest_ = std::max({fastest_, speedOf(site.world()), speedOf(site.twin())});
+  for (int r = 0; site.site() && r < site.site()->remoteCount(); ++r)
+    if (const RigidState* proxy = site.site()->proxy(r))
+      fastest_ = std::max(fastest_, proxy->v_W.norm());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const GuestBody &own = *bodies[b], &twin = *site.twin().bodies()[b];
+    if (!case_.is_idle) {
+      if (own.plan.role != GuestRole::kFar || own.rigid->getCollisionShape()->isCompound())
+        continue;
+      if (site.world().world().getSolverInfo().m_solverMode & SOLVER_RANDMIZE_ORDER)
+        is_met_[index][b] = 1;
+      const double near = kMeets + kReach * fastest_ * case_.frame;
+      for (std::size_t c = 0; c < bodies.size(); ++c)
+        if (c != b && ((placeOf(*bodies[c]) - placeOf(own)).norm() < near ||
+                       (placeOf(*site.twin().bodies()[c]) - placeOf(twin)).norm() < near))
+          is_met_[index][b] = 1;
+      if ((placeOf(own) - site.device().position()).norm() < near || isInArena(own))
+        is_met_[index][b] = 1;
+      if (is_met_[index][b]) continue;
+    }
+    if (isSame(*own.rigid, *twin.rigid)) continue;
+    return GuestFinding{GuestFailure::kTwin,
+                        fmt::format("body {} is at {}; its twin: {}", b, tell(own), tell(twin))};
+  }
+  return std::nullopt;
+}
+
+std::optional<GuestFinding> GuestVerdict::findEnergy() {
+  double own = 0.0, twins = 0.0, hands = 0.0;
+  for (const auto& site : sites_) {
+    own += energyOf(site->world());
+    twins += energyOf(site->twin());
+    hands += site->device().work();
+  }
+  allowed_ += std::max(0.0, twins - twins_);
+  for (const auto& site : sites_) allowed_ += site->takeGiven();
+  twins_ = twins;
+  const double allowed = kMostGrowth * (allowed_ + hands);
+  share_ = std::max(share_, own / allowed);
+  if (own <= allowed) return std::nullopt;
+  return GuestFinding{GuestFailure::kEnergy,
+                      fmt::format("{:.3f} J, of {:.3f} J allowed", own, allowed)};
+}
+
+std::optional<GuestFinding> GuestVerdict::lookAtEnd() {
+  for (const auto& site : sites_)
+    if (std::string what = site->findLeftOver(); !what.empty())
+      return GuestFinding{GuestFailure::kRestored, what};
+  return std::nullopt;
+}
+
+}  // namespace tandem::demos::bench

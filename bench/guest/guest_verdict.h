@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/guest/guest_run.h"
+#include "bench/guest/guest_site.h"
+
+namespace tandem::demos::bench {
+
+struct GuestFinding {
+  GuestFailure failure = GuestFailure::kNone;
+  std::string text;
+};
+
+/// Judges the worlds of a case while it runs.
+///
+/// Energy: motion and weight of all bodies of all sites is at most three times what came in. That
+/// is what the twins gained, what acts gave, what hands did, and some for movers.
+class GuestVerdict {
+ public:
+  GuestVerdict(const GuestCase& one, std::vector<std::unique_ptr<GuestSite>>& sites);
+
+  /// Around the acts of a step, which may give energy to bodies of sites and twins.
+  void beforeActs();
+  void afterActs();
+  /// After a step of all worlds. The first thing that broke, or nothing.
+  [[nodiscard]] std::optional<GuestFinding> look();
+  /// After the end of all sites.
+  [[nodiscard]] std::optional<GuestFinding> lookAtEnd();
+
+  /// Largest share of the allowed energy so far.
+  [[nodiscard]] double energyShare() const { return share_; }
+
+ private:
+  [[nodiscard]] std::optional<GuestFinding> findNotFinite(GuestSite& site) const;
+  [[nodiscard]] std::optional<GuestFinding> findFallen(GuestSite& site) const;
+  [[nodiscard]] std::optional<GuestFinding> findDifferent(std::size_t index);
+  [[nodiscard]] std::optional<GuestFinding> findEnergy();
+  void excuse(GuestWorld& world) const;
+
+  const GuestCase& case_;
+  std::vector<std::unique_ptr<GuestSite>>& sites_;
+  double allowed_ = 0.0, share_ = 0.0;
+  double fastest_ = 1.0;  ///< body or proxy so far [m/s]
+  double before_ = 0.0, twins_ = 0.0;
+  std::vector<std::vector<char>> is_met_;  ///< by site and body: something came near a far body
+};
+
+}  // namespace tandem::demos::bench

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <btBulletDynamicsCommon.h>
+
+#include "bench/guest/guest_case.h"
+#include "bench/program/draw.h"
+
+namespace tandem::demos::bench {
+
+/// A body of a host, in memory that outlives it: another may be made at its address.
+struct GuestBody {
+  GuestPlan plan;
+  alignas(16) std::byte memory[sizeof(btRigidBody)];
+  btRigidBody* rigid = nullptr;  ///< in `memory`
+  btCollisionShape* shape = nullptr;
+  btDefaultMotionState motion_state;
+  double mass = 0.0;  ///< as the host sees it, also while the body is pinned [kg]
+  int group = 1, mask = -1;
+  bool has_filter = false;  ///< added with group and mask
+  bool is_in_world = false;
+  bool was_shared = false;
+  bool may_fall = false;  ///< what was done to it may let it fall through what stands
+};
+
+/// A Bullet world that shows what a site must restore.
+class GuestPhysics final : public btDiscreteDynamicsWorld {
+ public:
+  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+  [[nodiscard]] btInternalTickCallback preTick() const { return m_internalPreTickCallback; }
+  [[nodiscard]] btInternalTickCallback postTick() const { return m_internalTickCallback; }
+  /// Time that the next stepSimulation() call simulates [s].
+  [[nodiscard]] double foresee(double frame, int most, double fixed) const {
+    const auto steps = static_cast<int>((static_cast<double>(m_localTime) + frame) / fixed);
+    return most > 0 ? fixed * std::min(steps, most) : frame;
+  }
+  [[nodiscard]] const btSimulationIslandManager* islands() const { return m_islandManager; }
+};
+
+/// A host's world of a case, and what the host does to it. Its twin is another of the same case.
+class GuestWorld {
+ public:
+  explicit GuestWorld(const GuestCase& one);
+  ~GuestWorld();
+  GuestWorld(const GuestWorld&) = delete;
+  GuestWorld& operator=(const GuestWorld&) = delete;
+
+  [[nodiscard]] GuestPhysics& world() { return *physics_->world; }
+  [[nodiscard]] bool hasWorld() const { return physics_ != nullptr; }
+  [[nodiscard]] const std::vector<std::unique_ptr<GuestBody>>& bodies() const { return bodies_; }
+  [[nodiscard]] std::vector<std::unique_ptr<btTypedConstraint>>& joints() { return joints_; }
+  [[nodiscard]] const GuestCase& plan() const { return case_; }
+  [[nodiscard]] btRigidBody& floor() { return *floor_; }
+
+  /// A body that acts are done to.
+  [[nodiscard]] GuestBody& drawBody(Draw& draw);
+  [[nodiscard]] GuestBody& drawDynamicBody(Draw& draw);
+
+  /// Calls stepSimulation() once; movers move first. `pending` is done in the host's own callback
+  /// of the first sub-step.
+  void step(double time, const std::function<void()>& pending);
+
+  void add(GuestBody& body);
+  void remove(GuestBody& body);
+  void destroy(GuestBody& body);
+  void make(GuestBody& body);
+  void setMass(GuestBody& body, double mass);
+  void setShape(GuestBody& body, btCollisionShape& shape);
+  [[nodiscard]] btCollisionShape& makeShape(GuestShape kind, double size, std::uint64_t seed);
+  /// Forgets what the broadphase found for a body, as hosts do after they changed its filter.
+  void renewPairs(GuestBody& body);
+
+  void addJoint(Draw& draw);
+  void removeJoint(std::size_t index);
+
+  void toggleFloor();
+  void moveFloor(btScalar up);
+  void putBack();
+  void toggleThrong();
+  void toggleGhost();
+  void toggleAction(Draw& draw);
+  void replaceSolver();
+  void save();
+  void restore();
+  void reset();
+
+  /// Ends the world, with its bodies in it or not; they live on.
+  void endWorld();
+  /// Puts all bodies into a new world, in order and without joints.
+  void beginNewWorld();
+
+ private:
+  struct Physics {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    std::unique_ptr<btConstraintSolver> solver =
+        std::make_unique<btSequentialImpulseConstraintSolver>();
+    std::unique_ptr<GuestPhysics> world =
+        std::make_unique<GuestPhysics>(&dispatcher, &broadphase, solver.get(), &configuration);
+  };
+  struct Saved {
+    btTransform pose;
+    btVector3 v, w;
+  };
+
+  void makeFloor();
+  [[nodiscard]] btCollisionShape& makeOwnShape(GuestShape kind, double size, std::uint64_t seed);
+  void place(GuestBody& body, const Saved& state);
+  [[nodiscard]] btCollisionShape& keep(std::unique_ptr<btCollisionShape> shape);
+  static void inPreTick(btDynamicsWorld* world, btScalar dt);
+
+  const GuestCase& case_;
+  std::vector<btScalar> heights_;
+  btTriangleMesh triangles_;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::unique_ptr<Physics> physics_ = std::make_unique<Physics>();
+  std::unique_ptr<btRigidBody> floor_;
+  bool has_floor_ = true;
+  std::vector<std::unique_ptr<GuestBody>> bodies_;
+  std::vector<std::unique_ptr<btRigidBody>> throng_;
+  std::unique_ptr<btGhostObject> ghost_;
+  std::unique_ptr<btActionInterface> action_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  std::vector<std::unique_ptr<btConstraintSolver>> old_solvers_;
+  std::vector<Saved> saved_;
+  const std::function<void()>* pending_ = nullptr;
+  int steps_ = 0;
+};
+
+}  // namespace tandem::demos::bench

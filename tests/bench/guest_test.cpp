@@ -1,0 +1,68 @@
+// Random worlds of `tandem bench guest`, and the checks that judge them.
+
+#include "bench/guest/guest.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "bench/guest/guest_site.h"
+
+namespace tandem::demos::bench {
+namespace {
+
+#ifdef NDEBUG
+constexpr std::uint64_t kCases = 1000;
+#else
+constexpr std::uint64_t kCases = 60;
+#endif
+
+std::uint64_t readNumber(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+TEST(GuestBench, NothingBreaks) {
+  GuestOptions options;
+  options.seed = readNumber("TANDEM_GUEST_SEED", 20261124);
+  options.cases = readNumber("TANDEM_GUEST_CASES", kCases);
+  const GuestResult result = measureGuest(options, [](double) {});
+  EXPECT_EQ(result.countFailed(), 0U) << makeGuestTable(result);
+}
+
+TEST(GuestBench, EqualSeedsGiveEqualCases) {
+  const GuestCase one = drawGuestCase(7, 3);
+  EXPECT_EQ(describeCase(one), describeCase(drawGuestCase(7, 3)));
+  EXPECT_NE(describeCase(one), describeCase(drawGuestCase(8, 3)));
+}
+
+/// A case of one site with a shared body and no acts.
+GuestCase drawQuietCase() {
+  for (std::uint64_t index = 0;; ++index) {
+    GuestCase one = drawGuestCase(11, index);
+    if (one.sites != 1 || one.shared == 0 || one.joints > 0) continue;
+    one.acts.clear();
+    return one;
+  }
+}
+
+TEST(GuestBench, NoticesASettingThatIsNotRestored) {
+  const GuestCase one = drawQuietCase();
+  GuestSite site(one, 0);
+  site.step(0.0);
+  site.end();
+  EXPECT_EQ(site.findLeftOver(), "");
+  site.world().bodies()[0]->rigid->setFriction(btScalar(0.123));
+  EXPECT_EQ(site.findLeftOver(), "body 0: friction");
+}
+
+TEST(GuestBench, NoticesWhatASiteHoldsWhileItLives) {
+  const GuestCase one = drawQuietCase();
+  GuestSite site(one, 0);
+  EXPECT_NE(site.findLeftOver().find("tick callback"), std::string::npos);
+  site.end();
+  EXPECT_EQ(site.findLeftOver(), "");
+}
+
+}  // namespace
+}  // namespace tandem::demos::bench
