@@ -119,6 +119,45 @@ TEST(HostHabits, ASharedBodyWithoutContactResponseFalls) {
   scene.expectBoxesStand();
 }
 
+TEST(HostHabits, AnIgnoredPairNoLongerTouchesAndTouchesAgain) {
+  Habits scene;
+  btCollisionObject& floor = *scene.world().getCollisionObjectArray()[0];
+  ASSERT_TRUE(floor.isStaticObject());
+  const auto ignore = [&](btRigidBody& body, bool is_ignored) {
+    body.setIgnoreCollisionCheck(&floor, is_ignored);
+    body.activate(true);
+  };
+  // A shared body, and a neighbour.
+  ignore(*scene.cube, true);
+  ignore(*scene.boxes[0], true);
+  scene.run(0.1);
+  EXPECT_LT(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf - 0.03);
+  EXPECT_LT(NeighbourScene::positionOf(*scene.boxes[0]).z(), NeighbourScene::kHalf - 0.03);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.boxes[1]).z(), NeighbourScene::kHalf, 1e-4);
+  ignore(*scene.cube, false);
+  scene.cube->setLinearVelocity(btVector3(0, 0, 0));
+  scene.cube->translate(btVector3(0, 0, btScalar(0.1)));
+  scene.run(1.0);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf, 1e-4);
+  scene.site.reset();
+  EXPECT_EQ(scene.cube->getNumObjectsWithoutCollision(), 0);
+  EXPECT_EQ(scene.boxes[0]->getNumObjectsWithoutCollision(), 1);
+  EXPECT_EQ(floor.getNumObjectsWithoutCollision(), 0);
+}
+
+/// Bullet forms new pairs by the new groups and masks, and keeps those that it has.
+TEST(HostHabits, AnotherMaskOfAFloorIsFollowed) {
+  Habits scene;
+  btCollisionObject& floor = *scene.world().getCollisionObjectArray()[0];
+  floor.getBroadphaseHandle()->m_collisionFilterMask = 0;
+  scene.cube->activate(true);
+  scene.run(0.2);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), NeighbourScene::kHalf, 1e-3);
+  scene.cube->translate(btVector3(0, 0, btScalar(0.2)));
+  scene.run(0.6);
+  EXPECT_LT(NeighbourScene::positionOf(*scene.cube).z(), -0.1);
+}
+
 TEST(HostHabits, ASharedBodyIsLedAndLetGo) {
   Habits scene;
   const int flags = scene.cube->getCollisionFlags();

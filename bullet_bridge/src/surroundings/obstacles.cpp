@@ -63,7 +63,7 @@ struct Obstacles::Impl {
   void showPair(std::vector<const ContactSum*>::iterator first,
                 std::vector<const ContactSum*>::iterator last);
   void remove(btCollisionObject* original);
-  void unfilter(const PrivateCopy& keeper, const PrivateCopy& other);
+  void unfilter(PrivateCopy& keeper, const PrivateCopy& other);
   void forgetOrphans();
   void moveOrigin(const std::vector<RigidState>& states);
   void findForBodies(const std::vector<RigidState>& states, btScalar margin,
@@ -72,11 +72,11 @@ struct Obstacles::Impl {
   void dropMissingBodies();
   void renewChangedBodies();
   void dropLost();
-  void renewAsked();
+  void renewPairs();
   void takeFound();
   /// Takes over pairs that the host lets touch: their contact is now the island's.
   [[nodiscard]] auto takeOver() {
-    return [this](const PrivateCopy& a, const PrivateCopy& b) {
+    return [this](PrivateCopy& a, PrivateCopy& b) {
       if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
       // What cannot be copied stays Bullet's, and so do points that the host's callback changes.
       if (!a.isWhole() || !b.isWhole() || a.asks_host || b.asks_host) return false;
@@ -85,7 +85,9 @@ struct Obstacles::Impl {
         return false;
       if (!hostLetsTouch(host, *a.original, *b.original)) return false;
       const bool a_keeps = isKeeper(a, b);
-      filterNativeContact(host, *(a_keeps ? a : b).original, *(a_keeps ? b : a).original, true);
+      PrivateCopy& keeper = a_keeps ? a : b;
+      filterNativeContact(host, *keeper.original, *(a_keeps ? b : a).original, true);
+      ++keeper.own_filters;
       return true;
     };
   }
@@ -159,7 +161,7 @@ bool Obstacles::search(const std::vector<RigidState>& states, double margin,
   impl_->findForBodies(states, reach, moves);
   impl_->dropLost();
   impl_->takeFound();
-  impl_->renewAsked();
+  impl_->renewPairs();
   impl_->search.showSurfaces();
   impl_->search.gatherTriangles(states, reach);
   impl_->search.prepare();
@@ -260,14 +262,15 @@ btCollisionObject* Obstacles::Impl::findBody(BodyIndex index) const {
 
 void Obstacles::Impl::remove(btCollisionObject* original) {
   changed = true;
-  search.remove(original, [&](const PrivateCopy& removed, const PrivateCopy& partner) {
+  search.remove(original, [&](PrivateCopy& removed, PrivateCopy& partner) {
     const bool it_keeps = isKeeper(removed, partner);
     unfilter(it_keeps ? removed : partner, it_keeps ? partner : removed);
   });
 }
 
 /// Restores native contact. Each object may have left the host's world or been deleted.
-void Obstacles::Impl::unfilter(const PrivateCopy& keeper, const PrivateCopy& other) {
+void Obstacles::Impl::unfilter(PrivateCopy& keeper, const PrivateCopy& other) {
+  --keeper.own_filters;
   if (findInWorld(host, keeper.original) < 0) {
     if (orphans.size() == kMostOrphans) orphans.erase(orphans.begin());
     orphans.push_back({keeper.original, other.original});
@@ -332,16 +335,18 @@ void Obstacles::Impl::renewChangedBodies() {
   }
 }
 
-/// The host began or stopped to ask for the contact points of an object.
-void Obstacles::Impl::renewAsked() {
+/// The host may change at any time which objects touch, and of which it asks for contact points.
+void Obstacles::Impl::renewPairs() {
   for (const auto* copies : {&search.bodies(), &search.standing()}) {
     for (const auto& copy : *copies) {
-      if (asksContactCallback(*copy->original) == copy->asks_host) continue;
-      copy->asks_host = !copy->asks_host;
+      const bool asks_host = asksContactCallback(*copy->original);
+      const bool is_renewed = copy->hasNewFilters() || asks_host != copy->asks_host;
+      if (!is_renewed) continue;
+      copy->asks_host = asks_host;
       changed = true;
       search.renewPairs(
           *copy,
-          [&](const PrivateCopy& renewed, const PrivateCopy& partner) {
+          [&](PrivateCopy& renewed, PrivateCopy& partner) {
             const bool it_keeps = isKeeper(renewed, partner);
             unfilter(it_keeps ? renewed : partner, it_keeps ? partner : renewed);
           },

@@ -8,6 +8,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bodies/filter_of.h"
 #include "shapes/only_shape.h"
 #include "surroundings/private_shapes.h"
 
@@ -71,6 +72,8 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
       is_single ? *parts.front().shape : *host_object.getCollisionShape();
   breaking_threshold = measured.getContactBreakingThreshold(gContactBreakingThreshold);
   place(btTransform::getIdentity());
+  filter = filterOf(host_object);
+  host_filters = host_object.getNumObjectsWithoutCollision();
 }
 
 bool PrivateCopy::isAsCopied() const {
@@ -134,6 +137,15 @@ void PrivateCopy::place(const btTransform& pose) {
 bool asksContactCallback(const btCollisionObject& object) noexcept {
   return gContactAddedCallback != nullptr &&
          (object.getCollisionFlags() & btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK) != 0;
+}
+
+bool PrivateCopy::hasNewFilters() noexcept {
+  const CollisionFilter now = filterOf(*original);
+  const int of_host = original->getNumObjectsWithoutCollision() - own_filters;
+  const bool has_new = !(now == filter) || of_host != host_filters;
+  filter = now;
+  host_filters = of_host;
+  return has_new;
 }
 
 }  // namespace tandem

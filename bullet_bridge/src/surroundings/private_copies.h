@@ -6,6 +6,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
+#include "coordination/src/island/collision_filter.h"
 #include "coordination/src/island/contact_finder.h"
 #include "surroundings/regions.h"
 
@@ -61,6 +62,8 @@ struct PrivateCopy {
   [[nodiscard]] bool isAsCopied() const;
   /// Bounds of a part while its object is at `pose`.
   [[nodiscard]] static Region computeBounds(const Part& part, const btTransform& pose);
+  /// True if the host changed what the original may touch since the last call. It must exist.
+  [[nodiscard]] bool hasNewFilters() noexcept;
 
   btCollisionObject* original;  ///< the host may have deleted it: compare, do not read
   ShapeLook look;
@@ -75,6 +78,9 @@ struct PrivateCopy {
   bool asks_host = false;                     ///< the host's callback decides on its contact
   btCollisionObject object;                   ///< holds the pose; has no shape
   int world_index = -1;                       ///< last index of the original in the host's world
+  CollisionFilter filter;                     ///< the host's group and mask at the last look
+  int own_filters = 0;           ///< entries of ours in the original's list of ignored objects
+  int host_filters = 0;          ///< entries of the host there, at the last look
   Vec3 p_placed = Vec3::Zero();  ///< last position of a body, from the private origin [m]
   Quat q_placed = Quat::Identity();
   Region bounds;  ///< box around the copy at its last pose
