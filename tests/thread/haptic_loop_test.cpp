@@ -54,6 +54,28 @@ TEST(HapticLoop, TwoSitesPushACubeAmongBoxesWhileTheirHostsStep) {
   EXPECT_NEAR(one.site->object(0).p_W.y(), two.site->object(0).p_W.y(), 0.03);
 }
 
+/// A step of the host asks the haptic thread, and waits for its answer.
+TEST(HapticLoop, OneHostThreadStepsTwoSitesAt240Hz) {
+  LiveSite one(1, Vec3(0.0, 2.0, 0.0)), two(2, Vec3(-1.0, 0.0, 0.0));
+  constexpr double kStep = 1.0 / 240.0, kDuration = 2.0;
+  {
+    const Wire wire(one.queue, two.queue);
+    HapticLoop loop_one(*one.site, kModest), loop_two(*two.site, kModest);
+    const double begin = readMonotonicClock();
+    for (int step = 1; step <= static_cast<int>(kDuration / kStep); ++step) {
+      sleepUntil(begin + step * kStep);
+      for (LiveSite* live : {&one, &two})
+        live->rig.world.stepSimulation(static_cast<btScalar>(kStep), 0);
+    }
+  }
+  for (const LiveSite* live : {&one, &two}) {
+    expectSafe(live->watched);
+    EXPECT_EQ(live->site->status(), kTickOk);
+    EXPECT_LT(distanceToBullet(*live), 5e-3);
+  }
+  EXPECT_LT((one.site->object(0).p_W - two.site->object(0).p_W).norm(), 0.03);
+}
+
 TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
   LiveSite live(1, Vec3(0.0, 2.0, 0.0), 0);
   HapticLoop loop(*live.site, kModest);
@@ -63,6 +85,18 @@ TEST(HapticLoop, GivesBulletWhereTheIslandIs) {
   live.rig.world.stepSimulation(static_cast<btScalar>(LiveSite::kHostPeriod), 0);
   // The host is at most a step and a half behind, at less than 0.3 m/s.
   EXPECT_LT(distanceToBullet(live), 0.3 * 1.5 * LiveSite::kHostPeriod + 1e-3);
+}
+
+TEST(HapticLoop, LeavesBodiesToBulletOnceStopped) {
+  LiveSite live(1, Vec3(0.0, 2.0, 0.0));
+  HapticLoop loop(*live.site, kModest);
+  live.host(0.5);
+  loop.stop();
+  EXPECT_TRUE(live.site->isHeld(0));
+  // The host may be a step and a half behind.
+  live.host(4.0 * LiveSite::kHostPeriod);
+  EXPECT_FALSE(live.site->isHeld(0));
+  EXPECT_EQ(live.site->neighbourCount(), 0);
 }
 
 TEST(HapticLoop, AHostThatStopsForTwoSecondsIsNotFeltAndPutsNothingWhereItNeverWas) {

@@ -51,7 +51,7 @@ void HapticLoop::Impl::waitForBegin() noexcept {
   while (!is_stopping.load(std::memory_order_acquire)) {
     const double next = readMonotonicClock() + site.timeline.period();
     if (next >= first) return;
-    sleepUntil(next);
+    site.desk.serveUntil(next);
     site.desk.serve();
   }
 }
@@ -59,7 +59,7 @@ void HapticLoop::Impl::waitForBegin() noexcept {
 /// Makes the tick whose moment it is: `due`, unless that has passed. Returns the next one.
 std::uint64_t HapticLoop::Impl::tickAt(std::uint64_t due) noexcept {
   const double period = site.timeline.period();
-  sleepUntil(begin + static_cast<double>(due) * period);
+  site.desk.serveUntil(begin + static_cast<double>(due) * period);
   const double start = readMonotonicClock();
   const double late = start - (begin + static_cast<double>(due) * period);
   const auto passed = static_cast<std::uint64_t>(std::max(late, 0.0) / period);

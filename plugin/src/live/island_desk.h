@@ -1,9 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <ctime>
 #include <mutex>
 #include <thread>
+
+#include <semaphore.h>
+
+#include "tandem/falcon/monotonic_clock.h"
 
 namespace tandem {
 
@@ -11,10 +18,15 @@ namespace tandem {
 ///
 /// Without a haptic thread the island belongs to one thread, and requests run at once. With one,
 /// only the haptic thread touches the island. It runs requests between two ticks, and the
-/// requesting thread waits for at most a period. The haptic thread never waits: it checks one word
-/// per tick.
+/// requesting thread waits for a tick and a quarter of a millisecond at most. The haptic thread
+/// never waits: a request wakes it while it sleeps.
 class IslandDesk {
  public:
+  IslandDesk() noexcept { sem_init(&asked_, 0, 0); }
+  ~IslandDesk() { sem_destroy(&asked_); }
+  IslandDesk(const IslandDesk&) = delete;
+  IslandDesk& operator=(const IslandDesk&) = delete;
+
   /// Runs `work` on the island. For any thread but the haptic one. `work` must not throw, wait or
   /// call run().
   template <typename Work>
@@ -25,6 +37,7 @@ class IslandDesk {
     auto call = [&work] { work(); };
     Order order{[](void* it) { (*static_cast<decltype(call)*>(it))(); }, &call, {}};
     order_.store(&order, std::memory_order_release);
+    sem_post(&asked_);
     while (!order.is_done.load(std::memory_order_acquire)) {
       if (!is_open_.load(std::memory_order_acquire) && takeBack(order)) return work();
       std::this_thread::sleep_for(kPause);
@@ -54,6 +67,13 @@ class IslandDesk {
     order->is_done.store(true, std::memory_order_release);
   }
 
+  /// Sleeps until a moment of the monotonic clock [s], and runs requests that arrive meanwhile. The
+  /// last part of the time stays free, so that they do not delay a tick. For the haptic thread.
+  void serveUntil(double moment) noexcept {
+    while (waitForRequest(moment - kFree)) serve();
+    sleepUntil(moment);
+  }
+
  private:
   struct Order {
     void (*call)(void*);
@@ -61,6 +81,20 @@ class IslandDesk {
     std::atomic<bool> is_done{false};
   };
   static constexpr std::chrono::microseconds kPause{50};
+  static constexpr double kFree = 2.5e-4;  ///< before a tick [s]
+
+  /// False at the moment [s]. True may be a request that has been served already.
+  bool waitForRequest(double moment) noexcept {
+    if (!(moment > 0.0)) return false;
+    const auto seconds = static_cast<time_t>(moment);
+    const double rest = moment - static_cast<double>(seconds);
+    const timespec until{seconds, std::min(static_cast<long>(rest * 1e9), 999'999'999L)};
+    int result = 0;
+    do {
+      result = sem_clockwait(&asked_, CLOCK_MONOTONIC, &until);
+    } while (result != 0 && errno == EINTR);
+    return result == 0;
+  }
 
   /// Withdraws a request. Returns true if it has not been started.
   bool takeBack(Order& order) noexcept {
@@ -72,6 +106,7 @@ class IslandDesk {
   std::atomic<bool> was_ever_open_{false};  ///< from then on several threads may call run()
   std::atomic<Order*> order_{nullptr};
   std::mutex asking_;
+  sem_t asked_;  ///< posted for each request: wakes the haptic thread
 };
 
 }  // namespace tandem
