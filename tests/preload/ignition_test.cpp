@@ -74,10 +74,10 @@ double compare(const std::vector<Row>& rows, const std::vector<double>& model) {
 }
 
 TEST(IgnitionHost, IsTheSameWithoutAConfig) {
-  for (const char* scene : {"floor", "free"}) {
+  for (const char* scene : {"floor", "free", "visitors"}) {
     const Outcome bare = runBare(TANDEM_IGNITION_HOST, inScene(scene));
     ASSERT_EQ(bare.status, 0) << bare.err;
-    EXPECT_EQ(readRows(bare.out).size(), 10u);
+    EXPECT_EQ(readRows(bare.out).size(), std::string(scene) == "visitors" ? 9u : 10u);
     const Outcome outcome = runPreloaded(TANDEM_IGNITION_HOST, inScene(scene), "");
     EXPECT_EQ(outcome.out, bare.out);
     EXPECT_NE(outcome.err.find("TANDEM_PRELOAD names no config"), std::string::npos) << outcome.err;
@@ -130,6 +130,38 @@ damping = 0
   for (const Row& row : rows) EXPECT_NEAR(row.z, 0.025, 1e-5) << "at " << row.t;
   const std::string log = readFile(folder / "floor.csv");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 501);
+}
+
+// Boxes are inserted and removed before the pushed one, some in touch with it. Nothing falls
+// through the floor, and nothing is thrown: without Tandem the box ends 0.47 m away.
+TEST(IgnitionHost, HasBodiesThatComeAndGo) {
+  const TempFolder folder;
+  const Outcome outcome =
+      runPreloaded(TANDEM_IGNITION_HOST, inScene("visitors"), folder.write("visitors.toml", R"(
+object = "box 0.1 0.1 0.05"
+mass = 0.2
+[contact]
+damping = 20
+[device]
+start = [-0.06, 0, 0.025]
+force = [5, 0, 0]
+damping = 5
+)"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("shares moving body 5 of world 1: box 0.1 0.1 0.05, 0.2 kg"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find("no longer finite"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("world 1 ends after 500 steps with the object"), std::string::npos)
+      << outcome.err;
+  const std::vector<Row> rows = readRows(outcome.out);
+  ASSERT_EQ(rows.size(), 9u);
+  for (const Row& row : rows) {
+    EXPECT_NEAR(row.z, 0.025, 5e-3) << "at " << row.t;  // a corner may stand on a visitor's edge
+    EXPECT_NEAR(row.y, 0.0, 0.02) << "at " << row.t;
+    EXPECT_NEAR(row.x, 0.0, 0.1) << "at " << row.t;
+  }
+  EXPECT_GT(rows[2].x, 5e-3);
 }
 
 }  // namespace
