@@ -29,6 +29,12 @@ class ContactTally {
   void startAdvance() noexcept;
   void endAdvance() noexcept;
 
+  /// All positions were shifted.
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    for (Entry& entry : entries_) entry.sum.contact.p_W += offset_W;
+    for (ContactSum& sum : report_) sum.contact.p_W += offset_W;
+  }
+
   /// @name For each inner step.
   /// @{
   void startStep(double h) noexcept;

@@ -38,7 +38,10 @@ class SpatialMotion {
   bool advance(IslandModel& model, double dt, IslandCounters& counters) noexcept;
 
   /// The model's positions were shifted. Real-time safe.
-  void shiftOrigin(const Vec3& offset_W) noexcept { rigid_step_.shiftOrigin(offset_W); }
+  void shiftOrigin(const Vec3& offset_W) noexcept {
+    rigid_step_.shiftOrigin(offset_W);
+    tally_.shiftOrigin(offset_W);
+  }
   /// Stores the data on contacts and rest away, for an advance of some bodies only.
   void setAside() noexcept;
   /// Restores that data, and forgets that of the slots.

@@ -68,13 +68,13 @@ void Peers::takeInUntil(double time, double now) noexcept {
 
 void Peers::takeIn(Peer& peer, Arrival& arrival, double time) noexcept {
   log_.recordArrival(peer.place, arrival);
-  frame_.toWorld(arrival.packet);
   const StatePacket& packet = arrival.packet;
   if (!isSane(packet) || packet.sender != peer.id) {
     ++log_.counters.packets_refused;
     log_.raise(kPacketRefused);
     return;
   }
+  frame_.toWorld(arrival.packet);
   const bool is_of_now = packet.time >= peer.begun_at;
   bool is_latest = !peer.is_heard || (is_of_now && packet.sequence > peer.latest.sequence);
   if (is_latest) {
