@@ -120,7 +120,7 @@ guest() {
   local seed=${TANDEM_GUEST_SEED:-$(date +%s)}
   step "guest: seed $seed"
   mkdir -p "$out"
-  "$checkout/build/release/demos/tandem" bench guest --cases 1000000 --seed "$seed" --out "$out/guest"
+  "$checkout/build/release/demos/tandem" bench guest --cases 1000000 --seed "$seed" --json >"$out/guest.json"
 }
 
 (( $# > 0 )) || set -- forged peers churn matrix flood attacks

@@ -32,7 +32,6 @@ class GuestCommand final : public Command {
     arguments.option("--seed", seed_, "another seed, other cases");
     arguments.option("--case", one_, "this case alone, with its acts");
     arguments.option("--jobs", jobs_, "so many processes at a time");
-    arguments.option("--out", output_.folder, "folder for guest.json");
   }
 
   ExitStatus run() override {
@@ -54,7 +53,6 @@ class GuestCommand final : public Command {
     options.workers = static_cast<int>(std::clamp<std::uint64_t>(jobs_, 1, 256));
     if (options.cases < 1 || options.cases > kMostCases)
       throw UsageError(fmt::format("--cases {}: must be 1 to {}", options.cases, kMostCases));
-    output_.open();
     ProgressLine line;
     const GuestResult result =
         measureGuest(options, [&](double share) { line.show("cases", share); });
