@@ -157,9 +157,9 @@ void ContactPair::searchTriangles(PartPair& pair, const btTransform& first_pose,
       growRegion(computeRegion(*pair.first->shape, second_pose.inverse() * first_pose),
                  pair.second->mesh_margin);
   meshes[static_cast<std::size_t>(pair.mesh)].run.visitClose(
-      [&](const TriangleRun::Triangle& near) {
-        if (!TestTriangleAgainstAabb2(near.corners, box.low, box.high)) return;
-        btTriangleShape triangle(near.corners[0], near.corners[1], near.corners[2]);
+      [&](const TriangleRun::Triangle& close) {
+        if (!TestTriangleAgainstAabb2(close.corners, box.low, box.high)) return;
+        btTriangleShape triangle(close.corners[0], close.corners[1], close.corners[2]);
         triangle.setMargin(pair.second->mesh_margin);
         const btCollisionObjectWrapper other(nullptr, &triangle, &second.object, second_pose, -1,
                                              -1);
