@@ -41,6 +41,17 @@ class GuestPhysics final : public btDiscreteDynamicsWorld {
     return most > 0 ? fixed * std::min(steps, most) : frame;
   }
   [[nodiscard]] const btSimulationIslandManager* islands() const { return m_islandManager; }
+  /// Sweeps of its solver in the latest step.
+  [[nodiscard]] int sweeps() const { return sweeps_; }
+
+ protected:
+  void solveConstraints(btContactSolverInfo& info) override {
+    sweeps_ = info.m_numIterations;
+    btDiscreteDynamicsWorld::solveConstraints(info);
+  }
+
+ private:
+  int sweeps_ = 0;
 };
 
 /// A host's world of a case, and what the host does to it. Its twin is another of the same case.
