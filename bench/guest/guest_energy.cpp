@@ -47,4 +47,12 @@ double energyOf(const GuestWorld& world) {
   return energy;
 }
 
+std::size_t findLiveliest(const GuestWorld& world) {
+  const auto& bodies = world.bodies();
+  std::size_t most = 0;
+  for (std::size_t b = 1; b < bodies.size(); ++b)
+    if (energyOf(*bodies[b]) > energyOf(*bodies[most])) most = b;
+  return most;
+}
+
 }  // namespace tandem::demos::bench

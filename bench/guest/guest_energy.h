@@ -11,5 +11,7 @@ namespace tandem::demos::bench {
 [[nodiscard]] bool isMoving(const GuestBody& body);
 /// Energy of motion and weight of all bodies in the arena, with the masses that the host sees [J].
 [[nodiscard]] double energyOf(const GuestWorld& world);
+/// Index of the body with the most energy.
+[[nodiscard]] std::size_t findLiveliest(const GuestWorld& world);
 
 }  // namespace tandem::demos::bench

@@ -173,8 +173,12 @@ std::optional<GuestFinding> GuestVerdict::findEnergy() {
   const double allowed = kMostGrowth * (allowed_ + hands);
   share_ = std::max(share_, own / allowed);
   if (own <= allowed) return std::nullopt;
-  return GuestFinding{GuestFailure::kEnergy,
-                      fmt::format("{:.3f} J, of {:.3f} J allowed", own, allowed)};
+  std::string text = fmt::format("{:.3f} J, of {:.3f} J allowed", own, allowed);
+  for (const auto& site : sites_) {
+    const std::size_t b = findLiveliest(site->world());
+    text += fmt::format("; body {}: {}", b, tell(*site->world().bodies()[b]));
+  }
+  return GuestFinding{GuestFailure::kEnergy, text};
 }
 
 std::optional<GuestFinding> GuestVerdict::lookAtEnd() {

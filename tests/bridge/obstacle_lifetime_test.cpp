@@ -80,8 +80,9 @@ TEST(ObstacleChanges, ABodySlidesOverALargeMesh) {
   double lowest = 1.0;
   scene.run(1.2, 1.0 / 1000.0, Vec3::Zero(),
             [&] { lowest = std::min(lowest, scene.position().y()); });
-  EXPECT_GT(scene.position().x(), 0.5) << "inner edges of triangles brake it, as in Bullet";
-  EXPECT_GT(lowest, ObstacleScene::kHalf - 1e-4);
+  // Inner edges of triangles brake it, as in Bullet; in float more.
+  EXPECT_GT(scene.position().x(), test::byWidth(0.5, 0.2));
+  EXPECT_GT(lowest, ObstacleScene::kHalf - test::byWidth(1e-4, 1e-3));
 }
 
 }  // namespace

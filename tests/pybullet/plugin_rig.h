@@ -38,8 +38,8 @@ inline std::vector<double> makePacket(const Vec3& hand, const std::vector<Vec3>&
                              static_cast<double>(objects.size())};
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Vec3& p = objects[i];
-    packet.insert(packet.end(),
-                  {static_cast<double>(i), p.x(), p.y(), p.z(), 0, 0, 0, 1, 0, 0, 0, 0, 0, 0});
+    packet.insert(packet.end(), {static_cast<double>(i), p.x(), p.y(), p.z(), 0, 0, 0, 1, 0, 0, 0,
+                                 0, 0, 0, 0, 0});
   }
   return packet;
 }

@@ -770,6 +770,23 @@ class RunTime(unittest.TestCase):
                 table, physicsClientId=client.id))
             self.assertEqual(site.contact_points(77), ())
 
+    def test_contact_points_with_forces(self):
+        """Four points carry a shared cube on an obstacle; PyBullet itself tells none."""
+        with Client(gravity=-9.81) as client, \
+                tandem.Site(far_hand(), peers=1, client=client.id) as site:
+            cube, floor = client.add_cube((0, 0, 0.02)), client.add_floor()
+            site.share(cube)
+            site.obstacles()
+            for _ in range(240):
+                site.step()
+            self.assertEqual(p.getContactPoints(cube, floor, physicsClientId=client.id), ())
+            points = site.contact_points(cube, floor)
+            self.assertEqual(len(points), 4)
+            self.assertAlmostEqual(sum(point[9] for point in points), 0.2 * 9.81, delta=0.01)
+            for point in points:
+                self.assertEqual(point[1:3], (cube, floor))
+                self.assertAlmostEqual(point[7][2], 1, delta=1e-6)
+
     def test_filters(self):
         """Pairs, groups and masks of bodies that PyBullet alone knows act on a shared body."""
         for kind in ("none", "pair", "mask"):

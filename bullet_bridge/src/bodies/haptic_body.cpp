@@ -177,6 +177,8 @@ void HapticBody::takeDamping() noexcept {
   body_.setDamping(kNoDamping, kNoDamping);
 }
 
+void HapticBody::endModelDamping() const noexcept { body_.setDamping(kNoDamping, kNoDamping); }
+
 double HapticBody::linearDamping() const noexcept {
   return static_cast<double>(original_.linear_damping);
 }

@@ -78,6 +78,8 @@ class HapticBody {
   /// object's life.
   [[nodiscard]] double linearDamping() const noexcept;
   [[nodiscard]] double angularDamping() const noexcept;
+  /// Ends a damping that a native model gave the body. Any other change counts as the host's.
+  void endModelDamping() const noexcept;
   /// True if the host has not changed it since the start, nor made another body at its address. The
   /// body must be in its world.
   [[nodiscard]] bool isAsHeld() const noexcept { return BodyLook::at(body_) == look_; }

@@ -20,7 +20,7 @@ NativeModel::NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& set
 
 NativeModel::~NativeModel() {
   for (const HapticBody* object : objects_)
-    if (object->isInWorld()) object->body().setDamping(0, 0);
+    if (object->isInWorld()) object->endModelDamping();
 }
 
 void NativeModel::addObject(const HapticBody& object, double damping) {
