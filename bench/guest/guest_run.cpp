@@ -68,7 +68,7 @@ class GuestRun {
     }
   }
 
-  /// What the hosts took out comes back, at times without a step before the site ends.
+  /// Bodies that the hosts took out come back, at times without a step before the site ends.
   void end(GuestOutcome& outcome) {
     for (const auto& site : sites_) {
       site->world().putBack();

@@ -66,7 +66,7 @@ TEST(ObstacleChanges, AChildThatLeftItsCompoundHoldsNothing) {
   EXPECT_LT(scene.position().y(), 0.0);
 }
 
-// Of a large mesh only triangles near the body are copied, and more when it moves on.
+// Only triangles near the body are copied of a large mesh, and more when it moves on.
 TEST(ObstacleChanges, ABodySlidesOverALargeMesh) {
   ObstacleScene scene;
   std::vector<btScalar> heights(401 * 401, btScalar(0));

@@ -84,7 +84,7 @@ TEST(QuietSearch, FrictionIsCombinedByTheHostFromItsOwnObjects) {
   EXPECT_NEAR(scene.state.v_W.x(), 0.5 - 0.05 * ObstacleScene::kGravity, 0.01) << "friction 1";
 }
 
-// What a callback makes of the points of an object, only Bullet's own contact can tell.
+// Only Bullet's own contact can tell what a callback makes of an object's points.
 TEST(QuietSearch, AnObjectWithACallbackIsLeftToBullet) {
   ObstacleScene scene;
   btRigidBody& floor = scene.addBoxFloor(0.5);

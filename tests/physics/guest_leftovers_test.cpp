@@ -1,4 +1,4 @@
-// What a site gives back at its end, after the host changed it meanwhile. `tandem bench guest`
+// A site gives back at its end also what the host changed meanwhile. `tandem bench guest`
 // found each.
 
 #include <gtest/gtest.h>

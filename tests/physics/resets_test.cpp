@@ -14,7 +14,7 @@ using test::NeighbourScene;
 using test::ResetHosts;
 
 constexpr double kHalf = NeighbourScene::kHalf;
-/// Of a rest on the floor [m], [m/s]: a float has 1e-6 m at 10 m, in a step of 4 ms.
+/// Errors of a rest on the floor [m], [m/s]: a float has 1e-6 m at 10 m, in a step of 4 ms.
 constexpr double kRounding = test::byWidth(1e-8, 1e-3);
 constexpr double kHeldByFriction = 0.01;  // where a spring of 50 N/m leaves a cube [m]
 

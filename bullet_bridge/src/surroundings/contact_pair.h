@@ -34,7 +34,7 @@ struct NearTriangles {
 /// The host's thread makes it and fills its meshes. Then it belongs to the thread that ticks.
 class ContactPair {
  public:
-  /// What the parts of all pairs share while one is searched.
+  /// Shared by the parts of all pairs while one is searched.
   struct WorkSpace {
     explicit WorkSpace(QuietDispatcher& its_dispatcher) : dispatcher(its_dispatcher) {}
     QuietDispatcher& dispatcher;

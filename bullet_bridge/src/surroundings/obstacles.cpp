@@ -78,7 +78,7 @@ struct Obstacles::Impl {
   [[nodiscard]] auto takeOver() {
     return [this](PrivateCopy& a, PrivateCopy& b) {
       if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
-      // What cannot be copied stays Bullet's, and so do points that the host's callback changes.
+      // A shape that cannot be copied stays Bullet's, and so do points that a callback changes.
       if (!a.isWhole() || !b.isWhole() || a.asks_host || b.asks_host) return false;
       // If forces move neither body, neither can be pushed.
       if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
@@ -221,7 +221,7 @@ void Obstacles::showContacts(const std::vector<ContactSum>& sums, const std::vec
       return bodies_of(sum) == bodies_of(*first) &&
              sum->contact.surface == (*first)->contact.surface;
     };
-    // Of a body's points on several fixed surfaces those on the first come first.
+    // A body's points on the first of several fixed surfaces come first.
     const auto last = std::stable_partition(first, impl.points.end(), is_of_pair);
     impl.showPair(first, last);
     first = last;

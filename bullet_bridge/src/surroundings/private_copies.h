@@ -26,7 +26,7 @@ struct Surface {
   bool operator==(const Surface&) const noexcept = default;
 };
 
-/// What tells that a shape was changed, or made anew at its address.
+/// Tells whether a shape was changed, or made anew at its address.
 struct ShapeLook {
   const btCollisionShape* shape = nullptr;  ///< compare before reading
   btVector3 scaling{0, 0, 0};

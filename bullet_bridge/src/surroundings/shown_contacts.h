@@ -82,7 +82,7 @@ class ShownContacts {
   btCollisionDispatcher* dispatcher_;  ///< null: of another class; nothing is shown
   std::vector<std::unique_ptr<Pair>> pairs_;
   std::size_t next_ = 0;  ///< place after the last pair found
-  // Of the dispatcher's list.
+  // Places in the dispatcher's list.
   std::vector<btPersistentManifold*> listed_;  ///< ours, in order, at the last unhide()
   int first_ = 0;                              ///< place of the first at the last unhide()
   bool is_changed_ = false;                    ///< some came or went since then

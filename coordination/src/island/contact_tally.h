@@ -7,7 +7,7 @@
 
 namespace tandem {
 
-/// What a rigid contact point did in a host step.
+/// Effect of a rigid contact point in a host step.
 struct ContactSum {
   RigidContact contact;           ///< as last seen
   Vec3 impulse_W = Vec3::Zero();  ///< on body a over the step [N s]

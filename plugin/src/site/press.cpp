@@ -47,7 +47,7 @@ void Press::findContacts(double step_end) noexcept {
   spread();
 }
 
-/// What holds a pressed body up is pressed, too.
+/// Bodies that hold up a pressed one are pressed, too.
 void Press::spread() noexcept {
   for (bool is_new = true; is_new;) {
     is_new = false;
