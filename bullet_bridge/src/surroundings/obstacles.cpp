@@ -141,6 +141,7 @@ void Obstacles::forgetWorld() {
     impl_->remove(impl_->search.standing().back()->original);
   impl_->shown.clear();
   impl_->forgetOrphans();
+  impl_->orphans.clear();  // the world that would bring them back has gone
   impl_->search.prepare();
   impl_->next_near_spheres.clear();
   impl_->has_next = true;
