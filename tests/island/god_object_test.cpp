@@ -38,7 +38,8 @@ Shape makeMesh(const std::vector<Vec3>& points, bool only_up) {
   const ConvexPolyhedron solid = ConvexPolyhedron::makeHull(points);
   for (const auto& face : solid.faces())
     if (!only_up || face.normal.y() > 0.5)
-      for (int i = 0; i < face.count; ++i) corners.push_back(solid.sides(face)[i].start);
+      for (int i = 1; i + 1 < face.count; ++i)
+        for (const int k : {0, i, i + 1}) corners.push_back(solid.sides(face)[k].start);
   return Mesh{std::make_shared<TriangleMesh>(corners)};
 }
 
@@ -137,6 +138,23 @@ TEST(GodObject, ThinPlateIsNeverPushedOnBehindItsMiddle) {
         v = scene.push(0.0, v);
       EXPECT_GT(scene.place().y(), 0.5 * plate.thickness);
     }
+  }
+}
+
+// A flat face is one face, wherever it might have been cut into triangles.
+TEST(GodObject, HullHoldsOverTheWholeOfAFlatFace) {
+  const Shape plate = makeHull(makeCorners({kHalf, 0.01, kHalf}));
+  for (const Vec3& at : {Vec3(0.013, 0, 0.004), Vec3(0.004, 0, 0.013), Vec3(-0.013, 0, 0.004),
+                         Vec3(-0.004, 0, 0.013), Vec3(0.013, 0, -0.004), Vec3(0.004, 0, -0.013)}) {
+    SCOPED_TRACE(at.transpose());
+    Scene scene(plate, false, at + Vec3(0.0, 0.01 + kRadius + 1e-3, 0.0));
+    double v = 0.0;
+    for (int tick = 0; tick < 500; ++tick) {
+      v = scene.push(-9.0, v);
+      ASSERT_GE(scene.force().y(), 0.0);
+    }
+    EXPECT_LT(scene.place().y(), -0.05);
+    EXPECT_GT(scene.force().y(), 4000.0 * 0.05);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/flat_faces.h"
+
 namespace tandem {
 namespace {
 
@@ -22,16 +24,42 @@ ConvexPolyhedron::ConvexPolyhedron(std::vector<Vec3> vertices,
                                    const std::vector<std::vector<int>>& faces)
     : vertices_(std::move(vertices)) {
   if (faces.size() < 4 || vertices_.size() < 4) refuse("needs at least four faces and corners");
+  for (const Vec3& v : vertices_)
+    if (!v.allFinite()) refuse("has a corner that is not finite");
+  checkClosed(faces);
+  FaceList list;
+  for (const std::vector<int>& corners : faces) {
+    list.corners.insert(list.corners.end(), corners.begin(), corners.end());
+    list.ends.push_back(static_cast<int>(list.corners.size()));
+  }
+  takeFaces(list);
+  checkConvex();
+}
+
+ConvexPolyhedron::ConvexPolyhedron(std::vector<Vec3> vertices, const FaceList& faces)
+    : vertices_(std::move(vertices)) {
+  takeFaces(faces);
+}
+
+void ConvexPolyhedron::takeFaces(const FaceList& faces) {
+  for (const Vec3& v : vertices_) bounding_radius_ = std::max(bounding_radius_, v.norm());
+  const double size = computeSize();
+  faces_.reserve(faces.ends.size());
+  sides_.reserve(faces.corners.size());
+  int first = 0;
+  for (const int end : faces.ends) {
+    addFace(faces.corners.data() + first, end - first, size);
+    first = end;
+  }
+}
+
+double ConvexPolyhedron::computeSize() const {
   Vec3 low = vertices_.front(), high = low;
   for (const Vec3& v : vertices_) {
-    if (!v.allFinite()) refuse("has a corner that is not finite");
     low = low.cwiseMin(v);
     high = high.cwiseMax(v);
-    bounding_radius_ = std::max(bounding_radius_, v.norm());
   }
-  checkClosed(faces);
-  const double size = (high - low).norm();
-  for (const std::vector<int>& corners : faces) addFace(corners, size);
+  return (high - low).norm();
 }
 
 /// Requires that each side of a face is also a side of another face, in opposite direction.
@@ -50,11 +78,26 @@ void ConvexPolyhedron::checkClosed(const std::vector<std::vector<int>>& faces) c
     if (!sides.count({to, from})) refuse("is not closed");
 }
 
-void ConvexPolyhedron::addFace(const std::vector<int>& corners, double size) {
-  const auto corner = [&](std::size_t i) { return vertices_[corners[i % corners.size()]]; };
+void ConvexPolyhedron::checkConvex() const {
+  const double tolerance = kTolerance * computeSize();
+  for (const Face& face : faces_) {
+    double highest = face.offset, lowest = face.offset;
+    for (const Vec3& v : vertices_) {
+      highest = std::max(highest, face.normal.dot(v));
+      lowest = std::min(lowest, face.normal.dot(v));
+    }
+    if (highest - face.offset > tolerance) refuse("is not convex");
+    if (!(face.offset - lowest > tolerance)) refuse("is flat");
+  }
+}
+
+void ConvexPolyhedron::addFace(const int* corners, int count, double size) {
+  const auto corner = [&](int i) -> const Vec3& {
+    return vertices_[static_cast<std::size_t>(corners[i])];
+  };
   // Newell's method: the normal of the plane that fits all corners.
   Vec3 area = Vec3::Zero();
-  for (std::size_t i = 0; i < corners.size(); ++i)
+  for (int i = 1; i + 1 < count; ++i)
     area += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
   if (!(area.norm() > kShortest * size * size)) refuse("has a face without area");
 
@@ -62,15 +105,8 @@ void ConvexPolyhedron::addFace(const std::vector<int>& corners, double size) {
   face.normal = area.normalized();
   face.first = static_cast<int>(sides_.size());
   face.offset = face.normal.dot(corner(0));
-  double highest = face.offset, lowest = face.offset;
-  for (const Vec3& v : vertices_) {
-    highest = std::max(highest, face.normal.dot(v));
-    lowest = std::min(lowest, face.normal.dot(v));
-  }
-  if (highest - face.offset > kTolerance * size) refuse("is not convex");
-  if (!(face.offset - lowest > kTolerance * size)) refuse("is flat");
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3 way = corner(i + 1) - corner(i);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 way = corner(i + 1 < count ? i + 1 : 0) - corner(i);
     Side side;
     side.start = corner(i);
     side.length = way.norm();

@@ -7,6 +7,8 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
+struct FaceList;
+
 /// A convex solid with flat faces, in its body's frame. Immutable; a ConvexHull refers to it.
 class ConvexPolyhedron {
  public:
@@ -31,9 +33,10 @@ class ConvexPolyhedron {
   /// corners. Also throws unless the solid is closed and convex within 1e-6 of its size.
   ConvexPolyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces);
 
-  /// Convex hull of the points, with triangular faces. Points within 1e-7 of the size from its
-  /// surface become no corners. Throws std::invalid_argument if the points are not finite or lie in
-  /// one plane.
+  /// Convex hull of the points. Each plane has one face, whatever its number of corners. Points
+  /// within 1e-7 of the size from its surface become no corners; 1e-5 at most if rounding scatters
+  /// them about planes. Throws std::invalid_argument if the points are not finite or lie in one
+  /// plane. Time grows as n log n.
   [[nodiscard]] static ConvexPolyhedron makeHull(const std::vector<Vec3>& points);
 
   [[nodiscard]] const std::vector<Vec3>& vertices() const noexcept { return vertices_; }
@@ -45,8 +48,13 @@ class ConvexPolyhedron {
   [[nodiscard]] double boundingRadius() const noexcept { return bounding_radius_; }
 
  private:
-  void addFace(const std::vector<int>& corners, double size);
+  /// Of faces that are known to be closed and convex.
+  ConvexPolyhedron(std::vector<Vec3> vertices, const FaceList& faces);
+  void takeFaces(const FaceList& faces);
+  void addFace(const int* corners, int count, double size);
+  [[nodiscard]] double computeSize() const;
   void checkClosed(const std::vector<std::vector<int>>& faces) const;
+  void checkConvex() const;
 
   std::vector<Vec3> vertices_;
   std::vector<Face> faces_;
