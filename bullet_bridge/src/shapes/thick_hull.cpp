@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
 #include "coordination/src/geometry/convex_polyhedron.h"
+#include "shapes/hull_cache.h"
 
 namespace tandem {
 namespace {
@@ -73,8 +75,7 @@ std::vector<Vec3> sampleCoarsely(const Support& support) {
 std::optional<Shape> makeThickHull(const std::vector<Vec3>& points, double rounding) {
   const auto is_finite = [](const Vec3& p) { return p.allFinite(); };
   if (points.empty() || !std::all_of(points.begin(), points.end(), is_finite)) return std::nullopt;
-  if (auto solid = makeSolid(points))
-    return ConvexHull{std::make_shared<const ConvexPolyhedron>(*std::move(solid)), rounding};
+  if (auto solid = HullCache::ofProcess().find(points)) return ConvexHull{solid, rounding};
   const Mat3 axes = findAxes(points);
   double size = rounding;
   for (int i = 0; i < 3; ++i) size = std::max(size, computeExtent(points, axes.col(i)));
@@ -88,10 +89,9 @@ std::optional<Shape> makeThickHull(const std::vector<Vec3>& points, double round
       thick[k] += half * axes.col(i);
     }
   }
-  auto solid = makeSolid(thick);
+  auto solid = HullCache::ofProcess().find(thick);
   if (!solid) return std::nullopt;
-  return ConvexHull{std::make_shared<const ConvexPolyhedron>(*std::move(solid)),
-                    std::max(0.0, rounding - half)};
+  return ConvexHull{std::move(solid), std::max(0.0, rounding - half)};
 }
 
 std::optional<Shape> makeSampledHull(const Support& support, double rounding) {

@@ -18,8 +18,7 @@ namespace tandem {
 ///
 /// A compound of one child at its origin counts as the child, because some hosts wrap every shape.
 /// So does a 2-D or scaled shape. Nothing for other shapes: those of sampleShape() and
-/// convertMesh(), other compounds. Allocates; the time for a hull grows with the square of its
-/// points.
+/// convertMesh(), other compounds. Allocates; a hull of 4000 points takes some milliseconds.
 [[nodiscard]] std::optional<Shape> convertShape(const btCollisionShape& shape);
 
 /// Hull of samples of any convex shape, for those that have no exact form: unequal spheres,
