@@ -2,6 +2,9 @@
 //
 //   tandem_tick_instructions about          prints the compiler and its options
 //   tandem_tick_instructions SCENE TICKS    runs the scene; calls measureTick() TICKS times
+//   tandem_tick_instructions host BODIES AWAKE SHARED SITE STEPS
+//                                           the same for a host's steps in which nothing is touched
+//                                           (AWAKE, SITE: 0 or 1; without a site the world is bare)
 
 #include <cstdio>
 #include <cstdlib>
@@ -42,6 +45,31 @@ void runSite(const bench::SpeedScene& scene, int ticks) {
     site.stepHost();
     ++host_steps;
   }
+}
+
+/// Steps of a host in which nothing is touched, with a site or bare. Its ticks are not counted.
+void runHost(const bench::SpeedScene& scene, bool has_site, int steps) {
+  constexpr int kSettle = 60;  // host steps
+  const auto run = [&](auto& step, auto& before) {
+    for (int i = 0; i < kSettle + steps; ++i) {
+      before(i + 1);
+      if (i < kSettle)
+        step();
+      else
+        measureTick(step);
+    }
+  };
+  if (!has_site) {
+    bench::SpeedWorld world(scene, 1.0);
+    world.addProxy(bench::remoteAt(scene, 0.0).p_W, false);
+    const auto step = [&] { world.step(1.0 / bench::SpeedSite::kHostRate); };
+    const auto nothing = [](int) {};
+    return run(step, nothing);
+  }
+  bench::SpeedSite site(scene);
+  const auto step = [&] { site.stepHost(); };
+  const auto tick = [&](int i) { (void)site.tickUntil(i / bench::SpeedSite::kHostRate); };
+  run(step, tick);
 }
 
 /// Site 1 of Experiment II, in its slot.
@@ -92,6 +120,12 @@ int main(int argc, char** argv) {
   }
   if (word == "scenes") {
     for (const auto& [name, run] : kScenes) std::printf("%s\n", name.c_str());
+    return 0;
+  }
+  if (argc == 7 && word == "host") {
+    const bench::SpeedScene own{std::atoi(argv[2]), std::atoi(argv[3]) != 0, std::atoi(argv[4]),
+                                bench::SpeedTouch::kNothing};
+    runHost(own, std::atoi(argv[5]) != 0, std::atoi(argv[6]));
     return 0;
   }
   const auto scene = kScenes.find(word);

@@ -33,17 +33,13 @@ void Rest::noteWoken(SiteBody& body) noexcept {
 }
 
 bool Rest::looksQuiet() const noexcept {
-  return may_be_quiet_ && (sleepers_.empty() || watch_.isGravityUnchanged()) &&
-         std::all_of(sleepers_.begin(), sleepers_.end(), [](const HapticBody* body) {
-           return body->isInWorld() && body->isUndisturbed();
-         });
+  return may_be_quiet_ && (looks_.isEmpty() || watch_.isGravityUnchanged()) &&
+         looks_.isUndisturbed();
 }
 
 bool Rest::staysQuiet() noexcept {
   if (!is_quiet_) return false;
-  may_be_quiet_ = std::all_of(sleepers_.begin(), sleepers_.end(),
-                              [](const HapticBody* body) { return body->isAsleep(); }) &&
-                  watch_.isUnchanged();
+  may_be_quiet_ = looks_.areAsleep() && watch_.isUnchanged();
   return may_be_quiet_;
 }
 
@@ -58,6 +54,8 @@ void Rest::fallQuiet(const Bodies& bodies) {
   if (!may_be_quiet_) return;
   sleepers_.clear();
   bodies.forEach([&](const SiteBody& body) { sleepers_.push_back(body.bullet); });
+  may_be_quiet_ = looks_.remember(sleepers_);
+  if (!may_be_quiet_) return;
   watch_.remember(sleepers_, hand_W_, hip_radius_ + kWatchMargin);
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bullet_bridge/src/bodies/sleep_watch.h"
 #include "bullet_bridge/src/surroundings/standing_watch.h"
 #include "site/bodies.h"
 #include "site/rest_mark.h"
@@ -23,7 +24,7 @@ namespace tandem {
 class Rest {
  public:
   Rest(btDiscreteDynamicsWorld& world, double hip_radius, SiteLog& log)
-      : hip_radius_(hip_radius), log_(log), watch_(world) {}
+      : hip_radius_(hip_radius), log_(log), watch_(world), looks_(world) {}
 
   /// Something was added or removed: the next host step is not quiet.
   void disturb() noexcept { may_be_quiet_ = is_quiet_ = false; }
@@ -55,12 +56,13 @@ class Rest {
   double hip_radius_;
   SiteLog& log_;
   StandingWatch watch_;
+  SleepWatch looks_;                   ///< all bodies, while quiet
   RestMark mark_;                      ///< set by mark()
   bool is_marked_ = false;             ///< the island slept at mark()
   Vec3 hand_W_ = Vec3::Zero();         ///< position of the hand at mark() [m]
   bool may_be_quiet_ = false;          ///< the next step is quiet if nothing changes
   bool is_quiet_ = false;              ///< the present step is quiet
-  std::vector<HapticBody*> sleepers_;  ///< all bodies, while quiet
+  std::vector<HapticBody*> sleepers_;  ///< work space
 };
 
 }  // namespace tandem
