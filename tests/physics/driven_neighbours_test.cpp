@@ -143,6 +143,28 @@ TEST_P(DrivenNeighbours, TurningPaddleSweepsTheCube) {
   EXPECT_NEAR(v.norm(), 0.17, 0.06);
   EXPECT_GT(v.y(), 0.1);
 }
+// The host's step in single precision ends 47 ps after the tick, and ticks drift across it.
+TEST(DrivenWall, RoundingOfTheHostsStepIsNoBlow) {
+  NeighbourScene scene(true);
+  scene.addFloor();
+  const double step = static_cast<double>(0.001F);
+  btRigidBody& wall = scene.rig.addBody(
+      scene.rig.makeShape<btBoxShape>(btVector3(btScalar(0.02), btScalar(0.1), btScalar(0.1))), 0.0,
+      Vec3(-0.06, 0.0, 0.11));
+  scene.rig.world.removeRigidBody(&wall);
+  wall.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+  wall.setActivationState(DISABLE_DEACTIVATION);
+  scene.rig.world.addRigidBody(&wall);
+  scene.start(Vec3(0.0, 0.0, kHalf));
+  for (int i = 1; i <= 1000; ++i) {
+    const double x = -0.06 + 0.05 * (1.0 - std::cos(5.0 * i * step));
+    wall.setWorldTransform(toBullet(Vec3(x, 0.0, 0.11), Quat::Identity()));
+    scene.rig.step(step);
+    // The wall reaches 0.25 m/s.
+    ASSERT_LT(static_cast<double>(scene.cube->getLinearVelocity().length()), 0.4) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Lateness, DrivenNeighbours, ::testing::Values(0.0, kPeriod, 0.025));
 
 // From the first sub-step on Bullet has the pose of the end of all sub-steps.
