@@ -54,6 +54,22 @@ struct MovingBody {
   int tick = 0;
 };
 
+// A slot's kept states are of the body before. A newcomer caught up from them would fly to its
+// place, and throw whatever stands on the way.
+TEST(Timeline, GivesANewcomerAPastOfItsOwn) {
+  MovingBody moving(2.0);
+  moving.timeline.announce(2.6 * kTick, 2.6 * kTick);
+  moving.runUntilTick(4);
+  ASSERT_GT(moving.keptX(2.6 * kTick), 0.0);
+  RigidState newcomer;
+  newcomer.p_W = Vec3(5.0, 0.0, 0.0);
+  moving.island.setState(moving.body, newcomer);
+  moving.timeline.enter(moving.body, newcomer);
+  EXPECT_EQ(moving.keptX(2.6 * kTick), 5.0);
+  for (const double ticks : {2.6, 2.8, 3.0, 3.5, 4.0})
+    EXPECT_EQ(moving.timeline.stateAt(moving.body, ticks * kTick).p_W.x(), 5.0) << ticks;
+}
+
 TEST(Timeline, KeepsAnnouncedEndsExactly) {
   constexpr std::uint64_t kSeed = 44;
   SCOPED_TRACE(kSeed);

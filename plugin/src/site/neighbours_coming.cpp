@@ -84,7 +84,7 @@ void Surroundings::takeNewcomers() noexcept {
       forces_.setWeight(body, body.step.f_gravity_W);
       newcomers_.push_back(body.index);
     }
-    timeline_.setStart(body.index, neighbour.settings.start);
+    timeline_.enter(body.index, neighbour.settings.start);
   }
 }
 

@@ -173,7 +173,7 @@ void ObjectWatch::take(double dt) noexcept {
       body.seen = object.settings.start;
       island_.fill(body.index, object.settings);
       forces_.setWeight(body, body.step.f_gravity_W);
-      timeline_.setStart(body.index, object.settings.start);
+      timeline_.enter(body.index, object.settings.start);
       surroundings_.addNewcomer(body.index);
       peers_.awaitNews(object);
     } else if (!body.is_held) {

@@ -98,7 +98,13 @@ class Timeline {
   /// Puts a body elsewhere. Its kept states move along, so that none leads there from its old
   /// place.
   void put(BodyIndex body, const RigidState& state) noexcept;
-  /// Sets the start state of a body that entered the island during the tick.
+  /// Gives a body that enters the island the past of one that was always at `state`. Its slot's
+  /// kept states are of another body, or of none.
+  void enter(BodyIndex body, const RigidState& state) noexcept {
+    changeKeptAfter(-kNever, body, [&](const RigidState&, double) { return state; });
+    setStart(body, state);
+  }
+  /// Sets the state of a body at the start of the tick.
   void setStart(BodyIndex body, const RigidState& state) noexcept {
     start_states_[static_cast<std::size_t>(body)] = state;
   }
