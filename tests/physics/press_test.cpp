@@ -11,6 +11,7 @@
 
 #include "tandem/plugin/site.h"
 
+#include "bridge/bullet_rig.h"
 #include "host/any_host.h"
 #include "support/fakes.h"
 
@@ -267,6 +268,31 @@ TEST(Press, ARobotGripsTheCubeAndLiftsIt) {
       EXPECT_LT(grip(way, rate, lifted).deepest, 1.5 * bare.deepest);
       EXPECT_NEAR(lifted, bare_way, 3e-3);
     }
+  }
+}
+
+// A planar game: the supports of a tilted body that a stranger presses turn it in the plane only.
+TEST(Press, TurnsNobodyOutOfItsPlane) {
+  for (const PressBy way : kSites) {
+    PressScene scene(way, 240.0, 0);
+    scene.makeRobot(1);
+    scene.addLink(0, -1, 2.0, Vec3::UnitZ(), Vec3::Zero());
+    scene.finishRobot(Vec3(0.01, 0, 4 * kHalfEdge), 0);
+    btRigidBody& cube = scene.cube();
+    cube.setWorldTransform(toBullet(Vec3(0, 0, 1.5 * kHalfEdge),
+                                    Quat(Eigen::AngleAxisd(0.4, Vec3(1, 0.5, 0.2).normalized()))));
+    cube.setLinearFactor(btVector3(1, 0, 1));
+    cube.setAngularFactor(btVector3(0, 1, 0));
+    cube.updateInertiaTensor();
+    scene.start();
+    double turned = 0.0;
+    scene.run(0.5, [&] {
+      const Vec3 w_W = fromBullet(cube.getAngularVelocity());
+      turned = std::max(turned, std::abs(w_W.y()));
+      ASSERT_LT(std::hypot(w_W.x(), w_W.z()), test::byWidth(1e-9, 1e-3));
+      ASSERT_LT(std::abs(static_cast<double>(cube.getLinearVelocity().y())), 1e-9);
+    });
+    EXPECT_GT(turned, 0.1);
   }
 }
 

@@ -8,6 +8,13 @@
 #include "bodies/rotation_vector.h"
 
 namespace tandem {
+namespace {
+
+/// Share of the mobility without factors below which a line is locked. An impulse along such a
+/// line would need a lever of this length to act.
+constexpr double kLockedLine = 0.01;
+
+}  // namespace
 
 SupportSide::SupportSide(const SupportBody& of, const Vec3& p_W) : body(of) {
   if (!body.bullet) return;
@@ -19,7 +26,10 @@ SupportSide::SupportSide(const SupportBody& of, const Vec3& p_W) : body(of) {
   const Vec3 factor = fromBullet(rigid.getAngularFactor());
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      inverse_inertia_W(row, column) = factor[row] * static_cast<double>(inertia[row][column]);
+      free_inverse_inertia_W(row, column) = static_cast<double>(inertia[row][column]);
+  inverse_inertia_W = factor.asDiagonal() * free_inverse_inertia_W;
+  const Eigen::Matrix3d R = body.bullet->state().q_WB.toRotationMatrix();
+  inertia_W = R * body.bullet->inertia().asDiagonal() * R.transpose();
 }
 
 Vec3 SupportSide::expect() const noexcept {
@@ -28,7 +38,7 @@ Vec3 SupportSide::expect() const noexcept {
 
 Vec3 SupportSide::computeChange() const noexcept {
   if (!body.change) return Vec3::Zero();
-  const Vec3 turn_W = inverse_inertia_W * body.change->angular_impulse_W;
+  const Vec3 turn_W = free_inverse_inertia_W * body.change->angular_impulse_W;
   return body.change->impulse_W / mass + turn_W.cross(arm_W);
 }
 
@@ -41,12 +51,22 @@ void SupportSide::give(const Vec3& j_W, double dt) const noexcept {
   if (!body.change) return;
   HostChange& change = *body.change;
   const Vec3 dv_W = inverse_mass.cwiseProduct(j_W);
-  const Vec3 turn_W = arm_W.cross(j_W);
+  const Vec3 dw_W = inverse_inertia_W * arm_W.cross(j_W);
   change.impulse_W += mass * dv_W;
-  change.angular_impulse_W += turn_W;
+  change.angular_impulse_W += inertia_W * dw_W;
   change.moved = true;
   change.offset_W += dt * dv_W;
-  change.rotation_W = makeRotation(dt * (inverse_inertia_W * turn_W)) * change.rotation_W;
+  change.rotation_W = makeRotation(dt * dw_W) * change.rotation_W;
+}
+
+SupportLine::SupportLine(const SupportBody& body_a, const SupportBody& body_b, const Vec3& p_W,
+                         const Vec3& along, double free)
+    : a(body_a, p_W),
+      b(body_b, p_W),
+      along_W(along),
+      free_speed(free),
+      inverse_mass(a.computeInverseMass(along) + b.computeInverseMass(along)) {
+  if (inverse_mass < kLockedLine * (a.freeInverseMass() + b.freeInverseMass())) inverse_mass = 0.0;
 }
 
 double SupportLine::improve(double least, double most, double dt) noexcept {

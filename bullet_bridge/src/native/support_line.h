@@ -14,10 +14,13 @@ struct SupportBody {
 /// One side of a line: a body, with its masses while Bullet's solver acts.
 struct SupportSide {
   SupportBody body;
-  double mass = 1.0;                                            ///< [kg]
-  Vec3 arm_W = Vec3::Zero();                                    ///< from its centre [m]
-  Vec3 inverse_mass = Vec3::Zero();                             ///< along the axes of W [1/kg]
-  Eigen::Matrix3d inverse_inertia_W = Eigen::Matrix3d::Zero();  ///< [1/(kg m^2)]
+  double mass = 1.0;                 ///< [kg]
+  Vec3 arm_W = Vec3::Zero();         ///< from its centre [m]
+  Vec3 inverse_mass = Vec3::Zero();  ///< along the axes of W [1/kg]
+  /// Of a turn that an angular impulse makes, with angular factors and without [1/(kg m^2)].
+  Eigen::Matrix3d inverse_inertia_W = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d free_inverse_inertia_W = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d inertia_W = Eigen::Matrix3d::Zero();  ///< without factors [kg m^2]
 
   SupportSide() = default;
   SupportSide(const SupportBody& of, const Vec3& p_W);
@@ -28,6 +31,8 @@ struct SupportSide {
   [[nodiscard]] Vec3 computeChange() const noexcept;
   /// Inverse of the mass that an impulse along an axis moves [1/kg].
   [[nodiscard]] double computeInverseMass(const Vec3& along_W) const noexcept;
+  /// The same without factors and turning [1/kg].
+  [[nodiscard]] double freeInverseMass() const noexcept { return body.bullet ? 1.0 / mass : 0.0; }
   /// Adds an impulse [N s] to the change, and the way over `dt` [s] that it leads to.
   void give(const Vec3& j_W, double dt) const noexcept;
   [[nodiscard]] Momentum computeMomentum(const Vec3& j_W) const noexcept {
@@ -38,12 +43,7 @@ struct SupportSide {
 /// A contact of two bodies along one axis, and the impulse there in a step of the host.
 struct SupportLine {
   SupportLine(const SupportBody& body_a, const SupportBody& body_b, const Vec3& p_W,
-              const Vec3& along, double free)
-      : a(body_a, p_W),
-        b(body_b, p_W),
-        along_W(along),
-        free_speed(free),
-        inverse_mass(a.computeInverseMass(along) + b.computeInverseMass(along)) {}
+              const Vec3& along, double free);
 
   /// Relative velocity along the axis that Bullet's solver starts with [m/s].
   [[nodiscard]] double expect() const noexcept { return along_W.dot(a.expect() - b.expect()); }
@@ -54,7 +54,7 @@ struct SupportLine {
   SupportSide a, b;
   Vec3 along_W;         ///< impulses along it push a
   double free_speed;    ///< change of velocity along it that meets no resistance [m/s]
-  double inverse_mass;  ///< of both along it [1/kg]
+  double inverse_mass;  ///< of both along it; 0: their factors lock it [1/kg]
   double impulse = 0;   ///< on a [N s]
 };
 

@@ -112,9 +112,10 @@ void SupportRows::addFace(const RigidContact* contacts, std::size_t count, const
 void SupportRows::addRow(const RigidContact& contact, const SupportBody& a, const SupportBody& b,
                          double dt) {
   const double closing = -std::max(0.0, contact.distance) / dt;
+  const SupportLine line(a, b, contact.p_W, contact.n_W, closing);
+  if (!(line.inverse_mass > 0.0)) return;
   rows_.push_back(std::make_unique<Row>(a.bullet ? a.bullet->body() : ground_,
-                                        b.bullet ? b.bullet->body() : ground_,
-                                        SupportLine(a, b, contact.p_W, contact.n_W, closing)));
+                                        b.bullet ? b.bullet->body() : ground_, line));
   host_.addConstraint(rows_.back().get());
   if (host_sweeps_ > 0) return;
   host_sweeps_ = host_.getSolverInfo().m_numIterations;
