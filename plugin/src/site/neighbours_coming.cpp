@@ -12,9 +12,6 @@ namespace {
 /// Time in which the prediction error of a kinematic body is corrected [s]. A longer time leaves
 /// the error for longer; a shorter one hits touched bodies harder.
 constexpr double kMendingTime = 0.1;
-/// Share of a tick below which nothing is left of a host step but rounding. An error divided by it
-/// would be a blow.
-constexpr double kLeastRest = 0.1;
 
 }  // namespace
 
@@ -169,9 +166,9 @@ void Surroundings::steerDriven(bool ticks_in_step) noexcept {
     if (!neighbour.driven || neighbour.is_new || neighbour.body.is_leaving) continue;
     DrivenBody& driven = *neighbour.driven;
     const BodyIndex index = neighbour.body.index;
-    const double rest = driven.seenAt() - timeline_.time();
-    const bool arrives = ticks_in_step && rest > kLeastRest * timeline_.period();
-    const double within = arrives ? rest : kMendingTime;
+    // What is left of a fast host's step may be rounding. An error divided by it would be a blow.
+    const double rest = std::max(driven.seenAt() - timeline_.time(), timeline_.period());
+    const double within = ticks_in_step ? rest : kMendingTime;
     const RigidState state = driven.steer(island_.state(index), timeline_.time(), within);
     if (driven.motion() != neighbour.settings.motion) {
       neighbour.settings.motion = driven.motion();
