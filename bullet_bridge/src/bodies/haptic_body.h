@@ -113,6 +113,9 @@ class HapticBody {
   /// solver starts with, in W [m/s].
   [[nodiscard]] Vec3 computeExpectedVelocity(const Vec3& arm_W) const noexcept;
 
+  /// Angular momentum of a turning body, in W [N m s]. Knows no factors.
+  [[nodiscard]] Vec3 computeAngularMomentum(const Quat& q_WB, const Vec3& w_W) const noexcept;
+
   /// Post-tick, after restore() or wakeIfHit(). Sets the state that the island made of the solver's
   /// change instead of the `end` of handOff().
   void place(const RigidState& state) noexcept;
@@ -195,7 +198,6 @@ class HapticBody {
   [[nodiscard]] bool sleepsOn() noexcept;
   [[nodiscard]] bool hasWorldGravity() const noexcept;
   void setPoseAndVelocity(const RigidState& state) noexcept;
-  [[nodiscard]] Vec3 computeAngularMomentum(const Quat& q_WB, const Vec3& w_W) const noexcept;
 
   btDiscreteDynamicsWorld& world_;
   btRigidBody& body_;

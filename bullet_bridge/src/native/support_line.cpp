@@ -6,21 +6,16 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bodies/rotation_vector.h"
+#include "coordination/src/island/locked_axis.h"
 
 namespace tandem {
-namespace {
-
-/// Share of the mobility without factors below which a line is locked. An impulse along such a
-/// line would need a lever of this length to act.
-constexpr double kLockedLine = 0.01;
-
-}  // namespace
 
 SupportSide::SupportSide(const SupportBody& of, const Vec3& p_W) : body(of) {
   if (!body.bullet) return;
   const btRigidBody& rigid = body.bullet->body();
   mass = body.bullet->mass();
   arm_W = p_W - body.bullet->solvedAt();
+  q_WB = fromBullet(rigid.getWorldTransform().getRotation());
   inverse_mass = static_cast<double>(rigid.getInvMass()) * fromBullet(rigid.getLinearFactor());
   const btMatrix3x3& inertia = rigid.getInvInertiaTensorWorld();
   const Vec3 factor = fromBullet(rigid.getAngularFactor());
@@ -28,8 +23,6 @@ SupportSide::SupportSide(const SupportBody& of, const Vec3& p_W) : body(of) {
     for (int column = 0; column < 3; ++column)
       free_inverse_inertia_W(row, column) = static_cast<double>(inertia[row][column]);
   inverse_inertia_W = factor.asDiagonal() * free_inverse_inertia_W;
-  const Eigen::Matrix3d R = body.bullet->state().q_WB.toRotationMatrix();
-  inertia_W = R * body.bullet->inertia().asDiagonal() * R.transpose();
 }
 
 Vec3 SupportSide::expect() const noexcept {
@@ -53,7 +46,7 @@ void SupportSide::give(const Vec3& j_W, double dt) const noexcept {
   const Vec3 dv_W = inverse_mass.cwiseProduct(j_W);
   const Vec3 dw_W = inverse_inertia_W * arm_W.cross(j_W);
   change.impulse_W += mass * dv_W;
-  change.angular_impulse_W += inertia_W * dw_W;
+  change.angular_impulse_W += body.bullet->computeAngularMomentum(q_WB, dw_W);
   change.moved = true;
   change.offset_W += dt * dv_W;
   change.rotation_W = makeRotation(dt * dw_W) * change.rotation_W;
@@ -66,7 +59,7 @@ SupportLine::SupportLine(const SupportBody& body_a, const SupportBody& body_b, c
       along_W(along),
       free_speed(free),
       inverse_mass(a.computeInverseMass(along) + b.computeInverseMass(along)) {
-  if (inverse_mass < kLockedLine * (a.freeInverseMass() + b.freeInverseMass())) inverse_mass = 0.0;
+  if (isLocked(inverse_mass, a.freeInverseMass() + b.freeInverseMass())) inverse_mass = 0.0;
 }
 
 double SupportLine::improve(double least, double most, double dt) noexcept {

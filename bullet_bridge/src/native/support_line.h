@@ -14,13 +14,13 @@ struct SupportBody {
 /// One side of a line: a body, with its masses while Bullet's solver acts.
 struct SupportSide {
   SupportBody body;
-  double mass = 1.0;                 ///< [kg]
-  Vec3 arm_W = Vec3::Zero();         ///< from its centre [m]
+  double mass = 1.0;          ///< [kg]
+  Vec3 arm_W = Vec3::Zero();  ///< from its centre [m]
+  Quat q_WB = Quat::Identity();
   Vec3 inverse_mass = Vec3::Zero();  ///< along the axes of W [1/kg]
-  /// Of a turn that an angular impulse makes, with angular factors and without [1/(kg m^2)].
+  /// Turn by an angular impulse: with angular factors, and without [1/(kg m^2)].
   Eigen::Matrix3d inverse_inertia_W = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d free_inverse_inertia_W = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d inertia_W = Eigen::Matrix3d::Zero();  ///< without factors [kg m^2]
 
   SupportSide() = default;
   SupportSide(const SupportBody& of, const Vec3& p_W);

@@ -1,5 +1,7 @@
 #include "island/rigid_row.h"
 
+#include "island/locked_axis.h"
+
 namespace tandem {
 namespace {
 
@@ -15,10 +17,6 @@ void makeTangents(const PlainVec& n, PlainVec& s, PlainVec& t) noexcept {
   t = cross(n, s);
 }
 
-/// An impulse along a direction that factors lock would be huge. A row that moves less than this
-/// share of a free body of the same mass counts as locked: its normal is within 6 degrees of the
-/// locked axis.
-constexpr double kLocked = 0.01;
 /// Share of its determinant below which friction acts along one tangent only.
 constexpr double kOneTangent = 1e-12, kOneTangentWithFactors = 1e-4;
 
@@ -63,7 +61,7 @@ void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& a
   const double normal = mobility(0, 0);
   const bool are_free = a->is_free && (!b_moves_ || b->is_free);
   const double free_normal = a->inverse_mass + (b_moves_ ? b->inverse_mass : 0.0);
-  const bool is_locked = !are_free && normal < kLocked * free_normal;
+  const bool is_locked = !are_free && isLocked(normal, free_normal);
   inverse_normal = normal > 0.0 && !is_locked ? 1.0 / normal : 0.0;
   normal_to_s_ = mobility(1, 0);
   normal_to_t_ = mobility(2, 0);
