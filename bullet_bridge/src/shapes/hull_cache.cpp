@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
-#include <utility>
 
 #include "coordination/src/geometry/convex_polyhedron.h"
 
@@ -32,19 +31,19 @@ bool isSame(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same);
 }
 
-std::shared_ptr<const ConvexPolyhedron> makeSolidOf(const std::vector<Vec3>& points) {
-  try {
-    return std::make_shared<const ConvexPolyhedron>(ConvexPolyhedron::makeHull(points));
-  } catch (const std::invalid_argument&) {
-    return nullptr;  // a point, a line or a plate
-  }
-}
-
 }  // namespace
 
 HullCache& HullCache::ofProcess() {
   static HullCache cache;
   return cache;
+}
+
+std::shared_ptr<const ConvexPolyhedron> HullCache::make(const std::vector<Vec3>& points) {
+  try {
+    return std::make_shared<const ConvexPolyhedron>(ConvexPolyhedron::makeHull(points));
+  } catch (const std::invalid_argument&) {
+    return nullptr;  // a point, a line or a plate
+  }
 }
 
 std::shared_ptr<const ConvexPolyhedron> HullCache::find(const std::vector<Vec3>& points) {
@@ -58,7 +57,7 @@ std::shared_ptr<const ConvexPolyhedron> HullCache::find(const std::vector<Vec3>&
     }
   }
   // Other threads do not wait meanwhile; two may make the same.
-  std::shared_ptr<const ConvexPolyhedron> solid = makeSolidOf(points);
+  std::shared_ptr<const ConvexPolyhedron> solid = make(points);
   const std::lock_guard lock(mutex_);
   ++made_;
   if (!is_kept || findEntry(hash, points)) return solid;

@@ -29,8 +29,10 @@ class HullCache {
   /// The cache of this process.
   [[nodiscard]] static HullCache& ofProcess();
 
-  /// Convex hull of the points; null if they have no volume or are not finite. The solid is shared
-  /// by all who asked for these points.
+  /// Convex hull of the points; null if they have no volume or are not finite.
+  [[nodiscard]] static std::shared_ptr<const ConvexPolyhedron> make(
+      const std::vector<Vec3>& points);
+  /// The same, kept: the solid is shared by all who asked for these points.
   [[nodiscard]] std::shared_ptr<const ConvexPolyhedron> find(const std::vector<Vec3>& points);
 
   /// Solids that find() had to make.

@@ -1,7 +1,6 @@
 #include "shapes/thick_hull.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -13,14 +12,6 @@ namespace tandem {
 namespace {
 
 using Mat3 = Eigen::Matrix3d;
-
-std::optional<ConvexPolyhedron> makeSolid(const std::vector<Vec3>& points) {
-  try {
-    return ConvexPolyhedron::makeHull(points);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;  // a point, a line or a plate
-  }
-}
 
 /// Extent of the points along a direction [m].
 double computeExtent(const std::vector<Vec3>& points, const Vec3& direction) {
@@ -100,7 +91,7 @@ std::optional<Shape> makeSampledHull(const Support& support, double rounding) {
   for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
     size = std::max(size, computeExtent(points, axis));
   while (static_cast<int>(points.size()) < kMostSamples) {
-    const auto solid = makeSolid(points);
+    const auto solid = HullCache::make(points);
     if (!solid) break;
     points = solid->vertices();
     const std::size_t room = static_cast<std::size_t>(kMostSamples) - points.size();

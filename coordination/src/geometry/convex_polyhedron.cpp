@@ -95,10 +95,7 @@ void ConvexPolyhedron::addFace(const int* corners, int count, double size) {
   const auto corner = [&](int i) -> const Vec3& {
     return vertices_[static_cast<std::size_t>(corners[i])];
   };
-  // Newell's method: the normal of the plane that fits all corners.
-  Vec3 area = Vec3::Zero();
-  for (int i = 1; i + 1 < count; ++i)
-    area += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
+  const Vec3 area = computeArea(vertices_, corners, count);
   if (!(area.norm() > kShortest * size * size)) refuse("has a face without area");
 
   Face face;

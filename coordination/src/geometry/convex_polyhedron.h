@@ -48,7 +48,7 @@ class ConvexPolyhedron {
   [[nodiscard]] double boundingRadius() const noexcept { return bounding_radius_; }
 
  private:
-  /// Of faces that are known to be closed and convex.
+  /// Checks nothing: the faces must be closed and convex.
   ConvexPolyhedron(std::vector<Vec3> vertices, const FaceList& faces);
   void takeFaces(const FaceList& faces);
   void addFace(const int* corners, int count, double size);

@@ -216,14 +216,9 @@ class FlatFaces {
   [[nodiscard]] bool isConvex() const {
     int first = 0;
     for (const int end : faces_.ends) {
-      const auto corner = [&](int i) -> const Vec3& {
-        return point(faces_.corners[static_cast<std::size_t>(i)]);
-      };
-      Vec3 area = Vec3::Zero();
-      for (int i = first + 1; i + 1 < end; ++i)
-        area += (corner(i) - corner(first)).cross(corner(i + 1) - corner(first));
-      const Vec3 normal = area.normalized();
-      const double most = normal.dot(corner(first)) + folded_;
+      const int* corners = faces_.corners.data() + first;
+      const Vec3 normal = computeArea(points_, corners, end - first).normalized();
+      const double most = normal.dot(point(corners[0])) + folded_;
       for (const Vec3& p : points_)
         if (!(normal.dot(p) <= most)) return false;
       first = end;
@@ -243,6 +238,16 @@ class FlatFaces {
 };
 
 }  // namespace
+
+Vec3 computeArea(const std::vector<Vec3>& points, const int* corners, int count) {
+  const auto corner = [&](int i) -> const Vec3& {
+    return points[static_cast<std::size_t>(corners[i])];
+  };
+  Vec3 area = Vec3::Zero();
+  for (int i = 1; i + 1 < count; ++i)
+    area += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
+  return area;
+}
 
 std::optional<FaceList> joinFlatFaces(const std::vector<Vec3>& points, const HullTriangles& hull) {
   return FlatFaces(points, hull).take();

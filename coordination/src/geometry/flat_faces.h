@@ -15,6 +15,9 @@ struct FaceList {
   std::vector<int> ends;  ///< by face: end of its corners
 };
 
+/// Normal of the plane that fits a face's corners, twice as long as its area [m^2] (Newell).
+[[nodiscard]] Vec3 computeArea(const std::vector<Vec3>& points, const int* corners, int count);
+
 /// Joins triangles in one plane to faces with more corners. How a flat face was cut into triangles
 /// is a matter of chance, and must not decide what it does. Nothing if rounding folded the surface:
 /// if it is not convex within 10 `on_face`.
