@@ -145,16 +145,12 @@ TEST_P(DrivenNeighbours, TurningPaddleSweepsTheCube) {
 }
 // The host's step in single precision ends 47 ps after the tick, and ticks drift across it.
 TEST(DrivenWall, RoundingOfTheHostsStepIsNoBlow) {
-  NeighbourScene scene(true);
-  scene.addFloor();
+  DrivenScene scene(true);
+  scene.settings.tick_source = TickSource::kHostStep;
   const double step = static_cast<double>(0.001F);
-  btRigidBody& wall = scene.rig.addBody(
-      scene.rig.makeShape<btBoxShape>(btVector3(btScalar(0.02), btScalar(0.1), btScalar(0.1))), 0.0,
-      Vec3(-0.06, 0.0, 0.11));
-  scene.rig.world.removeRigidBody(&wall);
-  wall.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
-  wall.setActivationState(DISABLE_DEACTIVATION);
-  scene.rig.world.addRigidBody(&wall);
+  scene.settings.host_step = step;
+  scene.addFloor();
+  btRigidBody& wall = scene.addDriven(Vec3(0.02, 0.1, 0.1), Vec3(-0.06, 0.0, 0.11));
   scene.start(Vec3(0.0, 0.0, kHalf));
   for (int i = 1; i <= 1000; ++i) {
     const double x = -0.06 + 0.05 * (1.0 - std::cos(5.0 * i * step));

@@ -166,7 +166,7 @@ void Surroundings::steerDriven(bool ticks_in_step) noexcept {
     if (!neighbour.driven || neighbour.is_new || neighbour.body.is_leaving) continue;
     DrivenBody& driven = *neighbour.driven;
     const BodyIndex index = neighbour.body.index;
-    // What is left of a fast host's step may be rounding. An error divided by it would be a blow.
+    // The rest of a fast host's step may be rounding. An error divided by it would be a blow.
     const double rest = std::max(driven.seenAt() - timeline_.time(), timeline_.period());
     const double within = ticks_in_step ? rest : kMendingTime;
     const RigidState state = driven.steer(island_.state(index), timeline_.time(), within);

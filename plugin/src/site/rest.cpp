@@ -1,7 +1,5 @@
 #include "site/rest.h"
 
-#include <algorithm>
-
 namespace tandem {
 namespace {
 
