@@ -12,12 +12,10 @@ bool isSame(const btVector3& a, const btVector3& b) {
   return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
 }
 
-/// Active and asleep are one: physics decides. Others are the host's. A shared body does not sleep,
-/// so a site cannot know that its host asks for the same, and restores what was before.
-int kindOfActivation(const btRigidBody& body, bool was_shared) {
+/// Active and asleep are one: physics decides. Others are the host's.
+int kindOfActivation(const btRigidBody& body) {
   const int state = body.getActivationState();
-  if (state == DISABLE_SIMULATION || (state == DISABLE_DEACTIVATION && !was_shared)) return state;
-  return ACTIVE_TAG;
+  return state == DISABLE_SIMULATION || state == DISABLE_DEACTIVATION ? state : ACTIVE_TAG;
 }
 
 /// Position of an object among a world's bodies; -1: the floor; -2: another one.
@@ -64,7 +62,7 @@ std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t bod
   expect(isSame(a.getCollisionShape()->getLocalScaling(), b.getCollisionShape()->getLocalScaling()),
          "scaling");
   expect(a.getCollisionShape()->getMargin() == b.getCollisionShape()->getMargin(), "margin");
-  expect(kindOfActivation(a, own.was_shared) == kindOfActivation(b, own.was_shared), "activation");
+  expect(kindOfActivation(a) == kindOfActivation(b), "activation");
   expect(ignoredBy(world, a) == ignoredBy(twin, b), "ignored_pairs");
   expect(a.getNumConstraintRefs() == b.getNumConstraintRefs(), "joints");
   if (!world.hasWorld() || !own.is_in_world) return text;

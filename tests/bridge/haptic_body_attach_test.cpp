@@ -151,16 +151,18 @@ TEST(HapticBodyAttach, RefusesWhatItCannotMoveAndSaysWhy) {
   EXPECT_NE(refusalOf(other, fixed).find("not in this Bullet world"), std::string::npos);
 }
 
-TEST(HapticBodyAttach, NeverSleepsWhileAttachedAndMaySleepAfterwards) {
+TEST(HapticBodyAttach, NeverSleepsWhileHandedOffAndMaySleepAfterwards) {
   BulletRig rig(Vec3(0, -9.81, 0));
   rig.addBody(rig.makeShape<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0);
   // The cube is large enough that Bullet does not rock it at 60 Hz.
   btRigidBody& cube = rig.addCube(0.3, 0.2, Vec3(0, 0.2, 0));
   {
-    const HapticBody attached(rig.world, cube);
+    HapticBody attached(rig.world, cube);
     for (int i = 0; i < 5 * 60; ++i) {
+      attached.handOff(attached.state(), 1.0 / 60.0);
       rig.step(1.0 / 60.0);
       ASSERT_TRUE(cube.isActive()) << "step " << i;
+      (void)attached.restore();
     }
   }
   for (int i = 0; i < 5 * 60; ++i) rig.step(1.0 / 60.0);
@@ -178,6 +180,33 @@ TEST(HapticBodyAttach, LeavesAMovedSleeperAwakeAndAnUnmovedOneAsleep) {
     attached.setState({Vec3(0, 1, 0), Quat::Identity(), Vec3::Zero(), Vec3::Zero()});
   }
   EXPECT_EQ(cube.getActivationState(), ACTIVE_TAG);
+}
+
+TEST(HapticBodyAttach, LeavesTheHostsActivationState) {
+  BulletRig rig;
+  btRigidBody& cube = rig.addCube(0.3);
+  for (const int state : {DISABLE_DEACTIVATION, DISABLE_SIMULATION}) {
+    for (const bool sleeps : {false, true}) {
+      cube.forceActivationState(ACTIVE_TAG);
+      {
+        HapticBody attached(rig.world, cube);
+        attached.handOff(attached.state(), 1e-3);
+        rig.step(1e-3);
+        (void)attached.restore();
+        if (sleeps) attached.park();
+        cube.setActivationState(state);
+      }
+      EXPECT_EQ(cube.getActivationState(), state) << "sleeps: " << sleeps;
+    }
+  }
+  // One that never sleeps in Bullet may be parked, and activate() does not change what it is.
+  cube.forceActivationState(DISABLE_DEACTIVATION);
+  HapticBody attached(rig.world, cube);
+  attached.park();
+  EXPECT_FALSE(cube.isActive());
+  cube.activate();
+  attached.unpark();
+  EXPECT_EQ(cube.getActivationState(), DISABLE_DEACTIVATION);
 }
 
 TEST(HapticBodyAttach, WarnsOfBuiltInDampingAndSwitchesItOff) {

@@ -96,6 +96,16 @@ Vec3 readFactor(const btVector3& factor) {
   return read.unaryExpr(isSane);
 }
 
+bool mayFallAsleep(const btRigidBody& body) {
+  const int state = body.getActivationState();
+  return state == ISLAND_SLEEPING || state == WANTS_DEACTIVATION;
+}
+
+void wake(btRigidBody& body) {
+  body.forceActivationState(ACTIVE_TAG);
+  body.setDeactivationTime(0);
+}
+
 }  // namespace
 
 void HapticBody::checkAttachable(const btDiscreteDynamicsWorld& world, const btRigidBody& body,
@@ -128,7 +138,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   has_additional_damping_ = hasAdditionalDamping(body);
   warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
                                 has_additional_damping_);
-  if (sleep_ == Sleep::kNever) body.forceActivationState(DISABLE_DEACTIVATION);
+  if (sleep_ == Sleep::kNever && mayFallAsleep(body)) wake(body);
   if (mass_share != 1.0) scaleMass(mass_share);
   inverse_mass_ = body.getInvMass();
   inverse_inertia_ = body.getInvInertiaDiagLocal();
@@ -192,15 +202,15 @@ void HapticBody::scaleMass(double share) {
   body_.updateInertiaTensor();
 }
 
+/// Restores sleep and its timer, unless the host has changed how the body is simulated.
 void HapticBody::restoreActivation() {
-  const int now = body_.getActivationState();
-  const bool is_ours = now == DISABLE_DEACTIVATION || now == ISLAND_SLEEPING;
-  if (!is_ours) return;
+  if (parked_ && body_.getActivationState() == ISLAND_SLEEPING) keepAwake();
+  if (body_.getActivationState() != ACTIVE_TAG) return;
   const bool slept = original_.activation_state == ISLAND_SLEEPING ||
                      original_.activation_state == WANTS_DEACTIVATION;
   const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
   // Asleep in mid-air, a body would hang there.
-  body_.forceActivationState(slept && !untouched ? ACTIVE_TAG : original_.activation_state);
+  if (slept && untouched) body_.setActivationState(original_.activation_state);
   body_.setDeactivationTime(slept && !untouched ? 0 : original_.deactivation_time);
 }
 
@@ -294,6 +304,7 @@ void HapticBody::handOff(const RigidState& end, double dt, const Momentum& fores
     return;
   }
   body_.setFlags(handed_.flags & ~kGyroscopicFlags);
+  if (sleep_ == Sleep::kNever) stayAwake(dt);
 
   // Bullet's own arithmetic gives a free body exactly zero impulse.
   const auto step = static_cast<btScalar>(dt);
@@ -383,6 +394,7 @@ void HapticBody::park() noexcept {
   known_gravity_ = body_.getGravity();
   known_world_gravity_ = world_.getGravity();
   known_look_ = BodyLook::at(body_);
+  stays_awake_ = body_.getActivationState() == DISABLE_DEACTIVATION;
   body_.forceActivationState(ISLAND_SLEEPING);
 }
 
@@ -421,13 +433,22 @@ void HapticBody::unpark() noexcept {
 }
 
 void HapticBody::keepAwake() noexcept {
-  body_.forceActivationState(sleep_ == Sleep::kNever ? DISABLE_DEACTIVATION : ACTIVE_TAG);
+  if (mayFallAsleep(body_)) wake(body_);
   body_.setDeactivationTime(0);
-  slept_ = false;
+  if (stays_awake_) body_.setActivationState(DISABLE_DEACTIVATION);
+  stays_awake_ = slept_ = false;
+}
+
+/// Keeps Bullet from putting an awake body to sleep in this step of dt [s], whatever its limits.
+void HapticBody::stayAwake(double dt) noexcept {
+  if (body_.getActivationState() == WANTS_DEACTIVATION) wake(body_);
+  // Bullet adds dt to the timer of a slow body.
+  body_.setDeactivationTime(static_cast<btScalar>(-dt));
 }
 
 bool HapticBody::sleepsOn() noexcept {
   if (!body_.isActive()) return true;
+  if (body_.getActivationState() == DISABLE_DEACTIVATION) return false;
   // Bullet wakes every body near an awake one; that alone moves nothing.
   if (!isZero(body_.getLinearVelocity()) || !isZero(body_.getAngularVelocity())) return false;
   standStill();
@@ -454,6 +475,7 @@ bool HapticBody::wakeIfHit(HostChange& change) noexcept {
 
 void HapticBody::applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexcept {
   if (!isInWorld()) return;
+  stayAwake(dt);
   body_.applyCentralImpulse(toBullet(Vec3(f_W * dt)));
   body_.applyTorqueImpulse(toBullet(Vec3(t_W * dt)));
 }

@@ -28,7 +28,7 @@ struct HostChange {
 
 /// Permission for Bullet to put a held body to sleep.
 enum class Sleep {
-  kNever,   ///< DISABLE_DEACTIVATION; a sleeping body wakes, with all it touches
+  kNever,   ///< handed off, it stays awake; a sleeping body wakes, with all it touches
   kAsHost,  ///< Bullet decides; asleep, the body follows within 50 um and wakes beyond
 };
 
@@ -195,6 +195,7 @@ class HapticBody {
   void restoreActivation();
   void standStill() noexcept;
   void keepAwake() noexcept;
+  void stayAwake(double dt) noexcept;
   [[nodiscard]] bool sleepsOn() noexcept;
   [[nodiscard]] bool hasWorldGravity() const noexcept;
   void setPoseAndVelocity(const RigidState& state) noexcept;
@@ -206,8 +207,9 @@ class HapticBody {
   std::vector<std::string> warnings_;
   bool has_additional_damping_ = false;
   bool parked_ = false;
-  bool slept_ = false;  // at the last pre-tick
-  RigidState rest_;     // pose at which it fell asleep
+  bool slept_ = false;        // at the last pre-tick
+  bool stays_awake_ = false;  // parked: it was DISABLE_DEACTIVATION
+  RigidState rest_;           // pose at which it fell asleep
   btScalar inverse_mass_;
   btVector3 weight_{0, 0, 0};  ///< by our computation, at the start [N]
   btVector3 inverse_inertia_;  // with the mass share

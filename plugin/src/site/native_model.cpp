@@ -19,19 +19,26 @@ NativeModel::NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& set
     : world_(world), settings_(settings), hand_(world, settings.hip_radius, hand_W) {}
 
 NativeModel::~NativeModel() {
-  for (const HapticBody* object : objects_)
-    if (object->isInWorld()) object->endModelDamping();
+  for (const Object& object : objects_) {
+    if (!object.bullet->isInWorld()) continue;
+    object.bullet->endModelDamping();
+    btRigidBody& body = object.bullet->body();
+    if (object.may_sleep && body.getActivationState() == DISABLE_DEACTIVATION)
+      body.forceActivationState(ACTIVE_TAG);
+  }
 }
 
 void NativeModel::addObject(const HapticBody& object, double damping) {
   setNativeDamping(object.body(), damping);
-  objects_.push_back(&object);
+  objects_.push_back({&object, object.body().getActivationState() != DISABLE_DEACTIVATION});
+  object.body().setActivationState(DISABLE_DEACTIVATION);
   guide(object.body());
   soften(hand_.rigid());
 }
 
 void NativeModel::addProxy(BodyIndex body, const SphereBody& proxy) {
   proxies_.push_back({body, &proxy.rigid()});
+  proxy.rigid().setActivationState(DISABLE_DEACTIVATION);
   setNativeDamping(proxy.rigid(), settings_.proxy.damping);
   guide(proxy.rigid());
   soften(proxy.rigid());

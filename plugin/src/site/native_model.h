@@ -22,7 +22,7 @@ class SphereBody;
 class NativeModel {
  public:
   NativeModel(btDiscreteDynamicsWorld& world, const SiteSettings& settings, const Vec3& hand_W);
-  /// Switches the damping of objects off again, as HapticBody sets it.
+  /// Switches the damping of objects off again, as HapticBody sets it, and lets them sleep.
   ~NativeModel();
   NativeModel(const NativeModel&) = delete;
   NativeModel& operator=(const NativeModel&) = delete;
@@ -52,6 +52,11 @@ class NativeModel {
   [[nodiscard]] const Vec3& handForce() const noexcept { return hand_force_W_; }
 
  private:
+  /// A shared body: it never sleeps, as nothing hands it off.
+  struct Object {
+    const HapticBody* bullet;
+    bool may_sleep;  ///< with its host's activation state
+  };
   struct Held {
     BodyIndex body;
     std::unique_ptr<KinematicSphere> sphere;
@@ -76,7 +81,7 @@ class NativeModel {
   std::vector<Coupled> couplers_;
   std::vector<std::unique_ptr<NativeGuide>> guides_;
   Vec3 hand_force_W_ = Vec3::Zero();
-  std::vector<const HapticBody*> objects_;
+  std::vector<Object> objects_;
 };
 
 }  // namespace tandem
