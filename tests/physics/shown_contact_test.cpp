@@ -1,6 +1,7 @@
 // The host sees the contacts that the island decides, as it sees Bullet's own.
 
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -198,6 +199,23 @@ TEST(ShownContact, AHostMayDeleteATouchingBodyBetweenSteps) {
     scene.run(0.2);
     EXPECT_NEAR(look(scene.rig, *scene.cube, *scene.floor).impulse, kWeight, 1e-3 * kWeight);
   }
+}
+
+// Bullet finds a manifold that it releases by its place. A wrong one lost another body's contact.
+TEST(ShownContact, PlacesAreRightAfterAHostTakesOutAndPutsBackAFarBody) {
+  Scene scene;
+  std::vector<btRigidBody*> far;
+  for (const double x : {2.0, 4.0})
+    far.push_back(&scene.rig.addBody(scene.rig.makeShape<btSphereShape>(btScalar(kHalf)), kMass,
+                                     Vec3(x, 0.0, kHalf)));
+  scene.run(0.2);
+  scene.rig.world.removeRigidBody(far.front());
+  scene.rig.world.addRigidBody(far.front());
+  scene.run(0.2);
+  EXPECT_EQ(look(scene.rig, *scene.cube, *scene.floor).points, 4);
+  scene.rig.world.removeRigidBody(scene.cube);
+  scene.run(0.2);
+  for (const btRigidBody* body : far) EXPECT_GT(look(scene.rig, *body, *scene.floor).points, 0);
 }
 
 TEST(ShownContact, TheSiteLeavesNoneBehind) {

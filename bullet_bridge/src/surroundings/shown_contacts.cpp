@@ -11,6 +11,8 @@
 namespace tandem {
 namespace {
 
+constexpr int kNowhere = -1;
+
 using Manifolds = btAlignedObjectArray<btPersistentManifold*>;
 
 /// The dispatcher's list. Naming a protected member through a derived class is legal C++.
@@ -68,6 +70,8 @@ void ShownContacts::hide() noexcept {
     list[kept++] = list[i];
   }
   list.resizeNoInitialize(kept);
+  // Ours have wrong places now, even if as many of others come back.
+  first_ = kNowhere;
 }
 
 void ShownContacts::unhide() {
