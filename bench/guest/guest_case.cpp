@@ -52,7 +52,11 @@ void drawBodies(Draw& draw, GuestCase& one) {
     GuestPlan plan = drawBody(draw, i, one.is_planar);
     // Only some shapes can be shared.
     if (i < one.shared && draw.chance(0.9)) plan.shape = static_cast<GuestShape>(draw.count(0, 7));
-    if (i > 0 && draw.chance(0.1)) plan.shares_shape_with = i - 1;
+    if (i > 0 && draw.chance(0.1)) {
+      plan.shares_shape_with = i - 1;
+      plan.shape = one.bodies.back().shape;
+      plan.size = one.bodies.back().size;
+    }
     one.bodies.push_back(plan);
   }
   if (draw.chance(0.25)) {
