@@ -88,6 +88,7 @@ std::optional<GuestFinding> GuestVerdict::look() {
     if (auto found = findNotFinite(site)) return found;
     excuse(site.world());
     excuse(site.twin());
+    excuseSunk(site.twin());
     if (!case_.has_large_margins)
       if (auto found = findFallen(site)) return found;
     if (auto found = findDifferent(i)) return found;
@@ -114,6 +115,18 @@ void GuestVerdict::excuse(GuestWorld& world) const {
     if (!(way > 0.5 * body->plan.size) || !isInArena(*body)) continue;
     for (const auto& other : world.bodies())
       if ((placeOf(*other) - placeOf(*body)).norm() < 0.1 + way) other->may_fall = true;
+  }
+}
+
+/// The shortest way out of a floor without thickness may be down, or along it to a seam.
+void GuestVerdict::excuseSunk(GuestWorld& twin) const {
+  if (case_.floor == GuestFloor::kBox || case_.floor == GuestFloor::kPlane) return;
+  const btScalar top = twin.floor().getWorldTransform().getOrigin().z();
+  for (const auto& body : twin.bodies()) {
+    btVector3 low, high;
+    body->rigid->getAabb(low, high);
+    const btVector3 size = high - low;
+    body->may_fall |= top - low.z() > size[size.minAxis()] / 2;
   }
 }
 

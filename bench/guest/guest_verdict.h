@@ -39,6 +39,7 @@ class GuestVerdict {
   [[nodiscard]] std::optional<GuestFinding> findDifferent(std::size_t index);
   [[nodiscard]] std::optional<GuestFinding> findEnergy();
   void excuse(GuestWorld& world) const;
+  void excuseSunk(GuestWorld& twin) const;
 
   const GuestCase& case_;
   std::vector<std::unique_ptr<GuestSite>>& sites_;
