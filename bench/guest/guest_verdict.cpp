@@ -18,6 +18,7 @@ constexpr double kReach = 8.0;        // steps over which a site foresees motion
 constexpr double kLeastEnergy = 1.0;  // of what penetration and rounding give [J]
 constexpr double kMoverEnergy = 2.0;  // that a mover gives to a mass [J/kg]
 constexpr double kMostGrowth = 3.0;
+constexpr btScalar kAligned = btScalar(1e-3);  // share of a moment of inertia off its axis
 
 /// Fastest point of a body [m/s], as a site may foresee it.
 double speedOf(const GuestWorld& world) {
@@ -40,6 +41,18 @@ bool isSame(const btRigidBody& a, const btRigidBody& b) {
   return a.getWorldTransform() == b.getWorldTransform() &&
          a.getLinearVelocity() == b.getLinearVelocity() &&
          a.getAngularVelocity() == b.getAngularVelocity();
+}
+
+/// True if the factors' axes are not the body's own: Bullet's impulses are not symmetric then.
+bool isOblique(const btRigidBody& rigid) {
+  const btMatrix3x3& inverse = rigid.getInvInertiaTensorWorld();
+  const btVector3& factor = rigid.getAngularFactor();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (factor[i] == factor[j]) continue;
+    if (btFabs(inverse[i][j]) > kAligned * btSqrt(inverse[i][i] * inverse[j][j])) return true;
+  }
+  return false;
 }
 
 std::string tell(const GuestBody& body) {
@@ -89,12 +102,14 @@ std::optional<GuestFinding> GuestVerdict::look() {
     excuse(site.world());
     excuse(site.twin());
     excuseSunk(site.twin());
+    for (const auto& joint : site.twin().joints())
+      diverges_ |= isOblique(joint->getRigidBodyA()) || isOblique(joint->getRigidBodyB());
     if (!case_.has_large_margins)
       if (auto found = findFallen(site)) return found;
     if (auto found = findDifferent(i)) return found;
     if (!site.leftOver().empty()) return GuestFinding{GuestFailure::kRestored, site.leftOver()};
   }
-  return case_.has_large_margins ? std::nullopt : findEnergy();
+  return case_.has_large_margins || diverges_ ? std::nullopt : findEnergy();
 }
 
 std::optional<GuestFinding> GuestVerdict::findNotFinite(GuestSite& site) const {

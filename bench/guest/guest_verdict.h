@@ -44,7 +44,8 @@ class GuestVerdict {
   const GuestCase& case_;
   std::vector<std::unique_ptr<GuestSite>>& sites_;
   double allowed_ = 0.0, share_ = 0.0;
-  double fastest_ = 1.0;  ///< body or proxy so far [m/s]
+  bool diverges_ = false;  ///< a joint that gives energy in Bullet alone
+  double fastest_ = 1.0;   ///< body or proxy so far [m/s]
   double before_ = 0.0, twins_ = 0.0;
   std::vector<std::vector<char>> is_met_;  ///< by site and body: something came near a far body
 };
