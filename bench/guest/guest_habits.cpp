@@ -117,6 +117,12 @@ void GuestWorld::reset() {
   world().clearForces();
 }
 
+void GuestWorld::putAsIn(const GuestWorld& other, std::size_t body) {
+  const btRigidBody& rigid = *other.bodies_[body]->rigid;
+  place(*bodies_[body],
+        {rigid.getWorldTransform(), rigid.getLinearVelocity(), rigid.getAngularVelocity()});
+}
+
 /// Puts a body elsewhere, as hosts do that restore a state.
 void GuestWorld::place(GuestBody& body, const Saved& state) {
   btRigidBody& rigid = *body.rigid;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kTick = 1e-3;        // [s]
 constexpr double kTargetTime = 0.15;  // a hand looks for another body after this [s]
+constexpr double kReset = 0.04;       // no body moves as far in a step, but by a reset [m]
 
 PeerId peerOf(int site) { return PeerId{static_cast<std::uint32_t>(site) + 1}; }
 
@@ -89,9 +90,27 @@ void GuestSite::step(double time) {
       given_ += std::max(0.0, energyOf(world) - before);
     };
   };
+  findPlaces();
   world_.step(time, doPending(world_));
   twin_.step(time, doPending(twin_));
+  followResets();
   pending_.clear();
+}
+
+void GuestSite::findPlaces() {
+  places_.clear();
+  for (const auto& body : world_.bodies()) places_.push_back(placeOf(*body));
+}
+
+/// A host puts a body elsewhere, and its peers' copies follow. So do these copies' twins.
+void GuestSite::followResets() {
+  if (!site_ || site_->counters().resets_followed == 0) return;
+  for (std::size_t b = 0; b < places_.size(); ++b) {
+    const GuestBody& body = *world_.bodies()[b];
+    const double way = (placeOf(body) - places_[b]).norm();
+    const double speed = fromBullet(body.rigid->getLinearVelocity()).norm();
+    if (body.was_shared && way > kReset + speed * case_.frame) twin_.putAsIn(world_, b);
+  }
 }
 
 void GuestSite::unshare(Draw& draw) {

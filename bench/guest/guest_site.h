@@ -49,6 +49,8 @@ class GuestSite {
   void begin();
   void noteHooks();
   [[nodiscard]] std::string findHookLeft();
+  void findPlaces();
+  void followResets();
 
   const GuestCase& case_;
   int self_;
@@ -57,6 +59,7 @@ class GuestSite {
   std::vector<std::pair<int, Link*>> links_;
   std::unique_ptr<Site> site_;
   std::vector<GuestActPlan> pending_;
+  std::vector<Vec3> places_;  ///< of bodies before the step
   std::string left_over_;
   std::uint64_t ticks_ = 0;
   double simulated_ = 0.0;  ///< by the host [s]

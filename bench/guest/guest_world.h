@@ -100,6 +100,8 @@ class GuestWorld {
   void save();
   void restore();
   void reset();
+  /// Puts a body where another world has it.
+  void putAsIn(const GuestWorld& other, std::size_t body);
 
   /// Ends the world, with its bodies in it or not; they live on.
   void endWorld();
