@@ -7,8 +7,9 @@
 namespace tandem::demos::bench {
 namespace {
 
-constexpr double kHalfFloor = 4.0;  // [m]
-constexpr int kFloorCells = 6;      // on a side, of meshes
+constexpr double kHalfFloor = 4.0;    // [m]
+constexpr double kFloorDepth = 0.25;  // half of a box's [m]
+constexpr int kFloorCells = 6;        // on a side, of meshes
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 
@@ -79,7 +80,7 @@ btCollisionShape& GuestWorld::makeOwnShape(GuestShape kind, double size, std::ui
 }
 
 void GuestWorld::makeFloor() {
-  const btScalar half = scalar(kHalfFloor), depth = scalar(0.25);
+  const btScalar half = scalar(kHalfFloor), depth = scalar(kFloorDepth);
   btTransform pose = btTransform::getIdentity();
   btCollisionShape* shape = nullptr;
   switch (case_.floor) {
@@ -117,6 +118,11 @@ void GuestWorld::makeFloor() {
   info.m_startWorldTransform = pose;
   floor_ = std::make_unique<btRigidBody>(info);
   world().addRigidBody(floor_.get());
+}
+
+btScalar GuestWorld::floorTop() const {
+  const btScalar middle = floor_->getWorldTransform().getOrigin().z();
+  return case_.floor == GuestFloor::kBox ? middle + scalar(kFloorDepth) : middle;
 }
 
 }  // namespace tandem::demos::bench

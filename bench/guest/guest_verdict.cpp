@@ -133,15 +133,14 @@ void GuestVerdict::excuse(GuestWorld& world) const {
   }
 }
 
-/// The shortest way out of a floor without thickness may be down, or along it to a seam.
+/// The shortest way out of a floor without thickness may be down, or along it to a seam. And what
+/// draws a body into another floor, such as a joint, may draw it through.
 void GuestVerdict::excuseSunk(GuestWorld& twin) const {
-  if (case_.floor == GuestFloor::kBox || case_.floor == GuestFloor::kPlane) return;
-  const btScalar top = twin.floor().getWorldTransform().getOrigin().z();
   for (const auto& body : twin.bodies()) {
     btVector3 low, high;
     body->rigid->getAabb(low, high);
     const btVector3 size = high - low;
-    body->may_fall |= top - low.z() > size[size.minAxis()] / 2;
+    body->may_fall |= twin.floorTop() - low.z() > size[size.minAxis()] / 2;
   }
 }
 

@@ -68,6 +68,7 @@ class GuestWorld {
   [[nodiscard]] std::vector<std::unique_ptr<btTypedConstraint>>& joints() { return joints_; }
   [[nodiscard]] const GuestCase& plan() const { return case_; }
   [[nodiscard]] btRigidBody& floor() { return *floor_; }
+  [[nodiscard]] btScalar floorTop() const;
 
   /// A body that acts are done to.
   [[nodiscard]] GuestBody& drawBody(Draw& draw);
