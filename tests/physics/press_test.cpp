@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -293,6 +294,46 @@ TEST(Press, TurnsNobodyOutOfItsPlane) {
       ASSERT_LT(std::abs(static_cast<double>(cube.getLinearVelocity().y())), 1e-9);
     });
     EXPECT_GT(turned, 0.1);
+  }
+}
+
+/// Highest speed of a leaning capsule that rubs on its floor along a slide, in 0.2 s [m/s].
+double rubAlongASlide(bool shares, double rate) {
+  constexpr double kLean = 0.23, kRadius = 0.017, kArm = 0.1;  // [rad, m, m]
+  test::BulletRig rig(Vec3(0, 0, -9.81));
+  rig.addBody(rig.makeShape<btBoxShape>(btVector3(2, 2, btScalar(0.1))), 0.0, Vec3(0, 0, -0.1));
+  btCollisionShape& shape = rig.makeShape<btCapsuleShapeZ>(btScalar(kRadius), btScalar(0.028));
+  const Quat lean(Eigen::AngleAxisd(kLean, Vec3::UnitY()));
+  const Vec3 p_W(0, 0, kRadius + 0.014 * std::cos(kLean));
+  const Vec3 way_W = lean * Vec3(2.0 * kArm, 0, 0);
+  btRigidBody& body = rig.addBody(shape, 0.1, p_W, lean);
+  btRigidBody& base = rig.addBody(shape, 0.0, p_W + way_W, lean);
+  btSliderConstraint slide(body, base, toBullet(Vec3(kArm, 0, 0), Quat::Identity()),
+                           toBullet(Vec3(-kArm, 0, 0), Quat::Identity()), true);
+  rig.world.addConstraint(&slide, true);
+  test::FakeDevice device(Vec3(0, 0, 10));
+  SiteSettings settings;
+  settings.peers = 1;
+  settings.host_step = 1.0 / rate;
+  std::optional<Site> site;
+  if (shares) site.emplace(settings, rig.world, device).share(body);
+  body.setLinearVelocity(btVector3(btScalar(-0.045), btScalar(-0.01), 0));
+  body.setAngularVelocity(btVector3(btScalar(1.5), btScalar(0.2), 0));
+  double most = 0.0;
+  for (int i = 0; i < static_cast<int>(0.2 * rate); ++i) {
+    rig.step(1.0 / rate);
+    most = std::max(most, static_cast<double>(body.getLinearVelocity().length()));
+  }
+  site.reset();
+  rig.world.removeConstraint(&slide);
+  return most;
+}
+
+// Friction that is solved after the joints had opened the slide, more in each step: 17 m/s.
+TEST(Press, FrictionOfSupportsLeavesASlideClosed) {
+  for (const double rate : {60.0, 240.0, 720.0}) {
+    const double bare = rubAlongASlide(false, rate);
+    EXPECT_LT(rubAlongASlide(true, rate), 2.0 * bare) << rate;
   }
 }
 

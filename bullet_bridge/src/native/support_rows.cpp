@@ -9,6 +9,8 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "world/world_lookup.h"
+
 namespace tandem {
 namespace {
 
@@ -86,9 +88,17 @@ void SupportRows::clear() noexcept {
   faces_.clear();
 }
 
+/// Friction is solved when the joints are done: it would open them, and they would pull harder in
+/// the next step.
+bool SupportRows::hasJoint(const SupportBody& body) const noexcept {
+  return body.bullet && std::binary_search(jointed_.begin(), jointed_.end(), &body.bullet->body());
+}
+
 void SupportRows::addFace(const RigidContact* contacts, std::size_t count, const SupportBody& a,
                           const SupportBody& b, double dt) {
   if (!a.bullet && !b.bullet) return;
+  if (faces_.empty()) listJointed(host_, jointed_);
+  const bool rubs = !hasJoint(a) && !hasJoint(b);
   const Vec3 n_W = contacts[0].n_W;
   const Vec3 s_W = n_W.unitOrthogonal(), t_W = n_W.cross(s_W);
   // A kinematic body carries along what stands on it.
@@ -97,6 +107,7 @@ void SupportRows::addFace(const RigidContact* contacts, std::size_t count, const
   if (count > 1) addRow(computeMean(contacts, count), a, b, dt);
   for (std::size_t i = 0; i < count; ++i) {
     addRow(contacts[i], a, b, dt);
+    if (!rubs) continue;
     for (const Vec3& along_W : {s_W, t_W}) {
       SupportLine line(a, b, contacts[i].p_W, along_W, 0.0);
       if (!is_carried) line.free_speed = along_W.dot(contacts[i].v_W) - line.expect();

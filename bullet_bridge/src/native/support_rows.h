@@ -46,7 +46,8 @@ class SupportRows {
   /// Post-tick. Takes the rows out of the world.
   void takeOut() noexcept;
   /// Post-tick, when the changes of all bodies are known. Bullet's sweeps leave an error in them,
-  /// and know no friction here. This solves both to their end, and corrects the changes.
+  /// and know no friction here. This solves both to their end, and corrects the changes. Bodies of
+  /// joints get no friction here: the island rubs them by what lasts.
   void finish(double dt) noexcept;
   /// Momentum that the supports gave to a body in the step that has ended. `lasting`: the part that
   /// they gave in the step before, too; of two bodies at a contact both have as much.
@@ -69,6 +70,7 @@ class SupportRows {
 
   void addRow(const RigidContact& contact, const SupportBody& a, const SupportBody& b, double dt);
   double sweep(const Face& face, double dt) noexcept;
+  [[nodiscard]] bool hasJoint(const SupportBody& body) const noexcept;
   [[nodiscard]] Vec3 computeImpulse(const Face& face) const noexcept;
   [[nodiscard]] Vec3 findImpulseBefore(const Face& face) const noexcept;
 
@@ -77,7 +79,8 @@ class SupportRows {
   std::vector<std::unique_ptr<Row>> rows_;
   std::vector<SupportLine> frictions_;
   std::vector<Face> faces_, last_faces_;
-  int host_sweeps_ = 0;  ///< of the host's solver; 0: the world has no rows
+  std::vector<const btRigidBody*> jointed_;  ///< of the host, sorted
+  int host_sweeps_ = 0;                      ///< of the host's solver; 0: the world has no rows
 };
 
 }  // namespace tandem

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -11,6 +10,7 @@
 #include "bodies/body_look.h"
 #include "bodies/filter_of.h"
 #include "surroundings/regions.h"
+#include "world/world_lookup.h"
 
 namespace tandem {
 namespace {
@@ -78,7 +78,7 @@ const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<Neighbo
                                                        double horizon) {
   held_.swap(found_);
   found_.clear();
-  findJointed();
+  listJointed(host_, jointed_);
   wave_ = seeds;
   while (!wave_.empty() && found_.size() < capacity_) {
     candidates_.clear();
@@ -166,16 +166,6 @@ bool NeighbourSearch::isAnythingDriven() const {
   for (int i = 0; i < objects.size(); ++i)
     if (objects[i]->isKinematicObject() && objects[i]->isActive()) return true;
   return false;
-}
-
-/// Lists all bodies with joints: a body's own list has only joints that disable its contacts.
-void NeighbourSearch::findJointed() {
-  jointed_.clear();
-  for (int i = 0; i < host_.getNumConstraints(); ++i) {
-    jointed_.push_back(&host_.getConstraint(i)->getRigidBodyA());
-    jointed_.push_back(&host_.getConstraint(i)->getRigidBodyB());
-  }
-  std::sort(jointed_.begin(), jointed_.end());
 }
 
 bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {

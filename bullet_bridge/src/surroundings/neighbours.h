@@ -77,7 +77,6 @@ class NeighbourSearch {
   void visitNear(const NeighbourSeed& seed, double horizon, Take take) const;
   void findAround(const NeighbourSeed& seed, double horizon);
   void takeNearest();
-  void findJointed();
   [[nodiscard]] bool mayBeNeighbour(const btRigidBody& body) const;
   [[nodiscard]] bool isStranger(const btCollisionObject& object) const;
 

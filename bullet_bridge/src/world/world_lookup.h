@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 namespace tandem {
 
@@ -14,6 +19,18 @@ namespace tandem {
     if (objects[i] == object) return i;
   }
   return -1;
+}
+
+/// Lists all bodies with joints, sorted: a body's own list has only joints that disable its
+/// contacts. Allocates.
+inline void listJointed(const btDiscreteDynamicsWorld& world,
+                        std::vector<const btRigidBody*>& jointed) {
+  jointed.clear();
+  for (int i = 0; i < world.getNumConstraints(); ++i) {
+    jointed.push_back(&world.getConstraint(i)->getRigidBodyA());
+    jointed.push_back(&world.getConstraint(i)->getRigidBodyB());
+  }
+  std::sort(jointed.begin(), jointed.end());
 }
 
 }  // namespace tandem
