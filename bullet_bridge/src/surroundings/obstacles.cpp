@@ -7,10 +7,10 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
-#include "bodies/haptic_body.h"
 #include "surroundings/contact_search.h"
 #include "surroundings/known_shapes.h"
 #include "surroundings/obstacle_search.h"
+#include "surroundings/own_filters.h"
 #include "surroundings/shown_contacts.h"
 #include "world/world_lookup.h"
 
@@ -37,9 +37,6 @@ bool isKeeper(const PrivateCopy& copy, const PrivateCopy& other) {
   return copy.index == kStanding || (other.index != kStanding && copy.index > other.index);
 }
 
-/// Most filters kept for keepers that left the host's world and may return.
-constexpr std::size_t kMostOrphans = 64;
-
 }  // namespace
 
 struct Obstacles::Impl {
@@ -47,15 +44,11 @@ struct Obstacles::Impl {
     BodyIndex index;
     btScalar radius;
   };
-  /// A filter that could not be removed because its keeper left the world. Addresses only.
-  struct Orphan {
-    btCollisionObject* keeper;
-    btCollisionObject* other;
-  };
 
   explicit Impl(btDiscreteDynamicsWorld& world)
       : host(world),
         shown(world),
+        filters(world),
         search(static_cast<double>(world.getSolverInfo().m_restitutionVelocityThreshold)) {}
 
   [[nodiscard]] btCollisionObject* findBody(BodyIndex index) const;
@@ -64,7 +57,6 @@ struct Obstacles::Impl {
                 std::vector<const ContactSum*>::iterator last);
   void remove(btCollisionObject* original);
   void unfilter(PrivateCopy& keeper, const PrivateCopy& other);
-  void forgetOrphans();
   void moveOrigin(const std::vector<RigidState>& states);
   void findForBodies(const std::vector<RigidState>& states, btScalar margin,
                      const std::vector<char>* moves);
@@ -86,7 +78,7 @@ struct Obstacles::Impl {
       if (!hostLetsTouch(host, *a.original, *b.original)) return false;
       const bool a_keeps = isKeeper(a, b);
       PrivateCopy& keeper = a_keeps ? a : b;
-      filterNativeContact(host, *keeper.original, *(a_keeps ? b : a).original, true);
+      filters.add(*keeper.original, *(a_keeps ? b : a).original);
       ++keeper.own_filters;
       return true;
     };
@@ -94,12 +86,12 @@ struct Obstacles::Impl {
 
   btDiscreteDynamicsWorld& host;
   ShownContacts shown;
+  OwnFilters filters;
   ContactSearch search;
   std::vector<Ball> balls;
   std::vector<Obstacle> near_spheres, next_near_spheres;
   bool has_next = false;  ///< next_near_spheres is ready
   KnownShapes known_shapes;
-  std::vector<Orphan> orphans;
   bool changed = false;
   // Work space of update().
   std::vector<btCollisionObject*> found;
@@ -112,7 +104,7 @@ Obstacles::Obstacles(btDiscreteDynamicsWorld& host) : impl_(std::make_unique<Imp
 
 Obstacles::~Obstacles() {
   while (!impl_->search.bodies().empty()) impl_->remove(impl_->search.bodies().back()->original);
-  impl_->forgetOrphans();
+  impl_->filters.removeLate();
 }
 
 void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
@@ -126,6 +118,7 @@ void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
       !(is_driven && shape.getShapeType() != STATIC_PLANE_PROXYTYPE))
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
                 "; use a convex shape or a compound of them");
+  impl_->filters.removeLate();  // before the body gets new ones
   impl_->search.addBody(index, body, impl_->takeOver());
   impl_->search.prepare();
 }
@@ -140,8 +133,8 @@ void Obstacles::forgetWorld() {
   while (!impl_->search.standing().empty())
     impl_->remove(impl_->search.standing().back()->original);
   impl_->shown.clear();
-  impl_->forgetOrphans();
-  impl_->orphans.clear();  // the world that would bring them back has gone
+  impl_->filters.removeLate();
+  impl_->filters.forgetLate();
   impl_->search.prepare();
   impl_->next_near_spheres.clear();
   impl_->has_next = true;
@@ -157,7 +150,7 @@ bool Obstacles::search(const std::vector<RigidState>& states, double margin,
   impl_->changed = false;
   impl_->dropMissingBodies();
   impl_->renewChangedBodies();
-  impl_->forgetOrphans();
+  impl_->filters.removeLate();
   impl_->moveOrigin(states);
   impl_->findForBodies(states, reach, moves);
   impl_->dropLost();
@@ -269,26 +262,9 @@ void Obstacles::Impl::remove(btCollisionObject* original) {
   });
 }
 
-/// Restores native contact. Each object may have left the host's world or been deleted.
 void Obstacles::Impl::unfilter(PrivateCopy& keeper, const PrivateCopy& other) {
   --keeper.own_filters;
-  if (findInWorld(host, keeper.original) < 0) {
-    if (orphans.size() == kMostOrphans) orphans.erase(orphans.begin());
-    orphans.push_back({keeper.original, other.original});
-  } else if (findInWorld(host, other.original) < 0) {
-    keeper.original->setIgnoreCollisionCheck(other.original, false);
-  } else {
-    filterNativeContact(host, *keeper.original, *other.original, false);
-  }
-}
-
-/// A keeper that is back in the world still stores its old filter: remove it.
-void Obstacles::Impl::forgetOrphans() {
-  std::erase_if(orphans, [&](const Orphan& orphan) {
-    if (findInWorld(host, orphan.keeper) < 0) return false;
-    orphan.keeper->setIgnoreCollisionCheck(orphan.other, false);
-    return true;
-  });
+  filters.remove(keeper.original, other.original);
 }
 
 void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {
@@ -352,6 +328,7 @@ void Obstacles::Impl::renewPairs() {
             unfilter(it_keeps ? renewed : partner, it_keeps ? partner : renewed);
           },
           takeOver());
+      copy->own_filters = OwnFilters::countIn(*copy->original);
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include "bodies/filter_of.h"
 #include "shapes/only_shape.h"
+#include "surroundings/own_filters.h"
 #include "surroundings/private_shapes.h"
 
 namespace tandem {
@@ -73,7 +74,8 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
   breaking_threshold = measured.getContactBreakingThreshold(gContactBreakingThreshold);
   place(btTransform::getIdentity());
   filter = filterOf(host_object);
-  host_filters = host_object.getNumObjectsWithoutCollision();
+  own_filters = OwnFilters::countIn(host_object);
+  host_filters = OwnFilters::countOfHost(host_object);
 }
 
 bool PrivateCopy::isAsCopied() const {
@@ -141,8 +143,10 @@ bool asksContactCallback(const btCollisionObject& object) noexcept {
 
 bool PrivateCopy::hasNewFilters() noexcept {
   const CollisionFilter now = filterOf(*original);
-  const int of_host = original->getNumObjectsWithoutCollision() - own_filters;
-  const bool has_new = !(now == filter) || of_host != host_filters;
+  const int of_host = OwnFilters::countOfHost(*original);
+  // Another object at the address has none of ours.
+  const bool has_new =
+      !(now == filter) || of_host != host_filters || OwnFilters::countIn(*original) != own_filters;
   filter = now;
   host_filters = of_host;
   return has_new;

@@ -79,8 +79,8 @@ struct PrivateCopy {
   btCollisionObject object;                   ///< holds the pose; has no shape
   int world_index = -1;                       ///< last index of the original in the host's world
   CollisionFilter filter;                     ///< the host's group and mask at the last look
-  int own_filters = 0;           ///< entries of ours in the original's list of ignored objects
-  int host_filters = 0;          ///< entries of the host there, at the last look
+  int own_filters = 0;                        ///< that the original should hold (OwnFilters)
+  int host_filters = 0;                       ///< of the host in it, at the last look
   Vec3 p_placed = Vec3::Zero();  ///< last position of a body, from the private origin [m]
   Quat q_placed = Quat::Identity();
   Region bounds;  ///< box around the copy at its last pose

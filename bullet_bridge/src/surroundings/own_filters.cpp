@@ -1,0 +1,70 @@
+#include "surroundings/own_filters.h"
+
+#include <algorithm>
+
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+#include "bodies/haptic_body.h"
+#include "world/world_lookup.h"
+
+namespace tandem {
+namespace {
+
+/// More keepers may be away, but only these get rid of our filters: a host that deletes bodies all
+/// the time must not fill the memory.
+constexpr std::size_t kMostAway = 64;
+
+/// The mark. It is in no world, and lives until the process ends.
+const btCollisionObject& mark() {
+  static const btCollisionObject object;
+  return object;
+}
+
+}  // namespace
+
+void OwnFilters::add(btCollisionObject& keeper, btCollisionObject& other) {
+  keeper.setIgnoreCollisionCheck(&mark(), true);
+  filterNativeContact(host_, keeper, other, true);
+}
+
+void OwnFilters::remove(btCollisionObject* keeper, btCollisionObject* other) {
+  if (findInWorld(host_, keeper) < 0) return noteLate(keeper, other);
+  if (countIn(*keeper) == 0) return;  // the host made another object at the address
+  keeper->setIgnoreCollisionCheck(&mark(), false);
+  if (findInWorld(host_, other) < 0) {
+    keeper->setIgnoreCollisionCheck(other, false);
+  } else {
+    filterNativeContact(host_, *keeper, *other, false);
+  }
+}
+
+void OwnFilters::noteLate(btCollisionObject* keeper, btCollisionObject* other) {
+  const auto known = std::find_if(late_.begin(), late_.end(),
+                                  [&](const Late& late) { return late.keeper == keeper; });
+  if (known != late_.end()) return known->others.push_back(other);
+  if (late_.size() == kMostAway) removeLate();
+  if (late_.size() == kMostAway) late_.erase(late_.begin());
+  late_.push_back({keeper, {other}});
+}
+
+void OwnFilters::removeLate() {
+  std::erase_if(late_, [&](const Late& late) {
+    if (findInWorld(host_, late.keeper) < 0) return false;
+    for (btCollisionObject* other : late.others) remove(late.keeper, other);
+    return true;
+  });
+}
+
+int OwnFilters::countIn(btCollisionObject& keeper) {
+  int count = 0;
+  for (int i = 0; i < keeper.getNumObjectsWithoutCollision(); ++i)
+    count += keeper.getObjectWithoutCollision(i) == &mark() ? 1 : 0;
+  return count;
+}
+
+int OwnFilters::countOfHost(btCollisionObject& keeper) {
+  return keeper.getNumObjectsWithoutCollision() - 2 * countIn(keeper);
+}
+
+}  // namespace tandem
