@@ -41,12 +41,12 @@ class GuestPhysics final : public btDiscreteDynamicsWorld {
     return most > 0 ? fixed * std::min(steps, most) : frame;
   }
   [[nodiscard]] const btSimulationIslandManager* islands() const { return m_islandManager; }
-  /// Sweeps of its solver in the latest step.
+  /// Sweeps of its solver in all steps.
   [[nodiscard]] int sweeps() const { return sweeps_; }
 
  protected:
   void solveConstraints(btContactSolverInfo& info) override {
-    sweeps_ = info.m_numIterations;
+    sweeps_ += info.m_numIterations;
     btDiscreteDynamicsWorld::solveConstraints(info);
   }
 

@@ -72,5 +72,16 @@ TEST(GuestBench, NoticesWhatASiteHoldsWhileItLives) {
   EXPECT_EQ(site.findLeftOver(), "");
 }
 
+/// More sweeps in the first sub-step of a frame change bits, too.
+TEST(GuestBench, CountsTheSweepsOfAllSubSteps) {
+  GuestCase one = drawQuietCase();
+  one.fixed_step = 1e-3;
+  one.frame = 2.5e-3;
+  one.max_substeps = 4;
+  GuestWorld world(one);
+  world.step(0.0, {});
+  EXPECT_EQ(world.world().sweeps(), 2 * world.world().getSolverInfo().m_numIterations);
+}
+
 }  // namespace
 }  // namespace tandem::demos::bench
