@@ -145,6 +145,30 @@ TEST(ObstacleSearch, SurvivesObjectsAndBodiesThatTheHostDeletes) {
   EXPECT_EQ(kept.getNumObjectsWithoutCollision(), 0);
 }
 
+// A host may pin a body, which then stands, and free it in place.
+TEST(ObstacleSearch, HoldsABodyThatStoodBefore) {
+  BulletRig rig;
+  btRigidBody& floor =
+      rig.addBody(rig.makeShape<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0);
+  btRigidBody& cube = rig.addCube(0.1, 0.02, Vec3(0, 0.02, 0));
+  btRigidBody& pinned = rig.addCube(0.1, 0.02, Vec3(0, 0.06, 0));
+  const std::vector<RigidState> states = {at(Vec3(0, 0.02, 0)), at(Vec3(0, 0.06, 0))};
+  {
+    Obstacles obstacles(rig.world);
+    obstacles.addBody(0, cube);
+    pinned.setMassProps(0, btVector3(0, 0, 0));
+    obstacles.update(states, 0.04);
+    EXPECT_FALSE(pinned.checkCollideWith(&cube));
+    pinned.setMassProps(btScalar(0.1), btVector3(1, 1, 1));
+    obstacles.addBody(1, pinned);
+    obstacles.update(states, 0.04);
+    EXPECT_TRUE(isNear(obstacles, 1, states[1], 0.05)) << "the floor";
+    EXPECT_FALSE(pinned.checkCollideWith(&cube));
+  }
+  for (const btRigidBody* body : {&floor, &cube, &pinned})
+    EXPECT_EQ(body->getNumObjectsWithoutCollision(), 0);
+}
+
 TEST(ObstacleSearch, RefusesBodiesThatItCannotHold) {
   BulletRig rig;
   Obstacles obstacles(rig.world);

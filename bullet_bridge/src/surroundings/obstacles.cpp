@@ -119,6 +119,7 @@ void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
                 "; use a convex shape or a compound of them");
   impl_->filters.removeLate();  // before the body gets new ones
+  impl_->remove(&body);         // as a standing object, until the host let it move
   impl_->search.addBody(index, body, impl_->takeOver());
   impl_->search.prepare();
 }
