@@ -122,9 +122,6 @@ void GuestSite::shareAgain(Draw& draw) {
   if (!site_ || site_->objectCount() == 0) return;
   const auto id = static_cast<ObjectId>(draw.count(0, site_->objectCount() - 1));
   GuestBody& body = world_.drawDynamicBody(draw);
-  // A body that is away while another takes its place keeps its m/N.
-  for (const auto& each : world_.bodies())
-    if (each->was_shared && !each->is_in_world) return;
   try {
     site_->share(id, *body.rigid);
     body.was_shared = true;

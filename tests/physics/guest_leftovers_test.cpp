@@ -80,6 +80,23 @@ TEST(GuestLeftovers, ADampingOfZeroStaysZero) {
   EXPECT_EQ(static_cast<double>(scene.cube->getAngularDamping()), 0.0);
 }
 
+TEST(GuestLeftovers, ANeighbourThatWasAwayHasItsDamping) {
+  NeighbourScene scene(true);
+  scene.addFloor();
+  btRigidBody& box = scene.addBox(Vec3(0.05, 0.0, NeighbourScene::kHalf));
+  box.setDamping(btScalar(0.25), btScalar(0.5));
+  scene.start(Vec3(0.0, 0.0, NeighbourScene::kHalf));
+  scene.run(0.1);
+  EXPECT_EQ(scene.site->neighbourCount(), 1);
+  scene.rig.world.removeRigidBody(&box);
+  scene.run(0.1);
+  scene.rig.world.addRigidBody(&box);
+  scene.run(0.1);
+  scene.site.reset();
+  EXPECT_EQ(static_cast<double>(box.getLinearDamping()), 0.25);
+  EXPECT_EQ(static_cast<double>(box.getAngularDamping()), 0.5);
+}
+
 TEST(GuestLeftovers, AParkedBodyGetsTheGravityThatItMissed) {
   Leftovers scene;
   scene.rig.world.setGravity(btVector3(0, 0, -5));

@@ -111,6 +111,22 @@ TEST(Unshare, AnotherBodyTakesTheObjectsPlace) {
   EXPECT_NEAR(NeighbourScene::positionOf(other).z(), NeighbourScene::kHalf, 1e-3);
 }
 
+TEST(Unshare, ABodyThatIsAwayGetsItsMassBackOnceItReturns) {
+  for (const bool site_ends : {false, true}) {
+    TwoCubes scene;
+    scene.rig.world.removeRigidBody(scene.cube);
+    scene.site->unshare(0);
+    scene.run(0.1);
+    scene.rig.world.addRigidBody(scene.cube);
+    if (site_ends) {
+      scene.site.reset();
+    } else {
+      scene.run(1.0 / 60.0);
+    }
+    EXPECT_EQ(scene.cube->getInvMass(), btScalar(1) / btScalar(2.0 * NeighbourScene::kCubeMass));
+  }
+}
+
 // The object is named while it is missing or left to Bullet, and only then.
 TEST(Unshare, WhatIsMissingIsNamed) {
   TwoCubes scene;

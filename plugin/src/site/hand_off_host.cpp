@@ -15,7 +15,8 @@ void HandOffStep::before(double dt) noexcept {
   if (isWaiting()) return;
   if (hasNoTicks()) return leaveAlone(dt);
   is_alone_ = false;
-  const bool looks_quiet = dt == site_.clock.step() && site_.rest.looksQuiet();
+  const bool looks_quiet =
+      dt == site_.clock.step() && site_.rest.looksQuiet() && !site_.surroundings.mayBodiesBeBack();
   if (!looks_quiet) {
     if (!findChanges()) {
       site_.rest.disturb();

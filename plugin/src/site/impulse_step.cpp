@@ -50,6 +50,7 @@ void ImpulseStep::showProxy(Peer& peer) noexcept {
 
 void ImpulseStep::before(double dt) noexcept {
   if (isWaiting()) return;
+  site_.surroundings.restoreReturned();
   if (!areBodiesPresent()) return site_.passStepWithout(dt);
   const double period = site_.timeline.period();
   if (std::abs(dt - period) > 1e-3 * period) site_.log.raiseFromHost(kHostStepWrong);

@@ -52,7 +52,7 @@ void ObjectWatch::leaveOne(SharedObject& object) {
 }
 
 void ObjectWatch::forget(SharedObject& object) noexcept {
-  object.bullet.reset();
+  surroundings_.release(std::move(object.bullet));
   object.rigid = nullptr;
   object.is_there = object.is_sent = false;
   --left_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tandem/bullet_bridge/shapes.h"
 
@@ -45,6 +46,7 @@ Surroundings::Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& s
       forces_(forces),
       log_(log),
       obstacles_(world),
+      away_(world),
       search_(world, static_cast<std::size_t>(settings.max_neighbours)) {}
 
 void Surroundings::addSlots(int count) {
@@ -72,6 +74,7 @@ int Surroundings::neighbourCount() const noexcept {
 }
 
 void Surroundings::findMissing() {
+  restoreReturned();
   for (Neighbour& neighbour : neighbours_) {
     if (!neighbour.rigid || neighbour.body.is_leaving) continue;
     if (neighbour.isInWorld() && !neighbour.hasChanged()) continue;
@@ -286,6 +289,7 @@ void Surroundings::giveBack() {
     ++log_.counters.demoted;
     if (neighbour->bullet && neighbour->isInWorld())
       neighbour->bullet->addMomentum(neighbour->owed.linear_W, neighbour->owed.angular_W);
+    away_.release(std::move(neighbour->bullet));
     neighbour->becomeEmpty();
   }
   leaving_.clear();

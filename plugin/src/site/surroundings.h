@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "bullet_bridge/src/bodies/away_bodies.h"
 #include "bullet_bridge/src/surroundings/neighbours.h"
 #include "bullet_bridge/src/surroundings/obstacles.h"
 #include "site/host_forces.h"
@@ -106,7 +109,15 @@ class Surroundings {
   /// In between: what takeContacts() told.
   void showContacts() { obstacles_.showContacts(contacts_, still_); }
   /// The host's world ends: takeObstacles() then removes all obstacles.
-  void forgetWorld() { obstacles_.forgetWorld(); }
+  void forgetWorld() {
+    obstacles_.forgetWorld();
+    away_.clear();
+  }
+  /// Gives a body of the host back what is its own, as soon as it is in the world.
+  void release(std::unique_ptr<HapticBody> body) noexcept { away_.release(std::move(body)); }
+  void restoreReturned() noexcept { away_.restoreReturned(); }
+  /// True if a body that was away may be back.
+  [[nodiscard]] bool mayBodiesBeBack() const noexcept { return away_.mayBeBack(); }
   /// @}
 
   /// @name For the thread that ticks, while the host's thread waits. Real-time safe.
@@ -168,6 +179,7 @@ class Surroundings {
   SiteLog& log_;
 
   Obstacles obstacles_;
+  AwayBodies away_;
   NeighbourSearch search_;
   std::vector<Neighbour> neighbours_;  ///< one per slot of the island
   Mirror mirror_;

@@ -136,8 +136,9 @@ class Site {
   /// Gives a shared object back to Bullet, with its own mass and the velocity that it has. Peers
   /// let go of their copies after 16 packets without it, and the other objects stay shared. At any
   /// time between two steps of the host, also with a HapticLoop; the body may be deleted at once.
-  /// Does nothing if it is not shared. A body that was taken out of the world before keeps its m/N.
-  /// Throws tandem::Error for an unknown id, and with a guide or a native model.
+  /// Does nothing if it is not shared. A body that was taken out of the world before gets its mass
+  /// back once it returns, or keeps its m/N if the site ends before. Throws tandem::Error for an
+  /// unknown id, and with a guide or a native model.
   void unshare(ObjectId id);
 
   /// Shares a body for an object that was unshared, or whose body is not in the world: the same or
