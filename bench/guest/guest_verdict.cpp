@@ -167,6 +167,7 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
     if (!case_.is_idle) {
       if (own.plan.role != GuestRole::kFar || own.rigid->getCollisionShape()->isCompound())
         continue;
+      if (own.was_shared) is_met_[index][b] = 1;  // by "share again": the island moves it
       if (site.world().world().getSolverInfo().m_solverMode & SOLVER_RANDMIZE_ORDER)
         is_met_[index][b] = 1;
       // Bullet sees supports, and more sweeps change the rounding of all that it solves.
