@@ -66,6 +66,26 @@ TEST(GuestLeftovers, AMassSetAnewKeepsTheRoundingOfItsWeight) {
   }
 }
 
+/// addRigidBody() rounds it otherwise than setMassProps() did.
+TEST(GuestLeftovers, ABodyAddedAnewHasTheWeightThatBulletGaveIt) {
+  NeighbourScene scene(true);
+  for (int i = 1; i < 50; ++i) {
+    const double mass = 0.037 * i;
+    btRigidBody& bare = scene.addBox(Vec3(5.0, 0.2 * i, 0.0), mass);
+    btRigidBody& shared = scene.addBox(Vec3(0.0, 0.2 * i, 0.0), mass);
+    for (btRigidBody* body : {&bare, &shared})
+      body->setMassProps(static_cast<btScalar>(mass), body->getLocalInertia());
+    Site site(scene.settings, scene.rig.world, scene.device);
+    site.share(shared);
+    for (btRigidBody* body : {&bare, &shared}) {
+      scene.rig.world.removeRigidBody(body);
+      scene.rig.world.addRigidBody(body);
+    }
+    site.unshare(0);
+    EXPECT_EQ(weightOf(shared), weightOf(bare)) << mass << " kg";
+  }
+}
+
 TEST(GuestLeftovers, ADampingOfZeroStaysZero) {
   NeighbourScene scene(true);
   scene.addFloor();

@@ -173,10 +173,17 @@ void HapticBody::restoreMassProps() {
   const bool has_own_share = inverse_mass_ != original_.inverse_mass;
   if (is_own_mass && (has_own_share || measureWeight(body_) == weight_)) {
     restoreMass(body_, original_.inverse_mass, inverse_inertia, original_.weight);
+    if (hasWeightOfItsWorld()) body_.setGravity(body_.getGravity());
   } else if (is_own_inertia) {
     body_.setInvInertiaDiagLocal(inverse_inertia);
     body_.updateInertiaTensor();
   }
+}
+
+/// True if it was added to its world anew: Bullet then sets its weight, with another rounding.
+bool HapticBody::hasWeightOfItsWorld() const noexcept {
+  return BodyLook::at(body_).broadphase_id != look_.broadphase_id &&
+         (body_.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0;
 }
 
 /// Reads a damping that the host set while ours is off, zero too: ours is minus zero.

@@ -189,6 +189,7 @@ class HapticBody {
   void scaleMass(double share);
   void readShift(HostChange& change) const noexcept;
   void restoreMassProps();
+  [[nodiscard]] bool hasWeightOfItsWorld() const noexcept;
   void takeDamping() noexcept;
   void replaceMissingWeight() noexcept;
   [[nodiscard]] bool hasLeftItsRest(const RigidState& state) const noexcept;
