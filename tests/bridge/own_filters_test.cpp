@@ -81,6 +81,30 @@ TEST(OwnFilters, AnotherBodyAtTheAddressKeepsThePairThatTheHostIgnores) {
   }
 }
 
+// Others come and go before the next search.
+TEST(OwnFilters, AnotherBodyAtTheAddressOwesNothingToOneThatLeaves) {
+  BulletRig rig;
+  auto& shape = rig.makeShape<btBoxShape>(btVector3(1, 1, 1));
+  btRigidBody &first = rig.addBody(shape, 0.1), &second = rig.addBody(shape, 0.1);
+  Place keeper(shape);
+  rig.world.addRigidBody(&keeper.body());
+  {
+    Obstacles obstacles(rig.world);
+    obstacles.addBody(0, first);
+    obstacles.addBody(2, keeper.body());
+    rig.world.removeRigidBody(&keeper.body());
+    keeper.makeAnother(shape);
+    rig.world.addRigidBody(&keeper.body());
+    obstacles.addBody(1, second);
+    obstacles.removeBody(0);
+    obstacles.update(std::vector<RigidState>(3, at(Vec3(0, 0, 0))), 0.04);
+    EXPECT_TRUE(keeper.body().checkCollideWith(&first));
+    EXPECT_FALSE(keeper.body().checkCollideWith(&second));
+  }
+  EXPECT_EQ(keeper.body().getNumObjectsWithoutCollision(), 0);
+  rig.world.removeRigidBody(&keeper.body());
+}
+
 // A ghost that stands is made anew, and looks the same.
 TEST(OwnFilters, AnotherStandingObjectAtTheAddressIsFilteredAgain) {
   BulletRig rig;

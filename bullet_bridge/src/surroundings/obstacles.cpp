@@ -78,6 +78,7 @@ struct Obstacles::Impl {
       if (!hostLetsTouch(host, *a.original, *b.original)) return false;
       const bool a_keeps = isKeeper(a, b);
       PrivateCopy& keeper = a_keeps ? a : b;
+      if (!keeper.holdsOwnFilters()) return false;  // the next search will find another object
       filters.add(*keeper.original, *(a_keeps ? b : a).original);
       ++keeper.own_filters;
       return true;
@@ -264,8 +265,9 @@ void Obstacles::Impl::remove(btCollisionObject* original) {
 }
 
 void Obstacles::Impl::unfilter(PrivateCopy& keeper, const PrivateCopy& other) {
+  const bool is_another = findInWorld(host, keeper.original) >= 0 && !keeper.holdsOwnFilters();
   --keeper.own_filters;
-  filters.remove(keeper.original, other.original);
+  if (!is_another) filters.remove(keeper.original, other.original);
 }
 
 void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {

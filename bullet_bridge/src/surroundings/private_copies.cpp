@@ -10,7 +10,6 @@
 
 #include "bodies/filter_of.h"
 #include "shapes/only_shape.h"
-#include "surroundings/own_filters.h"
 #include "surroundings/private_shapes.h"
 
 namespace tandem {
@@ -144,9 +143,7 @@ bool asksContactCallback(const btCollisionObject& object) noexcept {
 bool PrivateCopy::hasNewFilters() noexcept {
   const CollisionFilter now = filterOf(*original);
   const int of_host = OwnFilters::countOfHost(*original);
-  // Another object at the address has none of ours.
-  const bool has_new =
-      !(now == filter) || of_host != host_filters || OwnFilters::countIn(*original) != own_filters;
+  const bool has_new = !(now == filter) || of_host != host_filters || !holdsOwnFilters();
   filter = now;
   host_filters = of_host;
   return has_new;

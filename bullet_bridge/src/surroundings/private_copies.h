@@ -8,6 +8,7 @@
 
 #include "coordination/src/island/collision_filter.h"
 #include "coordination/src/island/contact_finder.h"
+#include "surroundings/own_filters.h"
 #include "surroundings/regions.h"
 
 class btConcaveShape;
@@ -62,6 +63,10 @@ struct PrivateCopy {
   [[nodiscard]] bool isAsCopied() const;
   /// Bounds of a part while its object is at `pose`.
   [[nodiscard]] static Region computeBounds(const Part& part, const btTransform& pose);
+  /// False if the host made another object at its address. It must be in its world.
+  [[nodiscard]] bool holdsOwnFilters() const {
+    return OwnFilters::countIn(*original) == own_filters;
+  }
   /// True if the host changed what the original may touch since the last call. It must exist.
   [[nodiscard]] bool hasNewFilters() noexcept;
 
