@@ -78,7 +78,7 @@ struct Obstacles::Impl {
       if (!hostLetsTouch(host, *a.original, *b.original)) return false;
       const bool a_keeps = isKeeper(a, b);
       PrivateCopy& keeper = a_keeps ? a : b;
-      if (!keeper.holdsOwnFilters()) return false;  // the next search will find another object
+      if (!keeper.holdsOwnFilters()) return false;  // another object at the address
       filters.add(*keeper.original, *(a_keeps ? b : a).original);
       ++keeper.own_filters;
       return true;
@@ -266,8 +266,9 @@ void Obstacles::Impl::remove(btCollisionObject* original) {
 
 void Obstacles::Impl::unfilter(PrivateCopy& keeper, const PrivateCopy& other) {
   const bool is_another = findInWorld(host, keeper.original) >= 0 && !keeper.holdsOwnFilters();
+  if (is_another) return;  // made at the address: the next search takes it anew
   --keeper.own_filters;
-  if (!is_another) filters.remove(keeper.original, other.original);
+  filters.remove(keeper.original, other.original);
 }
 
 void Obstacles::Impl::moveOrigin(const std::vector<RigidState>& states) {
@@ -331,7 +332,6 @@ void Obstacles::Impl::renewPairs() {
             unfilter(it_keeps ? renewed : partner, it_keeps ? partner : renewed);
           },
           takeOver());
-      copy->own_filters = OwnFilters::countIn(*copy->original);
     }
   }
 }

@@ -79,7 +79,7 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
 
 bool PrivateCopy::isAsCopied() const {
   const btCollisionShape* shape = original->getCollisionShape();
-  return shape == look.shape && ShapeLook::of(*shape) == look;
+  return shape == look.shape && ShapeLook::of(*shape) == look && holdsOwnFilters();
 }
 
 Surface Surface::of(const btCollisionObject& object) noexcept {
@@ -143,7 +143,7 @@ bool asksContactCallback(const btCollisionObject& object) noexcept {
 bool PrivateCopy::hasNewFilters() noexcept {
   const CollisionFilter now = filterOf(*original);
   const int of_host = OwnFilters::countOfHost(*original);
-  const bool has_new = !(now == filter) || of_host != host_filters || !holdsOwnFilters();
+  const bool has_new = !(now == filter) || of_host != host_filters;
   filter = now;
   host_filters = of_host;
   return has_new;

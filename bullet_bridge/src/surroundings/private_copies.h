@@ -59,7 +59,8 @@ struct PrivateCopy {
   void place(const btTransform& pose);
   /// False: a shape is none that can be copied. Its contact stays Bullet's.
   [[nodiscard]] bool isWhole() const noexcept { return !parts.empty(); }
-  /// True if the original, which must be in its world, has the shape that was copied.
+  /// True if the original, which must be in its world, is that object and has the shape that was
+  /// copied.
   [[nodiscard]] bool isAsCopied() const;
   /// Bounds of a part while its object is at `pose`.
   [[nodiscard]] static Region computeBounds(const Part& part, const btTransform& pose);
