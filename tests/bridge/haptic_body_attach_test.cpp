@@ -1,4 +1,5 @@
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -280,6 +281,17 @@ TEST(HapticBodyAttach, NoticesThatTheBodyLeftTheWorldAndWritesNothingMore) {
 
   rig.world.addRigidBody(&cube);
   EXPECT_TRUE(attached.isInWorld());
+}
+
+/// A vector of Bullet may have any fourth number.
+TEST(HapticBodyAttach, OnlyThreeNumbersOfAVectorCount) {
+  BulletRig rig;
+  btRigidBody& cube = rig.addCube(0.3);
+  btVector3 factor(1, 1, 1);
+  factor.setW(std::numeric_limits<btScalar>::quiet_NaN());
+  cube.setLinearFactor(factor);
+  const HapticBody attached(rig.world, cube, 0.5);
+  EXPECT_TRUE(attached.isAsHeld());
 }
 
 TEST(HapticBodyAttach, OutlivesABodyThatTheHostDeleted) {

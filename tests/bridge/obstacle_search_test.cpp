@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
@@ -143,6 +145,28 @@ TEST(ObstacleSearch, SurvivesObjectsAndBodiesThatTheHostDeletes) {
   obstacles.update(states, 0.04);
   EXPECT_FALSE(isNear(obstacles, 0, states[0], 0.01));
   EXPECT_EQ(kept.getNumObjectsWithoutCollision(), 0);
+}
+
+/// Bullet leaves the fourth number of many bounds as it finds it.
+TEST(ObstacleSearch, OnlyThreeNumbersOfABoundCount) {
+  class Careless final : public btSphereShape {
+   public:
+    using btSphereShape::btSphereShape;
+    void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override {
+      btSphereShape::getAabb(pose, low, high);
+      low.setW(std::numeric_limits<btScalar>::quiet_NaN());
+      high.setW(++calls_);
+    }
+
+   private:
+    mutable btScalar calls_ = 0;
+  };
+  BulletRig rig;
+  btRigidBody& ball = rig.addBody(rig.makeShape<Careless>(btScalar(0.02)), 0.1);
+  Obstacles obstacles(rig.world);
+  obstacles.addBody(0, ball);
+  obstacles.update({at(Vec3(0, 0, 0))}, 0.04);
+  EXPECT_FALSE(obstacles.update({at(Vec3(0, 0, 0))}, 0.04)) << "the ball was taken anew";
 }
 
 // A host may pin a body, which then stands, and free it in place.

@@ -4,6 +4,8 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "bodies/equal_bits.h"
+
 namespace tandem {
 
 /// Properties of a host's body that the island reads once, when it takes the body. A difference
@@ -39,9 +41,9 @@ struct BodyLook {
   [[nodiscard]] bool operator==(const BodyLook& other) const noexcept {
     return broadphase_id == other.broadphase_id && flags == other.flags && group == other.group &&
            mask == other.mask && shape == other.shape && inverse_mass == other.inverse_mass &&
-           margin == other.margin && inverse_inertia == other.inverse_inertia &&
-           scaling == other.scaling && linear_factor == other.linear_factor &&
-           angular_factor == other.angular_factor;
+           margin == other.margin && equalBits(inverse_inertia, other.inverse_inertia) &&
+           equalBits(scaling, other.scaling) && equalBits(linear_factor, other.linear_factor) &&
+           equalBits(angular_factor, other.angular_factor);
   }
 };
 

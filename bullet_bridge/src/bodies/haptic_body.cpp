@@ -11,6 +11,7 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bodies/attach_warnings.h"
+#include "bodies/equal_bits.h"
 #include "bodies/mass_restore.h"
 #include "bodies/rotation_vector.h"
 #include "world/world_access.h"
@@ -40,16 +41,6 @@ constexpr btScalar kNoDamping = btScalar(-0.0);
 constexpr int kGyroscopicFlags = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT |
                                  BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
                                  BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-
-bool equalBits(const btVector3& a, const btVector3& b) {
-  return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
-}
-
-bool equalBits(const btTransform& a, const btTransform& b) {
-  const btMatrix3x3 &m = a.getBasis(), &n = b.getBasis();
-  return equalBits(a.getOrigin(), b.getOrigin()) && equalBits(m[0], n[0]) &&
-         equalBits(m[1], n[1]) && equalBits(m[2], n[2]);
-}
 
 bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
 

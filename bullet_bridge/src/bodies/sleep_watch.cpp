@@ -102,7 +102,8 @@ bool SleepWatch::isUndisturbed() const noexcept {
       return false;
   // These shapes are in use: all bodies have been found with theirs.
   return std::all_of(shapes_.begin(), shapes_.end(), [](const ShapeLook& look) {
-    return look.shape->getMargin() == look.margin && look.shape->getLocalScaling() == look.scaling;
+    return look.shape->getMargin() == look.margin &&
+           equalBits(look.shape->getLocalScaling(), look.scaling);
   });
 }
 

@@ -41,7 +41,7 @@ void ContactSearch::setOrigin(const Vec3& origin_W, const std::vector<RigidState
 
 bool ContactSearch::placeStanding(PrivateCopy& copy) {
   const btTransform pose = copy.findOriginal(wanted_origin_W_);
-  if (pose == copy.object.getWorldTransform()) return false;
+  if (equalBits(pose, copy.object.getWorldTransform())) return false;
   placings_.push_back({&copy, pose});
   return true;
 }

@@ -37,8 +37,8 @@ std::optional<Shape> KnownShapes::find(const btCollisionObject& object,
     return entry.shape == &shape && entry.object == &object;
   });
   if (known != entries_.end()) {
-    if (known->scaling == shape.getLocalScaling() && known->margin == shape.getMargin() &&
-        known->bounds.low == bounds.low && known->bounds.high == bounds.high)
+    if (equalBits(known->scaling, shape.getLocalScaling()) && known->margin == shape.getMargin() &&
+        known->bounds == bounds)
       return known->own;
     entries_.erase(known);
   }

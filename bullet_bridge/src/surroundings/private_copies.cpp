@@ -103,9 +103,8 @@ ShapeLook ShapeLook::of(const btCollisionShape& shape) {
 }
 
 bool ShapeLook::operator==(const ShapeLook& other) const noexcept {
-  return shape == other.shape && scaling == other.scaling && margin == other.margin &&
-         bounds.low == other.bounds.low && bounds.high == other.bounds.high &&
-         revision == other.revision;
+  return shape == other.shape && equalBits(scaling, other.scaling) && margin == other.margin &&
+         bounds == other.bounds && revision == other.revision;
 }
 
 btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {

@@ -4,12 +4,18 @@
 
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
+#include "bodies/equal_bits.h"
+
 namespace tandem {
 
 /// An axis-aligned box.
 struct Region {
   btVector3 low;
   btVector3 high;
+
+  bool operator==(const Region& other) const noexcept {
+    return equalBits(low, other.low) && equalBits(high, other.high);
+  }
 };
 
 [[nodiscard]] inline Region growRegion(const Region& region, btScalar by) noexcept {
