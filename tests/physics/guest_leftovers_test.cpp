@@ -77,12 +77,28 @@ TEST(GuestLeftovers, ABodyAddedAnewHasTheWeightThatBulletGaveIt) {
       body->setMassProps(static_cast<btScalar>(mass), body->getLocalInertia());
     Site site(scene.settings, scene.rig.world, scene.device);
     site.share(shared);
+    scene.addBox(Vec3(9.0, 0.2 * i, 0.0));
     for (btRigidBody* body : {&bare, &shared}) {
       scene.rig.world.removeRigidBody(body);
       scene.rig.world.addRigidBody(body);
     }
     site.unshare(0);
     EXPECT_EQ(weightOf(shared), weightOf(bare)) << mass << " kg";
+  }
+}
+
+TEST(GuestLeftovers, AFilterSetInPlaceKeepsTheRoundingOfTheWeight) {
+  NeighbourScene scene(true);
+  for (int i = 1; i < 50; ++i) {
+    const double mass = 0.037 * i;
+    btRigidBody& shared = scene.addBox(Vec3(0.0, 0.2 * i, 0.0), mass);
+    shared.setMassProps(static_cast<btScalar>(mass), shared.getLocalInertia());
+    const Vec3 weight = weightOf(shared);
+    Site site(scene.settings, scene.rig.world, scene.device);
+    site.share(shared);
+    scene.rig.world.refreshBroadphaseProxy(&shared);
+    site.unshare(0);
+    EXPECT_EQ(weightOf(shared), weight) << mass << " kg";
   }
 }
 

@@ -124,7 +124,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   checkAttachable(world, body, mass_share);
   original_ = {body.getInvMass(),          body.getInvInertiaDiagLocal(), measureWeight(body),
                body.getLinearDamping(),    body.getAngularDamping(),      body.getActivationState(),
-               body.getDeactivationTime(), body.getWorldTransform()};
+               body.getDeactivationTime(), body.getWorldTransform(),      world_index_};
   body.setDamping(kNoDamping, kNoDamping);
   has_additional_damping_ = hasAdditionalDamping(body);
   warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
@@ -171,9 +171,11 @@ void HapticBody::restoreMassProps() {
   }
 }
 
-/// True if it was added to its world anew: Bullet then sets its weight, with another rounding.
+/// True if it was added to its world anew: Bullet then sets its weight, with another rounding. Its
+/// number in the broadphase changes also without that.
 bool HapticBody::hasWeightOfItsWorld() const noexcept {
   return BodyLook::at(body_).broadphase_id != look_.broadphase_id &&
+         world_index_ != original_.world_index &&
          (body_.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0;
 }
 

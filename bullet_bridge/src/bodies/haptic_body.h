@@ -173,6 +173,7 @@ class HapticBody {
     int activation_state;
     btScalar deactivation_time;
     btTransform pose;
+    int world_index;
   };
   /// Data that handOff() leaves for restore().
   struct Handed {
