@@ -174,7 +174,9 @@ void HapticBody::restoreMassProps() {
 /// True if it was added to its world anew: Bullet then sets its weight, with another rounding. Its
 /// number in the broadphase changes also without that.
 bool HapticBody::hasWeightOfItsWorld() const noexcept {
-  return BodyLook::at(body_).broadphase_id != look_.broadphase_id &&
+  // A host may have deleted the shape by now: read nothing of it.
+  const btBroadphaseProxy* proxy = body_.getBroadphaseHandle();
+  return proxy && proxy->m_uniqueId != look_.broadphase_id &&
          world_index_ != original_.world_index &&
          (body_.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0;
 }
