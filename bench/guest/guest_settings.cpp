@@ -2,15 +2,12 @@
 #include <vector>
 
 #include "bench/guest/guest_site.h"
+#include "bullet_bridge/src/bodies/equal_bits.h"
 
 // Settings of bodies that a site must leave or restore, to the bit.
 
 namespace tandem::demos::bench {
 namespace {
-
-bool isSame(const btVector3& a, const btVector3& b) {
-  return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
-}
 
 /// Active and asleep are one: physics decides. Others are the host's.
 int kindOfActivation(const btRigidBody& body) {
@@ -42,14 +39,14 @@ std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t bod
     if (!is_equal) text += std::string(" ") + name;
   };
   expect(a.getInvMass() == b.getInvMass(), "mass");
-  expect(isSame(a.getInvInertiaDiagLocal(), b.getInvInertiaDiagLocal()), "inertia");
-  expect(isSame(a.getGravity(), b.getGravity()), "gravity");
+  expect(equalBits(a.getInvInertiaDiagLocal(), b.getInvInertiaDiagLocal()), "inertia");
+  expect(equalBits(a.getGravity(), b.getGravity()), "gravity");
   expect(a.getFlags() == b.getFlags(), "flags");
   expect(a.getCollisionFlags() == b.getCollisionFlags(), "collision_flags");
   expect(a.getLinearDamping() == b.getLinearDamping(), "linear_damping");
   expect(a.getAngularDamping() == b.getAngularDamping(), "angular_damping");
-  expect(isSame(a.getLinearFactor(), b.getLinearFactor()), "linear_factor");
-  expect(isSame(a.getAngularFactor(), b.getAngularFactor()), "angular_factor");
+  expect(equalBits(a.getLinearFactor(), b.getLinearFactor()), "linear_factor");
+  expect(equalBits(a.getAngularFactor(), b.getAngularFactor()), "angular_factor");
   expect(a.getLinearSleepingThreshold() == b.getLinearSleepingThreshold(), "sleeping_threshold");
   expect(a.getFriction() == b.getFriction(), "friction");
   expect(a.getRollingFriction() == b.getRollingFriction(), "rolling_friction");
@@ -59,8 +56,9 @@ std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t bod
   expect(a.getContactProcessingThreshold() == b.getContactProcessingThreshold(), "threshold");
   expect(a.getCcdMotionThreshold() == b.getCcdMotionThreshold(), "ccd");
   expect(a.getUserIndex() == b.getUserIndex(), "user_index");
-  expect(isSame(a.getCollisionShape()->getLocalScaling(), b.getCollisionShape()->getLocalScaling()),
-         "scaling");
+  expect(
+      equalBits(a.getCollisionShape()->getLocalScaling(), b.getCollisionShape()->getLocalScaling()),
+      "scaling");
   expect(a.getCollisionShape()->getMargin() == b.getCollisionShape()->getMargin(), "margin");
   expect(kindOfActivation(a) == kindOfActivation(b), "activation");
   expect(ignoredBy(world, a) == ignoredBy(twin, b), "ignored_pairs");
@@ -77,7 +75,7 @@ std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t bod
   b.clearForces();
   a.applyGravity();
   b.applyGravity();
-  expect(isSame(a.getTotalForce(), b.getTotalForce()), "weight");
+  expect(equalBits(a.getTotalForce(), b.getTotalForce()), "weight");
   a.clearForces();
   b.clearForces();
   return text;

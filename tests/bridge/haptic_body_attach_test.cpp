@@ -200,7 +200,7 @@ TEST(HapticBodyAttach, LeavesTheHostsActivationState) {
       EXPECT_EQ(cube.getActivationState(), state) << "sleeps: " << sleeps;
     }
   }
-  // One that never sleeps in Bullet may be parked, and activate() does not change what it is.
+  // A body that never sleeps in Bullet may be parked, and activate() does not change what it is.
   cube.forceActivationState(DISABLE_DEACTIVATION);
   HapticBody attached(rig.world, cube);
   attached.park();

@@ -87,9 +87,8 @@ Vec3 readFactor(const btVector3& factor) {
   return read.unaryExpr(isSane);
 }
 
-bool mayFallAsleep(const btRigidBody& body) {
-  const int state = body.getActivationState();
-  return state == ISLAND_SLEEPING || state == WANTS_DEACTIVATION;
+bool mayFallAsleep(int activation_state) {
+  return activation_state == ISLAND_SLEEPING || activation_state == WANTS_DEACTIVATION;
 }
 
 void wake(btRigidBody& body) {
@@ -129,7 +128,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   has_additional_damping_ = hasAdditionalDamping(body);
   warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
                                 has_additional_damping_);
-  if (sleep_ == Sleep::kNever && mayFallAsleep(body)) wake(body);
+  if (sleep_ == Sleep::kNever && mayFallAsleep(original_.activation_state)) wake(body);
   if (mass_share != 1.0) scaleMass(mass_share);
   inverse_mass_ = body.getInvMass();
   inverse_inertia_ = body.getInvInertiaDiagLocal();
@@ -177,8 +176,7 @@ bool HapticBody::hasWeightOfItsWorld() const noexcept {
   // A host may have deleted the shape by now: read nothing of it.
   const btBroadphaseProxy* proxy = body_.getBroadphaseHandle();
   return proxy && proxy->m_uniqueId != look_.broadphase_id &&
-         world_index_ != original_.world_index &&
-         (body_.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0;
+         world_index_ != original_.world_index && hasWorldGravity();
 }
 
 /// Reads a damping that the host set while ours is off, zero too: ours is minus zero.
@@ -208,8 +206,7 @@ void HapticBody::scaleMass(double share) {
 void HapticBody::restoreActivation() {
   if (parked_ && body_.getActivationState() == ISLAND_SLEEPING) keepAwake();
   if (body_.getActivationState() != ACTIVE_TAG) return;
-  const bool slept = original_.activation_state == ISLAND_SLEEPING ||
-                     original_.activation_state == WANTS_DEACTIVATION;
+  const bool slept = mayFallAsleep(original_.activation_state);
   const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
   // Asleep in mid-air, a body would hang there.
   if (slept && untouched) body_.setActivationState(original_.activation_state);
@@ -435,7 +432,7 @@ void HapticBody::unpark() noexcept {
 }
 
 void HapticBody::keepAwake() noexcept {
-  if (mayFallAsleep(body_)) wake(body_);
+  if (mayFallAsleep(body_.getActivationState())) wake(body_);
   body_.setDeactivationTime(0);
   if (stays_awake_) body_.setActivationState(DISABLE_DEACTIVATION);
   stays_awake_ = slept_ = false;
