@@ -1,11 +1,9 @@
 #include "bodies/haptic_body.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
-#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
@@ -14,6 +12,7 @@
 #include "bodies/equal_bits.h"
 #include "bodies/mass_restore.h"
 #include "bodies/rotation_vector.h"
+#include "bodies/sleep_state.h"
 #include "world/world_access.h"
 #include "world/world_lookup.h"
 
@@ -31,10 +30,6 @@
 namespace tandem {
 namespace {
 
-/// Limits for standing still: a thousandth of hand-off's accuracy [m, rad], [m/s, rad/s].
-constexpr double kSamePlace = 1e-12;
-constexpr double kSlow = 1e-9;
-
 /// Damping that is off by our doing, not the host's.
 constexpr btScalar kNoDamping = btScalar(-0.0);
 
@@ -42,24 +37,6 @@ constexpr int kGyroscopicFlags = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT |
                                  BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
                                  BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
 
-bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
-
-/// True if all are zero; has no branch per number.
-template <typename... Vectors>
-bool areZero(const Vectors&... vectors) {
-  btScalar sum = 0;
-  ((sum += std::abs(vectors.x()) + std::abs(vectors.y()) + std::abs(vectors.z())), ...);
-  return sum == 0;
-}
-
-/// Compares all bytes: fast and strict. Minus zero differs from zero.
-template <typename Value>
-bool isSame(const Value& a, const Value& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
-/// A body asleep in Bullet is not woken for a smaller move of its centre or surface [m].
-constexpr double kTooLittleToWake = 5e-5;
 /// Above this speed Bullet's sleep timer is reset [m/s, rad/s].
 constexpr double kTiredSpeed = 1e-4;
 
@@ -75,25 +52,10 @@ bool fitsBullet(const RigidState& state) {
          state.v_W.cwiseAbs().maxCoeff() < most && state.w_W.cwiseAbs().maxCoeff() < most;
 }
 
-bool isFinite(const HostChange& change) {
-  return change.f_W.allFinite() && change.t_W.allFinite() && change.impulse_W.allFinite() &&
-         change.angular_impulse_W.allFinite() && change.offset_W.allFinite() &&
-         change.rotation_W.coeffs().allFinite();
-}
-
 Vec3 readFactor(const btVector3& factor) {
   const Vec3 read = fromBullet(factor);
   const auto isSane = [](double one) { return std::isfinite(one) && one >= 0.0 ? one : 0.0; };
   return read.unaryExpr(isSane);
-}
-
-bool mayFallAsleep(int activation_state) {
-  return activation_state == ISLAND_SLEEPING || activation_state == WANTS_DEACTIVATION;
-}
-
-void wake(btRigidBody& body) {
-  body.forceActivationState(ACTIVE_TAG);
-  body.setDeactivationTime(0);
 }
 
 }  // namespace
@@ -202,17 +164,6 @@ void HapticBody::scaleMass(double share) {
   body_.updateInertiaTensor();
 }
 
-/// Restores sleep and its timer, unless the host has changed how the body is simulated.
-void HapticBody::restoreActivation() {
-  if (parked_ && body_.getActivationState() == ISLAND_SLEEPING) keepAwake();
-  if (body_.getActivationState() != ACTIVE_TAG) return;
-  const bool slept = mayFallAsleep(original_.activation_state);
-  const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
-  // Asleep in mid-air, a body would hang there.
-  if (slept && untouched) body_.setActivationState(original_.activation_state);
-  body_.setDeactivationTime(slept && !untouched ? 0 : original_.deactivation_time);
-}
-
 bool HapticBody::isInWorld() const noexcept {
   world_index_ = findInWorld(world_, &body_, world_index_);
   return world_index_ >= 0;
@@ -231,15 +182,6 @@ Vec3 HapticBody::gravityForce() const noexcept {
 }
 
 RigidState HapticBody::state() const noexcept { return readState(body_); }
-
-bool HapticBody::hasLeftItsRest(const RigidState& at) const noexcept {
-  btVector3 middle;
-  btScalar radius = 0;
-  body_.getCollisionShape()->getBoundingSphere(middle, radius);
-  const Vec3 turn_W = computeRotationVector(rest_.q_WB, at.q_WB);
-  return (at.p_W - rest_.p_W).norm() > kTooLittleToWake ||
-         static_cast<double>(radius) * turn_W.norm() > kTooLittleToWake;
-}
 
 /// Bullet gives awake bodies their weight at the start of stepSimulation(). A body that woke
 /// between its sub-steps lacks it.
@@ -372,104 +314,6 @@ void HapticBody::place(const RigidState& state) noexcept {
   if (!isInWorld() || !fitsBullet(state)) return;
   handed_.end = state;
   setPoseAndVelocity(state);
-}
-
-bool HapticBody::standsAt(const RigidState& state) const noexcept {
-  if (parked_ && sleep_ == Sleep::kAsHost) return !hasLeftItsRest(state);
-  const auto is_below = [](const auto& v, double limit) { return v.squaredNorm() < limit * limit; };
-  return is_below(state.p_W - handed_.end.p_W, kSamePlace) &&
-         is_below(state.q_WB.coeffs() - handed_.end.q_WB.coeffs(), kSamePlace) &&
-         is_below(state.v_W, kSlow) && is_below(state.w_W, kSlow);
-}
-
-void HapticBody::park() noexcept {
-  if (parked_ || !isInWorld()) return;
-  // Bullet decides about sleep, together with all bodies that it touches.
-  if (sleep_ == Sleep::kAsHost && body_.isActive()) return;
-  parked_ = slept_ = true;
-  handed_.p_W_start = handed_.end.p_W;
-  rest_ = handed_.end;
-  standStill();
-  known_gravity_ = body_.getGravity();
-  known_world_gravity_ = world_.getGravity();
-  known_look_ = BodyLook::at(body_);
-  stays_awake_ = body_.getActivationState() == DISABLE_DEACTIVATION;
-  body_.forceActivationState(ISLAND_SLEEPING);
-}
-
-bool HapticBody::isUndisturbed() const noexcept {
-  // The forces of a sleeping body do not include its weight.
-  return body_.getActivationState() == ISLAND_SLEEPING &&
-         areZero(body_.getTotalForce(), body_.getTotalTorque(), body_.getLinearVelocity(),
-                 body_.getAngularVelocity()) &&
-         isSame(body_.getGravity(), known_gravity_) &&
-         isSame(body_.getWorldTransform(), known_pose_) && BodyLook::at(body_) == known_look_;
-}
-
-bool HapticBody::hasMissedWorldGravity() const noexcept {
-  return hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_);
-}
-
-bool HapticBody::hasWorldGravity() const noexcept {
-  return (body_.getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0;
-}
-
-void HapticBody::standStill() noexcept {
-  RigidState standing = handed_.end;
-  standing.v_W.setZero();
-  standing.w_W.setZero();
-  setPoseAndVelocity(standing);
-}
-
-void HapticBody::unpark() noexcept {
-  parked_ = false;
-  if (!isInWorld()) return;
-  // The world's new gravity reaches only awake bodies.
-  if (hasMissedWorldGravity()) body_.setGravity(world_.getGravity());
-  // Bullet gives weight only to bodies awake when a stepSimulation() begins.
-  if (!body_.isActive()) body_.applyGravity();
-  keepAwake();
-}
-
-void HapticBody::keepAwake() noexcept {
-  if (mayFallAsleep(body_.getActivationState())) wake(body_);
-  body_.setDeactivationTime(0);
-  if (stays_awake_) body_.setActivationState(DISABLE_DEACTIVATION);
-  stays_awake_ = slept_ = false;
-}
-
-/// Keeps Bullet from putting an awake body to sleep in this step of dt [s], whatever its limits.
-void HapticBody::stayAwake(double dt) noexcept {
-  if (body_.getActivationState() == WANTS_DEACTIVATION) wake(body_);
-  // Bullet adds dt to the timer of a slow body.
-  body_.setDeactivationTime(static_cast<btScalar>(-dt));
-}
-
-bool HapticBody::sleepsOn() noexcept {
-  if (!body_.isActive()) return true;
-  if (body_.getActivationState() == DISABLE_DEACTIVATION) return false;
-  // Bullet wakes every body near an awake one; that alone moves nothing.
-  if (!isZero(body_.getLinearVelocity()) || !isZero(body_.getAngularVelocity())) return false;
-  standStill();
-  body_.forceActivationState(ISLAND_SLEEPING);
-  return true;
-}
-
-bool HapticBody::wakeIfHit(HostChange& change) noexcept {
-  if (!parked_ || !isInWorld() || sleepsOn()) return false;
-  parked_ = false;
-  change = {};
-  change.impulse_W = fromBullet(body_.getLinearVelocity()) * mass();
-  change.angular_impulse_W =
-      computeAngularMomentum(handed_.end.q_WB, fromBullet(body_.getAngularVelocity()));
-  handed_.is_foreseen = false;
-  readShift(change);
-  standStill();
-  keepAwake();
-  // Weight for later sub-steps of this stepSimulation(), which clears it at its end.
-  body_.applyGravity();
-  if (!isFinite(change)) change = {};
-  return true;
 }
 
 void HapticBody::applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexcept {

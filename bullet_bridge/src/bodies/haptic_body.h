@@ -26,6 +26,12 @@ struct HostChange {
   Quat rotation_W = Quat::Identity();     ///< rotation of the body, in W
 };
 
+[[nodiscard]] inline bool isFinite(const HostChange& change) noexcept {
+  return change.f_W.allFinite() && change.t_W.allFinite() && change.impulse_W.allFinite() &&
+         change.angular_impulse_W.allFinite() && change.offset_W.allFinite() &&
+         change.rotation_W.coeffs().allFinite();
+}
+
 /// Permission for Bullet to put a held body to sleep.
 enum class Sleep {
   kNever,   ///< handed off, it stays awake; a sleeping body wakes, with all it touches
