@@ -36,6 +36,13 @@ RigidMover::RigidMover(const ModelBody& body, const RigidState& state) noexcept
                            : inverse_mass * PlainVec(factors.way_W);
   if (!factors.turn_is_even)
     inverse = factors.turn_root_W.asDiagonal() * inverse * factors.turn_root_W.asDiagonal();
+  const Eigen::Matrix3d root =
+      factors.turn_root_W.asDiagonal() * R * body.inverse_inertia_B.cwiseSqrt().asDiagonal();
+  root_x = PlainVec(Vec3(root.col(0)));
+  root_y = PlainVec(Vec3(root.col(1)));
+  root_z = PlainVec(Vec3(root.col(2)));
+  root_mass_W = {std::sqrt(inverse_mass_W.x), std::sqrt(inverse_mass_W.y),
+                 std::sqrt(inverse_mass_W.z)};
   inertia_x = PlainVec(Vec3(inverse.row(0)));
   inertia_y = PlainVec(Vec3(inverse.row(1)));
   inertia_z = PlainVec(Vec3(inverse.row(2)));
@@ -91,18 +98,16 @@ void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& a
   const PlainVec w = b_moves_ ? a->w - b->w : a->w;
   const double freest = std::max(mobility(s), mobility(t));
   const double spin_limit = spinning * impulse.n, roll_limit = rolling * impulse.n;
-  Local twist{twist_.n - divide(dot(n, w), mobility(n)), twist_.s - divide(dot(s, w), freest),
-              twist_.t - divide(dot(t, w), freest)};
-  twist.n = std::clamp(twist.n, -spin_limit, spin_limit);
-  const double size = std::hypot(twist.s, twist.t);
+  Local wanted_twist{twist.n - divide(dot(n, w), mobility(n)), twist.s - divide(dot(s, w), freest),
+                     twist.t - divide(dot(t, w), freest)};
+  wanted_twist.n = std::clamp(wanted_twist.n, -spin_limit, spin_limit);
+  const double size = std::hypot(wanted_twist.s, wanted_twist.t);
   if (size > roll_limit) {
-    twist.s *= roll_limit / size;
-    twist.t *= roll_limit / size;
+    wanted_twist.s *= roll_limit / size;
+    wanted_twist.t *= roll_limit / size;
   }
-  const PlainVec change = toWorld({twist.n - twist_.n, twist.s - twist_.s, twist.t - twist_.t});
-  twist_ = twist;
-  a->w = a->w + a->turnBy(change);
-  if (b_moves_) b->w = b->w - b->turnBy(change);
+  applyTwist({wanted_twist.n - twist.n, wanted_twist.s - twist.s, wanted_twist.t - twist.t});
+  twist = wanted_twist;
 }
 
 }  // namespace tandem

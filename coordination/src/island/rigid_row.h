@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "geometry/plain_vec.h"
 #include "island/island_model.h"
@@ -18,7 +19,11 @@ struct RigidMover {
   PlainVec inverse_mass_W;                   ///< along the axes of W: with linear factors
   bool is_free = true;                       ///< no linear factors
   PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
-  bool ready = false;                        ///< set up for this step
+  /// Roots of inverse mass and inertia: I^-1 = root root^T, by column.
+  PlainVec root_mass_W, root_x, root_y, root_z;
+  bool ready = false;  ///< set up for this step
+  /// For ContactSolver: its block row, and its number of points with other bodies.
+  int place = -1, degree = 0;
 
   RigidMover() = default;
   RigidMover(const ModelBody& body, const RigidState& state) noexcept;
@@ -26,6 +31,9 @@ struct RigidMover {
   [[nodiscard]] PlainVec turnBy(const PlainVec& angular_impulse) const noexcept {
     return {dot(inertia_x, angular_impulse), dot(inertia_y, angular_impulse),
             dot(inertia_z, angular_impulse)};
+  }
+  [[nodiscard]] PlainVec rootTurn(const PlainVec& of) const noexcept {
+    return of.x * root_x + of.y * root_y + of.z * root_z;
   }
   [[nodiscard]] PlainVec velocityAt(const PlainVec& arm) const noexcept {
     return v + cross(w, arm);
@@ -46,7 +54,17 @@ class RigidRow {
 
   struct Local {
     double n = 0.0, s = 0.0, t = 0.0;
+
+    [[nodiscard]] Local operator-(const Local& other) const noexcept {
+      return {n - other.n, s - other.s, t - other.t};
+    }
   };
+  enum class Mode : std::uint8_t { kUnknown, kOpen, kStick, kSlide };
+
+  [[nodiscard]] const PlainVec& direction(int i) const noexcept { return axis_[i].direction; }
+  /// Arm x direction.
+  [[nodiscard]] const PlainVec& armOfA(int i) const noexcept { return axis_[i].arm_a; }
+  [[nodiscard]] const PlainVec& armOfB(int i) const noexcept { return axis_[i].arm_b; }
   [[nodiscard]] double normalVelocity() const noexcept { return velocityAlong(0); }
   [[nodiscard]] Local toLocal(const PlainVec& vector_W) const noexcept {
     return {dot(axis_[0].direction, vector_W), dot(axis_[1].direction, vector_W),
@@ -92,7 +110,7 @@ class RigidRow {
       impulse.t = t;
     }
     apply(change);
-    if (rolling > 0.0 || spinning > 0.0) [[unlikely]]
+    if (resistsTurning()) [[unlikely]]
       resistTurning();
   }
 
@@ -118,6 +136,14 @@ class RigidRow {
     b->turn = b->turn - (by.n * axis_[0].turn_b + by.s * axis_[1].turn_b + by.t * axis_[2].turn_b);
   }
 
+  [[nodiscard]] bool resistsTurning() const noexcept { return rolling > 0.0 || spinning > 0.0; }
+  /// Applies an angular impulse to both bodies.
+  void applyTwist(const Local& change) noexcept {
+    const PlainVec angular = toWorld(change);
+    a->w = a->w + a->turnBy(angular);
+    if (b_moves_) b->w = b->w - b->turnBy(angular);
+  }
+
   /// Distance by which the shifts have opened the contact [m].
   [[nodiscard]] double normalShift() const noexcept {
     const Axis& n = axis_[0];
@@ -125,7 +151,12 @@ class RigidRow {
   }
 
   RigidMover *a = nullptr, *b = nullptr;
+  Local held;                            ///< impulse that the velocities have already [N s]
   Local impulse;                         ///< total of this step [N s]
+  Local twist_held, twist;               ///< the same against turning [N m s]
+  Mode mode = Mode::kUnknown;            ///< that of the last step, then of this one
+  bool is_swept = false;                 ///< modes have not settled: sweeps took over
+  double distance = 0.0;                 ///< above the overlap that the pair may keep [m]
   double wanted = 0.0;                   ///< least normal velocity [m/s]
   double friction = 0.0;                 ///< Coulomb's coefficient
   double rolling = 0.0, spinning = 0.0;  ///< RigidContact
@@ -157,7 +188,6 @@ class RigidRow {
   double normal_to_s_ = 0.0, normal_to_t_ = 0.0;
   double stick_ss_ = 0.0, stick_st_ = 0.0, stick_tt_ = 0.0;
   double slide_ = 0.0;
-  Local twist_;           ///< angular impulse against rolling and spinning [N m s]
   bool b_moves_ = false;  ///< b is not a fixed surface
 };
 

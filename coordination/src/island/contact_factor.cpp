@@ -1,0 +1,108 @@
+#include "island/contact_factor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem {
+namespace {
+
+/// Blocks below the diagonal per body: those of a wide pile.
+constexpr std::size_t kBlocksPerBody = 16;
+
+/// Changes that leave factors near: of a Jacobian beside its size, and of a stiffness beside its
+/// own and beside the largest. Newton's step then removes at least nine tenths of an error.
+constexpr double kNearJacobian = 1e-5, kNearStiffness = 1e-2, kSmallStiffness = 1e-6;
+
+bool isNear(const Six& a, const Six& b) noexcept {
+  double change = 0.0, size = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const double d = a.at[i] - b.at[i];
+    change += d * d;
+    size += b.at[i] * b.at[i];
+  }
+  return change <= kNearJacobian * kNearJacobian * size;
+}
+
+bool isNear(const ContactJacobian& a, const ContactJacobian& b) noexcept {
+  if (a.a != b.a || a.b != b.b) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (!isNear(a.of_a[i], b.of_a[i])) return false;
+    if (a.b >= 0 && !isNear(a.of_b[i], b.of_b[i])) return false;
+  }
+  return true;
+}
+
+bool isNear(const ContactStiffness& a, const ContactStiffness& b) noexcept {
+  const double largest = std::max({a.nn, b.nn, a.ss, b.ss, a.tt, b.tt});
+  const auto near = [&](double x, double y) {
+    return std::abs(x - y) <= kNearStiffness * std::abs(y) + kSmallStiffness * largest;
+  };
+  return near(a.nn, b.nn) && near(a.sn, b.sn) && near(a.tn, b.tn) && near(a.ss, b.ss) &&
+         near(a.st, b.st) && near(a.tt, b.tt);
+}
+
+}  // namespace
+
+ContactFactor::ContactFactor(std::size_t max_bodies, std::size_t max_points)
+    : matrix_(max_bodies, kBlocksPerBody * max_bodies) {
+  J_.reserve(max_points);
+  D_.reserve(max_points);
+  first_.reserve(max_bodies);
+}
+
+bool ContactFactor::isNear(const std::vector<ContactJacobian>& J,
+                           const std::vector<ContactStiffness>& D,
+                           const std::vector<int>& first) const noexcept {
+  if (!is_made_ || J.size() != J_.size() || first != first_) return false;
+  for (std::size_t i = 0; i < J.size(); ++i)
+    if (!tandem::isNear(D[i], D_[i]) || !tandem::isNear(J[i], J_[i])) return false;
+  return true;
+}
+
+bool ContactFactor::make(const std::vector<ContactJacobian>& J,
+                         const std::vector<ContactStiffness>& D,
+                         const std::vector<int>& first) noexcept {
+  is_made_ = false;
+  if (!matrix_.hasRoomFor(first)) return false;
+  matrix_.setIdentity(first);
+  for (std::size_t i = 0; i < J.size(); ++i)
+    if (!(D[i] == ContactStiffness())) add(J[i], D[i]);
+  if (!matrix_.factorise()) return false;
+  J_.assign(J.begin(), J.end());
+  D_.assign(D.begin(), D.end());
+  first_.assign(first.begin(), first.end());
+  return is_made_ = true;
+}
+
+/// Adds J^T D J.
+void ContactFactor::add(const ContactJacobian& J, const ContactStiffness& D) noexcept {
+  const auto multiply = [&](const Six(&along)[3], Six(&result)[3]) {
+    for (int i = 0; i < 6; ++i) {
+      const double n = along[0].at[i], s = along[1].at[i], t = along[2].at[i];
+      result[0].at[i] = D.nn * n;
+      result[1].at[i] = D.sn * n + D.ss * s + D.st * t;
+      result[2].at[i] = D.tn * n + D.st * s + D.tt * t;
+    }
+  };
+  const auto addTo = [](SixBySix& to, const Six(&along)[3], const Six(&stiff)[3]) {
+    for (int c = 0; c < 6; ++c)
+      for (int r = 0; r < 6; ++r)
+        to.column[c].at[r] += along[0].at[r] * stiff[0].at[c] + along[1].at[r] * stiff[1].at[c] +
+                              along[2].at[r] * stiff[2].at[c];
+  };
+  Six D_a[3], D_b[3];
+  multiply(J.of_a, D_a);
+  addTo(matrix_.diagonal(J.a), J.of_a, D_a);
+  if (J.b < 0) return;
+  multiply(J.of_b, D_b);
+  addTo(matrix_.diagonal(J.b), J.of_b, D_b);
+  if (J.a > J.b) {
+    addTo(matrix_.lower(J.a, J.b), J.of_a, D_b);
+    addTo(matrix_.upper(J.b, J.a), J.of_b, D_a);
+  } else {
+    addTo(matrix_.lower(J.b, J.a), J.of_b, D_a);
+    addTo(matrix_.upper(J.a, J.b), J.of_a, D_b);
+  }
+}
+
+}  // namespace tandem

@@ -1,0 +1,353 @@
+#include "island/contact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tandem {
+namespace {
+
+/// Stiffness of the penalties beside the points' own: multipliers gain this factor per iteration.
+constexpr double kStiffness = 1e4;
+/// Slip that is none, and slip that will do where rounding lets it not fall any further [m/s].
+constexpr double kSettled = 1e-9, kNearlySettled = 1e-7;
+/// Residual of Newton's iteration that is none [m/s].
+constexpr double kSmallResidual = 1e-10;
+/// A new point that opens slower is taken as closed at first [m/s].
+constexpr double kTogether = 1e-3;
+constexpr int kMaxFactorisations = 20, kMaxSteps = 40;
+/// Groups with factors of their own.
+constexpr std::size_t kMaxFactors = 8;
+
+/// `mobility` in the directions of a row as mass.
+double divide(double value, double mobility) { return mobility > 0.0 ? value / mobility : 0.0; }
+
+}  // namespace
+
+ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points) {
+  bodies_.reserve(max_bodies);
+  first_.reserve(max_bodies);
+  rows_.reserve(max_points);
+  points_.reserve(max_points);
+  point_of_.reserve(max_points);
+  twists_.reserve(max_points);
+  J_.reserve(2 * max_points);
+  D_.reserve(2 * max_points);
+  x_.reserve(max_bodies);
+  dx_.reserve(max_bodies);
+  for (std::size_t i = 0; i <= kMaxFactors; ++i)
+    factors_.push_back({{max_bodies, 2 * max_points}, {max_bodies, 2 * max_points}});
+}
+
+bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
+                          std::size_t mover_count) noexcept {
+  factor_ = &factors_[next_factor_];
+  next_factor_ = std::min(next_factor_ + 1, factors_.size() - 1);
+  orderBodies(rows, row_count, movers, mover_count);
+  rows_.assign(rows, rows + row_count);
+  points_.assign(row_count, PointLaw());
+  J_.resize(row_count);
+  point_of_.clear();
+  for (std::size_t i = 0; i < row_count; ++i) {
+    setUpPoint(i);
+    if (rows[i]->resistsTurning()) point_of_.push_back(i);
+  }
+  shapeMatrix();
+  twists_.assign(point_of_.size(), TwistLaw());
+  J_.resize(row_count + twists_.size());
+  for (std::size_t i = 0; i < twists_.size(); ++i) setUpTwist(i);
+  x_.assign(mover_count, Six());
+  dx_.resize(mover_count);
+  (void)measureResidual();
+  double slip_before = HUGE_VAL, residual_before = HUGE_VAL;
+  int factorisations = 0;
+  gatherStiffness();
+  bool is_factored = factor_->whole.isNear(J_, D_, first_);
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
+    if (!is_factored) {
+      if (++factorisations > kMaxFactorisations || !factorise()) return false;
+      is_factored = true;
+    }
+    step();
+    const Modes modes = chooseModes();
+    const double residual = measureResidual();
+    if (residual > kSmallResidual || modes.are_forced) {
+      // Sliding is not linear: its direction follows the slip.
+      is_factored = !modes.have_changed && residual < 0.1 * residual_before;
+      residual_before = residual;
+      continue;
+    }
+    const double slip = measureSlip();
+    if (slip < kSettled || (slip > 0.5 * slip_before && slip < kNearlySettled)) {
+      finish();
+      return true;
+    }
+    slip_before = slip;
+    residual_before = HUGE_VAL;
+    for (PointLaw& point : points_) point.P0 = point.P;
+    for (TwistLaw& twist : twists_) twist.T0 = twist.T;
+    is_factored = !chooseModes().have_changed && !modes.have_changed;
+    (void)measureResidual();
+  }
+  return false;
+}
+
+/// Cuthill and McKee's order: bodies that touch are near each other in the matrix.
+void ContactSolver::orderBodies(RigidRow* const* rows, std::size_t row_count,
+                                RigidMover* const* movers, std::size_t mover_count) noexcept {
+  bodies_.clear();
+  for (std::size_t i = 0; i < mover_count; ++i) {
+    movers[i]->place = -1;
+    movers[i]->degree = 0;
+  }
+  for (std::size_t i = 0; i < row_count; ++i) {
+    if (!rows[i]->b->ready) continue;
+    ++rows[i]->a->degree;
+    ++rows[i]->b->degree;
+  }
+  const auto place = [&](RigidMover& mover) {
+    mover.place = static_cast<int>(bodies_.size());
+    bodies_.push_back(&mover);
+  };
+  RigidMover* const start = *std::min_element(
+      movers, movers + mover_count,
+      [](const RigidMover* x, const RigidMover* y) { return x->degree < y->degree; });
+  place(*start);
+  for (std::size_t next = 0; next < bodies_.size(); ++next) {
+    const std::size_t first = bodies_.size();
+    for (std::size_t i = 0; i < row_count; ++i) {
+      if (!rows[i]->b->ready) continue;
+      if (rows[i]->a == bodies_[next] && rows[i]->b->place < 0) place(*rows[i]->b);
+      if (rows[i]->b == bodies_[next] && rows[i]->a->place < 0) place(*rows[i]->a);
+    }
+    // Few come at once; std::stable_sort() would allocate.
+    for (std::size_t i = first + 1; i < bodies_.size(); ++i)
+      for (std::size_t j = i; j > first && bodies_[j]->degree < bodies_[j - 1]->degree; --j)
+        std::swap(bodies_[j], bodies_[j - 1]);
+    for (std::size_t i = first; i < bodies_.size(); ++i) bodies_[i]->place = static_cast<int>(i);
+  }
+}
+
+void ContactSolver::setUpPoint(std::size_t index) noexcept {
+  const RigidRow& row = *rows_[index];
+  ContactJacobian& J = J_[index];
+  J.a = row.a->place;
+  J.b = row.b->ready ? row.b->place : -1;
+  const auto fill = [](const RigidMover& mover, const PlainVec& direction, const PlainVec& arm,
+                       double sign, Six& along) {
+    multiplyEach(sign * mover.root_mass_W, direction).store(along.at);
+    const PlainVec turn = sign * arm;
+    PlainVec(dot(mover.root_x, turn), dot(mover.root_y, turn), dot(mover.root_z, turn))
+        .store(along.at + 3);
+  };
+  for (int i = 0; i < 3; ++i) {
+    fill(*row.a, row.direction(i), row.armOfA(i), 1.0, J.of_a[i]);
+    if (J.b >= 0) fill(*row.b, row.direction(i), row.armOfB(i), -1.0, J.of_b[i]);
+  }
+  PointLaw& law = points_[index];
+  law.rho_n = divide(kStiffness, J.mobility(0));
+  law.rho_t = divide(kStiffness, std::max(J.mobility(1), J.mobility(2)));
+  law.friction = row.friction;
+  law.u = {row.velocityAlong(0) - row.wanted, row.velocityAlong(1), row.velocityAlong(2)};
+  law.held = row.held;
+  law.P0 = row.impulse;
+  law.mode = row.mode == RigidRow::Mode::kUnknown ? law.findMode() : row.mode;
+  // Else a stack that falls together would be stopped cube by cube, with a factorisation each.
+  if (row.mode == RigidRow::Mode::kUnknown && law.mode == RigidRow::Mode::kOpen &&
+      law.u.n < kTogether)
+    law.mode = row.friction > 0.0 ? RigidRow::Mode::kStick : RigidRow::Mode::kSlide;
+  law.respond();
+}
+
+void ContactSolver::setUpTwist(std::size_t index) noexcept {
+  const std::size_t point = point_of_[index];
+  const RigidRow& row = *rows_[point];
+  ContactJacobian& J = J_[points_.size() + index];
+  J.a = J_[point].a;
+  J.b = J_[point].b;
+  double w[3] = {};
+  for (int i = 0; i < 3; ++i) {
+    const PlainVec& axis = row.direction(i);
+    const auto fill = [&](const RigidMover& mover, double sign, Six& along) {
+      along.setZero();
+      (sign * PlainVec(dot(mover.root_x, axis), dot(mover.root_y, axis), dot(mover.root_z, axis)))
+          .store(along.at + 3);
+      w[i] += sign * dot(axis, mover.w);
+    };
+    fill(*row.a, 1.0, J.of_a[i]);
+    if (J.b >= 0) fill(*row.b, -1.0, J.of_b[i]);
+  }
+  TwistLaw& law = twists_[index];
+  law.w = {w[0], w[1], w[2]};
+  law.rho_n = divide(kStiffness, J.mobility(0));
+  law.rho_t = divide(kStiffness, std::max(J.mobility(1), J.mobility(2)));
+  law.held = row.twist_held;
+  law.T0 = row.twist;
+  respond(index);
+}
+
+void ContactSolver::shapeMatrix() noexcept {
+  first_.resize(bodies_.size());
+  for (std::size_t i = 0; i < first_.size(); ++i) first_[i] = static_cast<int>(i);
+  for (const ContactJacobian& J : J_) {
+    if (J.b < 0) continue;
+    int& first = first_[static_cast<std::size_t>(std::max(J.a, J.b))];
+    first = std::min({first, J.a, J.b});
+  }
+}
+
+void ContactSolver::respond(std::size_t twist) noexcept {
+  const std::size_t point = point_of_[twist];
+  const double push = std::max(0.0, points_[point].P.n);
+  twists_[twist].respond(rows_[point]->spinning * push, rows_[point]->rolling * push);
+}
+
+/// Chooses the modes that the present velocities ask for, and the impulses by their laws.
+ContactSolver::Modes ContactSolver::chooseModes() noexcept {
+  Modes modes;
+  for (PointLaw& point : points_) point.choose(modes.have_changed, modes.are_forced);
+  for (std::size_t i = 0; i < twists_.size(); ++i) {
+    const ContactStiffness before = twists_[i].D;
+    respond(i);
+    modes.have_changed |= !(twists_[i].D == before);
+  }
+  return modes;
+}
+
+void ContactSolver::gatherStiffness() noexcept {
+  D_.clear();
+  for (const PointLaw& point : points_) D_.push_back(point.D);
+  for (const TwistLaw& twist : twists_) D_.push_back(twist.D);
+}
+
+bool ContactSolver::factorise() noexcept {
+  ++factorisation_count_;
+  gatherStiffness();
+  return factor_->whole.make(J_, D_, first_);
+}
+
+/// Adds J^T push to dx_.
+void ContactSolver::addPush(const ContactJacobian& J, const RigidRow::Local& push) noexcept {
+  const auto add = [&](Six& to, const Six(&along)[3]) {
+    for (int i = 0; i < 6; ++i)
+      to.at[i] += push.n * along[0].at[i] + push.s * along[1].at[i] + push.t * along[2].at[i];
+  };
+  add(dx_[static_cast<std::size_t>(J.a)], J.of_a);
+  if (J.b >= 0) add(dx_[static_cast<std::size_t>(J.b)], J.of_b);
+}
+
+/// Adds J dx_.
+void ContactSolver::addMotion(const ContactJacobian& J, RigidRow::Local& velocity) const noexcept {
+  const auto add = [&](const Six& motion, const Six(&along)[3]) {
+    velocity.n += dot(along[0], motion);
+    velocity.s += dot(along[1], motion);
+    velocity.t += dot(along[2], motion);
+  };
+  add(dx_[static_cast<std::size_t>(J.a)], J.of_a);
+  if (J.b >= 0) add(dx_[static_cast<std::size_t>(J.b)], J.of_b);
+}
+
+/// One step of Newton's from the present velocities, whose residual has been measured.
+void ContactSolver::step() noexcept {
+  factor_->whole.solve(dx_);
+  addMotions();
+}
+
+/// Moves on by dx_.
+void ContactSolver::addMotions() noexcept {
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[i].add(dx_[i]);
+  for (std::size_t i = 0; i < points_.size(); ++i) addMotion(J_[i], points_[i].u);
+  for (std::size_t i = 0; i < twists_.size(); ++i) addMotion(J_[points_.size() + i], twists_[i].w);
+}
+
+/// Change of velocity that the impulses give beyond the present one: sets dx_, and returns the
+/// largest of a body [m/s].
+double ContactSolver::measureResidual() noexcept {
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    dx_[i].setZero();
+    dx_[i].addScaled(-1.0, x_[i]);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) addPush(J_[i], points_[i].P - points_[i].held);
+  for (std::size_t i = 0; i < twists_.size(); ++i)
+    addPush(J_[points_.size() + i], twists_[i].T - twists_[i].held);
+  double most = 0.0;
+  for (std::size_t i = 0; i < dx_.size(); ++i) {
+    const RigidMover& mover = *bodies_[i];
+    const PlainVec dv = multiplyEach(mover.root_mass_W, PlainVec(dx_[i].at));
+    const PlainVec dw = mover.rootTurn(PlainVec(dx_[i].at + 3));
+    most = std::max({most, dot(dv, dv), mover.radius_squared * dot(dw, dw)});
+  }
+  return std::sqrt(most);
+}
+
+/// Largest velocity that a law forbids [m/s].
+double ContactSolver::measureSlip() const noexcept {
+  double most = 0.0;
+  for (const PointLaw& law : points_) {
+    if (law.mode == RigidRow::Mode::kOpen) continue;
+    most = std::max(most, std::abs(law.u.n));
+    if (law.mode == RigidRow::Mode::kStick)
+      most = std::max(most, std::sqrt(law.u.s * law.u.s + law.u.t * law.u.t));
+  }
+  for (std::size_t i = 0; i < twists_.size(); ++i) {
+    const TwistLaw& law = twists_[i];
+    // Within its limits nothing turns.
+    const double radius = std::sqrt(rows_[point_of_[i]]->a->radius_squared);
+    if (law.D.nn > 0.0) most = std::max(most, radius * std::abs(law.w.n));
+    if (law.D.ss == law.rho_t && law.D.tt == law.rho_t)
+      most = std::max(most, radius * std::sqrt(law.w.s * law.w.s + law.w.t * law.w.t));
+  }
+  return most;
+}
+
+void ContactSolver::finish() noexcept {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    RigidRow& row = *rows_[i];
+    const PointLaw& law = points_[i];
+    row.mode = law.mode;
+    row.apply(law.P - law.held);
+    row.impulse = law.P;
+  }
+  for (std::size_t i = 0; i < twists_.size(); ++i) {
+    RigidRow& row = *rows_[point_of_[i]];
+    const TwistLaw& law = twists_[i];
+    row.applyTwist(law.T - law.held);
+    row.twist = law.T;
+  }
+}
+
+void ContactSolver::repair(const std::vector<double>& gaps) noexcept {
+  // Friction of sliding points is no matter of positions.
+  bool slides = false;
+  for (PointLaw& point : points_) {
+    if (point.mode != RigidRow::Mode::kSlide) continue;
+    point.D = {};
+    point.D.nn = point.rho_n;
+    slides = true;
+  }
+  gatherStiffness();
+  ContactFactor& factor = slides ? factor_->positions : factor_->whole;
+  if (!factor.isNear(J_, D_, first_)) {
+    ++factorisation_count_;
+    if (!factor.make(J_, D_, first_)) return;
+  }
+  for (Six& x : x_) x.setZero();
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].u = {gaps[i], 0.0, 0.0};
+  for (int round = 0; round < 2; ++round) {
+    for (Six& dx : dx_) dx.setZero();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const ContactStiffness& D = D_[i];
+      const RigidRow::Local& u = points_[i].u;
+      addPush(J_[i], {-D.nn * u.n, -D.ss * u.s - D.st * u.t, -D.st * u.s - D.tt * u.t});
+    }
+    factor.solve(dx_);
+    addMotions();
+  }
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    RigidMover& mover = *bodies_[i];
+    mover.shift = mover.shift + multiplyEach(mover.root_mass_W, PlainVec(x_[i].at));
+    mover.turn = mover.turn + mover.rootTurn(PlainVec(x_[i].at + 3));
+  }
+}
+
+}  // namespace tandem
