@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "island/contact_memory.h"
+#include "island/rigid_row.h"
+
+namespace tandem {
+
+/// Sets of touching bodies with the rows between them. One set may settle while another moves.
+class ContactGroups {
+ public:
+  struct Group {
+    RigidRow* const* rows;
+    std::size_t row_count;
+    RigidMover* const* movers;
+    std::size_t mover_count;
+  };
+
+  /// Allocates.
+  ContactGroups(std::size_t body_count, std::size_t contact_capacity);
+
+  /// Groups the points for which `counts(point)` holds. `movers` are by body. Real-time safe.
+  template <typename Counts>
+  void make(std::vector<ContactPoint>& points, std::vector<RigidMover>& movers,
+            Counts counts) noexcept {
+    chosen_.clear();
+    for (ContactPoint& point : points)
+      if (counts(point)) chosen_.push_back(&point);
+    group(movers);
+  }
+
+  [[nodiscard]] const std::vector<Group>& groups() const noexcept { return groups_; }
+
+ private:
+  void group(std::vector<RigidMover>& movers) noexcept;
+  [[nodiscard]] BodyIndex findRoot(BodyIndex body) noexcept;
+
+  std::vector<ContactPoint*> chosen_;
+  std::vector<BodyIndex> parent_;  ///< by body: another body of its group, or itself
+  std::vector<int> group_of_;      ///< by lowest body of a group: its index; -1: none yet
+  std::vector<std::size_t> first_row_, first_mover_;  ///< by group
+  std::vector<RigidRow*> rows_;                       ///< group by group
+  std::vector<RigidMover*> movers_;                   ///< group by group
+  std::vector<Group> groups_;
+};
+
+}  // namespace tandem

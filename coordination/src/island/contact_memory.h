@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "island/contact_finder.h"
+#include "island/island_model.h"
+#include "island/rigid_row.h"
+#include "island/touch.h"
+
+namespace tandem {
+
+/// A contact point while a step is solved.
+struct ContactPoint {
+  RigidContact contact;
+  RigidRow row;
+  double at_start = 0.0;   ///< its distance at the start of the step, about [m]
+  double opening = 0.0;    ///< speed at which it opens at the start of the step [m/s]
+  bool is_impact = false;  ///< it closes at the end of the step: its impulse takes no time
+  RigidRow::Mode mode_before = RigidRow::Mode::kUnknown;  ///< in the last step
+  int known = -1;                ///< index in ContactMemory of the point of the last step; -1: new
+  double aim_distance = 0.0;     ///< to which overlap moves out in this step [m]
+  double shift = 0.0;            ///< impulse times time that moves out of overlap [N s^2]
+  RigidRow::Local steady;        ///< impulse of the step without impacts [N s]
+  RigidRow::Local blow;          ///< impulse of impacts at its end [N s]
+  RigidRow::Local steady_twist;  ///< the same against turning [N m s]
+};
+
+/// Contact points of the last step with their forces, and what they will be in the next.
+///
+/// A force is expected to go on at its rate of change, and its point and normal to move with the
+/// body that they belong to. What is expected at the middle of a step acts on the bodies during
+/// their smooth motion, and the solver finds the rest. A lasting contact is then of second order in
+/// the step. All functions are real-time safe.
+class ContactMemory {
+ public:
+  /// Allocates.
+  explicit ContactMemory(std::size_t capacity);
+
+  void forget() noexcept;
+  void shiftOrigin(const Vec3& offset_W) noexcept;
+  /// True if nothing is known, and nothing was held in the present try.
+  [[nodiscard]] bool isEmpty() const noexcept { return known_.empty() && trial_.empty(); }
+
+  /// Adds the forces expected in a step of `h` [s] from `before` to `held`, by body.
+  void hold(const States& before, double h, std::vector<Wrench>& held) noexcept;
+  /// True if a point had a force in the last step, or has learned one.
+  [[nodiscard]] bool hasForce(const ContactPoint& point) const noexcept {
+    if (point.known < 0) return false;
+    const Known& known = trial_[static_cast<std::size_t>(point.known)];
+    return known.is_learned || known.last.age > 0;
+  }
+  /// True if a held force's point has gone.
+  [[nodiscard]] bool hasGone() const noexcept {
+    return std::any_of(trial_.begin(), trial_.end(),
+                       [](const Known& known) { return !known.is_taken; });
+  }
+  /// Finds each point among the known ones, and starts its row from what they had.
+  void match(std::vector<ContactPoint>& points, double h) noexcept;
+  /// Calls `visit(a, b, p_W, f_W, t_W)` for each held force whose point has gone.
+  template <typename Visit>
+  void visitGone(Visit visit) const {
+    for (const Known& known : trial_)
+      if (!known.is_taken) visit(known.a, known.b, known.p_held_W, known.f_held_W, known.t_held_W);
+  }
+  /// The step is repeated with the forces of `points`, which ended at `after`.
+  void learn(const std::vector<ContactPoint>& points, const States& after, double h) noexcept;
+  /// The step is repeated with another length.
+  void startAgain() noexcept { trial_ = known_; }
+  /// The step is done: its points are known now.
+  /// A step shorter than `least` [s] tells nothing new of their forces.
+  void keep(const std::vector<ContactPoint>& points, const States& after, double h,
+            double least) noexcept;
+
+ private:
+  /// Force of a point in a step.
+  struct Force {
+    Vec3 f_W = Vec3::Zero();  ///< mean over the step [N]
+    Vec3 t_W = Vec3::Zero();  ///< against rolling and spinning [N m]
+    Vec3 n_W = Vec3::Zero();  ///< normal at its end
+    double h = 0.0;           ///< length of the step [s]
+    int age = 0;              ///< steps in which it had one; 0: not yet
+  };
+  struct Known {
+    BodyIndex a, b;
+    const void* surface;  ///< RigidContact
+    RigidRow::Mode mode;
+    Vec3 p_W, n_W;     ///< at the start of the coming step
+    Vec3 v_W, turn_W;  ///< velocity of the point [m/s], turning rate of the normal [rad/s]
+    Vec3 slope_W;      ///< rate of change of the force [N/s]
+    double base;       ///< time over which it was measured [s]
+    Force last;
+    bool is_learned;                    ///< `f_learned_W` is the force of the step itself
+    Vec3 f_learned_W, t_learned_W;      ///< [N, N m]
+    Vec3 f_held_W, t_held_W, p_held_W;  ///< as held, at the middle of the step
+    bool is_taken;
+  };
+
+  [[nodiscard]] Known describe(const ContactPoint& point, const States& after,
+                               double h) const noexcept;
+  [[nodiscard]] Known* findNearest(const ContactPoint& point, double h) noexcept;
+
+  std::vector<Known> known_;  ///< after the last step
+  std::vector<Known> trial_;  ///< in the present try of the next one
+  std::vector<Known> learned_;
+  std::size_t next_ = 0;  ///< place after the last match
+};
+
+}  // namespace tandem

@@ -1,0 +1,60 @@
+#include "island/impulse_sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem {
+namespace {
+
+/// Sweeps end when no velocity changes by more [m/s]; small groups may take more of them.
+constexpr double kPatientTolerance = 1e-9, kImpatientTolerance = 1e-6;
+constexpr std::size_t kPatientRelaxations = 400;
+constexpr int kMaxSweeps = 30;
+
+/// Largest change of a body's velocity since the last call [m/s]. Points may still share a load
+/// differently without it: four corners can do so in many ways.
+double measureChange(const ContactGroups::Group& group) noexcept {
+  double change = 0.0;
+  for (std::size_t i = 0; i < group.mover_count; ++i) {
+    RigidMover& mover = *group.movers[i];
+    const PlainVec dv = mover.v - mover.v_last, dw = mover.w - mover.w_last;
+    change = std::max({change, dot(dv, dv), mover.radius_squared * dot(dw, dw)});
+    mover.v_last = mover.v;
+    mover.w_last = mover.w;
+  }
+  return std::sqrt(change);
+}
+
+RigidRow::Mode findMode(const RigidRow& row) noexcept {
+  const RigidRow::Local& P = row.impulse;
+  if (!(P.n > 0.0)) return RigidRow::Mode::kOpen;
+  const double limit = (1.0 - 1e-9) * row.friction * P.n;
+  return std::hypot(P.s, P.t) < limit ? RigidRow::Mode::kStick : RigidRow::Mode::kSlide;
+}
+
+}  // namespace
+
+std::size_t sweepImpulses(const ContactGroups::Group& group) noexcept {
+  const auto patient_sweeps = static_cast<int>(kPatientRelaxations / group.row_count);
+  (void)measureChange(group);
+  RigidRow* const* const end = group.rows + group.row_count;
+  int sweeps = 0;
+  while (sweeps < kMaxSweeps) {
+    // Alternate the direction, so that a change at one end of a row reaches the other in one sweep.
+    if (sweeps % 2 == 0) {
+      for (auto row = group.rows; row != end; ++row) (*row)->solve();
+    } else {
+      for (auto row = end; row != group.rows;) (*--row)->solve();
+    }
+    const bool is_patient = sweeps++ < patient_sweeps;
+    if (measureChange(group) < (is_patient ? kPatientTolerance : kImpatientTolerance)) break;
+  }
+  // The next step begins with these modes.
+  for (auto row = group.rows; row != end; ++row) {
+    (*row)->mode = findMode(**row);
+    (*row)->is_swept = true;
+  }
+  return static_cast<std::size_t>(sweeps) * group.row_count;
+}
+
+}  // namespace tandem
