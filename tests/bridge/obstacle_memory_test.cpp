@@ -43,7 +43,8 @@ int countWhileSliding(test::ObstacleScene& scene) {
     }
   };
   play();  // warm-up
-  EXPECT_GT(scene.obstacles.searches(), 400u);
+  EXPECT_GT(scene.obstacles.searches() + scene.obstacles.frozenSearches(), 400u);
+  EXPECT_GT(scene.obstacles.searches(), 5u);
   allocations = 0;
   play();
   return allocations;

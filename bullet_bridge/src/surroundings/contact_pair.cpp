@@ -5,6 +5,7 @@
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <LinearMath/btAabbUtil2.h>
@@ -21,8 +22,26 @@ constexpr double kFarthest = 1e-3;
 /// they counted, bodies at rest would tremble.
 constexpr double kRounding = sizeof(btScalar) == sizeof(double) ? 0.0 : 6e-8;
 
+/// Bullet may not know its points again that slid farther without it [m]. Old ones would take the
+/// places of new ones, and then be dropped.
+constexpr double kKnownAgain = 1e-5;
+
 bool isPlane(const Part& part) {
   return part.shape && part.shape->getShapeType() == STATIC_PLANE_PROXYTYPE;
+}
+
+/// The nearest point of the host's box, for a copy with a skin: corners of the copy are farther
+/// out.
+btVector3 takeSkinOff(const PrivateCopy& copy, const btVector3& point) {
+  if (copy.skin == 0) return point;
+  const auto& box = static_cast<const btBoxShape&>(*copy.parts.front().shape);
+  const btVector3 half =
+      box.getHalfExtentsWithMargin() - btVector3(copy.skin, copy.skin, copy.skin);
+  const btTransform& pose = copy.object.getWorldTransform();
+  btVector3 inside = pose.invXform(point);
+  inside.setMax(-half);
+  inside.setMin(half);
+  return pose * inside;
 }
 
 }  // namespace
@@ -101,28 +120,43 @@ btScalar ContactPair::breakingThreshold() const noexcept {
   return std::min(a->breaking_threshold, b->breaking_threshold);
 }
 
-void ContactPair::search(WorkSpace& work) noexcept {
+bool ContactPair::search(WorkSpace& work) noexcept {
+  bool has_asked = false;
   for (PartPair& pair : parts_)
-    if (pair.close || isSingle()) searchPart(pair, work);
+    if (pair.close || isSingle()) has_asked |= searchPart(pair, work);
+  return has_asked;
 }
 
-/// The steps of Bullet's algorithms for single shapes and compounds, in their order.
-void ContactPair::searchPart(PartPair& pair, WorkSpace& work) noexcept {
+/// The steps of Bullet's algorithms for single shapes and compounds, in their order. False if
+/// frozen contact answered.
+bool ContactPair::searchPart(PartPair& pair, WorkSpace& work) noexcept {
   const PrivateCopy& first = pair.is_swapped ? *b : *a;
   const PrivateCopy& second = pair.is_swapped ? *a : *b;
+  if (pair.mesh < 0 &&
+      pair.frozen.follow(ExactPart::of(first, *pair.first), ExactPart::of(second, *pair.second))) {
+    reportFrozen(pair, work);
+    return false;
+  }
   const btTransform first_pose = first.is_compound
                                      ? first.object.getWorldTransform() * pair.first->pose
                                      : first.object.getWorldTransform();
   const btTransform second_pose = second.is_compound
                                       ? second.object.getWorldTransform() * pair.second->pose
                                       : second.object.getWorldTransform();
-  if (pair.kept && b->plane) slideAlong(*pair.kept, pair.is_swapped);
+  if (pair.kept && b->plane) {
+    slideAlong(*pair.kept, pair.is_swapped);
+  } else if (pair.kept && pair.frozen.slide() > kKnownAgain) {
+    pair.kept->setNumContacts(0);
+  }
   if (!isSingle()) {
     if (pair.kept) refreshQuietly(*pair.kept);
     const Region box = PrivateCopy::computeBounds(*pair.first, first.object.getWorldTransform());
     const Region other =
         PrivateCopy::computeBounds(*pair.second, second.object.getWorldTransform());
-    if (!overlap(box, other)) return release(pair, work.dispatcher);
+    if (!overlap(box, other)) {
+      release(pair, work.dispatcher);
+      return true;
+    }
   }
   work.dispatcher.setBreakingThreshold(breakingThreshold());
   work.decoy.setContactBreakingThreshold(breakingThreshold());
@@ -138,12 +172,18 @@ void ContactPair::searchPart(PartPair& pair, WorkSpace& work) noexcept {
     if (pair.algorithm == nullptr)
       pair.algorithm =
           work.dispatcher.findAlgorithm(&x, &y, &work.decoy, BT_CONTACT_POINT_ALGORITHMS);
-    if (pair.algorithm == nullptr) return;
+    if (pair.algorithm == nullptr) return true;
     QuietResult result(&x, &y, *pair.kept, isPlane(*pair.second));
     pair.algorithm->processCollision(&x, &y, work.dispatch, &result);
   }
   refreshQuietly(*pair.kept);
-  report(pair, work);
+  if (pair.mesh < 0 && pair.frozen.freeze(ExactPart::of(first, *pair.first),
+                                          ExactPart::of(second, *pair.second), *pair.kept)) {
+    reportFrozen(pair, work);
+  } else {
+    report(pair, work);
+  }
+  return true;
 }
 
 /// Each triangle is a convex shape for a moment, as in Bullet.
@@ -172,30 +212,45 @@ void ContactPair::searchTriangles(PartPair& pair, const btTransform& first_pose,
       });
 }
 
+/// Reports points as Bullet has them.
 void ContactPair::report(const PartPair& pair, WorkSpace& work) const noexcept {
-  std::vector<RigidContact>& contacts = *work.contacts;
   // The normal points from the second object to the first.
   const double side = pair.is_swapped ? -1.0 : 1.0;
-  for (int i = 0; i < pair.kept->getNumContacts() && contacts.size() < contacts.capacity(); ++i) {
+  for (int i = 0; i < pair.kept->getNumContacts(); ++i) {
     const btManifoldPoint& point = pair.kept->getContactPoint(i);
-    RigidContact contact;
-    contact.distance = static_cast<double>(point.getDistance() + a->skin + b->skin);
-    if (contact.distance > kFarthest) continue;
-    if (std::abs(contact.distance) < kRounding) contact.distance = 0.0;
-    contact.a = a->index;
-    contact.b = b->index;
-    contact.surface = b->index == kStanding ? b->original : nullptr;
-    contact.n_W = side * fromBullet(point.m_normalWorldOnB).normalized();
-    contact.p_W =
-        work.origin_W +
-        fromBullet((point.getPositionWorldOnA() + point.getPositionWorldOnB()) * btScalar(0.5));
-    contact.friction = material.friction;
-    contact.restitution = material.restitution;
-    contact.rolling = material.rolling;
-    contact.spinning = material.spinning;
-    contact.min_bounce_speed = work.min_bounce_speed;
-    contacts.push_back(contact);
+    double distance = static_cast<double>(point.getDistance() + a->skin + b->skin);
+    if (std::abs(distance) < kRounding) distance = 0.0;
+    const btVector3 middle =
+        (point.getPositionWorldOnA() + point.getPositionWorldOnB()) * btScalar(0.5);
+    report(work.origin_W + fromBullet(takeSkinOff(*a, takeSkinOff(*b, middle))),
+           side * fromBullet(point.m_normalWorldOnB).normalized(), distance, work);
   }
+}
+
+/// Reports points in double.
+void ContactPair::reportFrozen(const PartPair& pair, WorkSpace& work) const noexcept {
+  const double side = pair.is_swapped ? -1.0 : 1.0;
+  for (const FrozenContact::Point& point : pair.frozen)
+    report(work.origin_W + point.p, side * pair.frozen.normal(), point.distance, work);
+}
+
+void ContactPair::report(const Vec3& p_W, const Vec3& n_W, double distance,
+                         WorkSpace& work) const noexcept {
+  std::vector<RigidContact>& contacts = *work.contacts;
+  if (distance > kFarthest || contacts.size() == contacts.capacity()) return;
+  RigidContact contact;
+  contact.a = a->index;
+  contact.b = b->index;
+  contact.surface = b->index == kStanding ? b->original : nullptr;
+  contact.p_W = p_W;
+  contact.n_W = n_W;
+  contact.distance = distance;
+  contact.friction = material.friction;
+  contact.restitution = material.restitution;
+  contact.rolling = material.rolling;
+  contact.spinning = material.spinning;
+  contact.min_bounce_speed = work.min_bounce_speed;
+  contacts.push_back(contact);
 }
 
 /// Bullet drops a contact whose two points have drifted apart along the surface. The body would
@@ -220,6 +275,7 @@ void ContactPair::release(PartPair& pair, QuietDispatcher& dispatcher) noexcept 
   }
   if (pair.kept) dispatcher.releaseManifold(pair.kept);
   pair.kept = nullptr;
+  pair.frozen.drop();
 }
 
 void ContactPair::release(QuietDispatcher& dispatcher) noexcept {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "coordination/src/island/contact_finder.h"
+#include "surroundings/frozen_contact.h"
 #include "surroundings/private_copies.h"
 #include "surroundings/quiet_contact.h"
 #include "surroundings/triangle_run.h"
@@ -58,7 +59,8 @@ class ContactPair {
   [[nodiscard]] bool overlaps(const Region& a, const Region& b) const noexcept;
   /// Chooses the parts and triangles that may touch while the copies move by `reach` [m] in all.
   void lookCloser(WorkSpace& work, btScalar reach) noexcept;
-  void search(WorkSpace& work) noexcept;
+  /// Reports the contact. True if Bullet was asked; else frozen contact answered for all parts.
+  bool search(WorkSpace& work) noexcept;
   /// Gives back what Bullet keeps for contact.
   void release(QuietDispatcher& dispatcher) noexcept;
   /// @}
@@ -79,16 +81,19 @@ class ContactPair {
     bool close = false;  ///< in the last lookCloser()
     btCollisionAlgorithm* algorithm = nullptr;
     btPersistentManifold* kept = nullptr;
+    FrozenContact frozen{};  ///< of `kept`
   };
 
   [[nodiscard]] bool isSingle() const noexcept { return !a->is_compound && !b->is_compound; }
   void addPartPair(const Part& of_a, const Part& of_b);
   [[nodiscard]] btScalar breakingThreshold() const noexcept;
-  void searchPart(PartPair& pair, WorkSpace& work) noexcept;
+  bool searchPart(PartPair& pair, WorkSpace& work) noexcept;
   void searchTriangles(PartPair& pair, const btTransform& first_pose,
                        const btTransform& second_pose, WorkSpace& work) noexcept;
   void slideAlong(btPersistentManifold& manifold, bool is_swapped) noexcept;
   void report(const PartPair& pair, WorkSpace& work) const noexcept;
+  void reportFrozen(const PartPair& pair, WorkSpace& work) const noexcept;
+  void report(const Vec3& p_W, const Vec3& n_W, double distance, WorkSpace& work) const noexcept;
   static void release(PartPair& pair, QuietDispatcher& dispatcher) noexcept;
 
   std::vector<PartPair> parts_;

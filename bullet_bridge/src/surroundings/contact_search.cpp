@@ -40,8 +40,8 @@ void ContactSearch::setOrigin(const Vec3& origin_W, const std::vector<RigidState
 }
 
 bool ContactSearch::placeStanding(PrivateCopy& copy) {
-  const btTransform pose = copy.findOriginal(wanted_origin_W_);
-  if (equalBits(pose, copy.object.getWorldTransform())) return false;
+  const PrivatePose pose = copy.findOriginal(wanted_origin_W_);
+  if (equalBits(pose.rounded, copy.object.getWorldTransform())) return false;
   placings_.push_back({&copy, pose});
   return true;
 }
@@ -206,9 +206,7 @@ void ContactSearch::place(BodyIndex body, const RigidState& state) noexcept {
   PrivateCopy& copy = *book_.copy_of[static_cast<std::size_t>(body)];
   const Vec3 p = state.p_W - work_.origin_W;
   if (p == copy.p_placed && state.q_WB.coeffs() == copy.q_placed.coeffs()) return;
-  copy.p_placed = p;
-  copy.q_placed = state.q_WB;
-  copy.place(toBullet(p, state.q_WB));
+  copy.place(p, state.q_WB);
 }
 
 template <typename Visit>
@@ -273,8 +271,8 @@ void ContactSearch::find(const std::vector<RigidState>& states,
   for (const std::size_t i : book_.near) {
     ContactPair& pair = book_.pairs[i];
     if (!pair.overlaps(pair.a->bounds, pair.b->bounds)) continue;
-    ++searches_;
-    pair.search(work_);
+    const bool has_asked = pair.search(work_);
+    ++(has_asked ? searches_ : frozen_searches_);
   }
 }
 

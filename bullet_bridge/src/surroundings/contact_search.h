@@ -105,8 +105,10 @@ class ContactSearch {
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,
                   std::vector<char>& awake, std::vector<char>& near) noexcept;
   void find(const std::vector<RigidState>& states, std::vector<RigidContact>& contacts) noexcept;
-  /// Number of pairs passed to Bullet's narrowphase so far.
+  /// Number of pairs passed to Bullet's narrowphase so far, and of those that kept contact
+  /// answered.
   [[nodiscard]] std::uint64_t searches() const noexcept { return searches_; }
+  [[nodiscard]] std::uint64_t frozenSearches() const noexcept { return frozen_searches_; }
   /// @}
 
  private:
@@ -139,7 +141,7 @@ class ContactSearch {
   };
   struct Placing {
     PrivateCopy* copy;
-    btTransform pose;
+    PrivatePose pose;
   };
   /// Bullet's functions that combine surfaces; a host may set its own.
   struct Combiners {
@@ -182,7 +184,7 @@ class ContactSearch {
 
   // The tick's side.
   Book book_;
-  std::uint64_t searches_ = 0;
+  std::uint64_t searches_ = 0, frozen_searches_ = 0;
 };
 
 }  // namespace tandem

@@ -249,6 +249,7 @@ btCollisionObject* Obstacles::Impl::findPartner(const RigidContact& contact) con
 }
 
 std::uint64_t Obstacles::searches() const noexcept { return impl_->search.searches(); }
+std::uint64_t Obstacles::frozenSearches() const noexcept { return impl_->search.frozenSearches(); }
 
 btCollisionObject* Obstacles::Impl::findBody(BodyIndex index) const {
   for (const auto& body : search.bodies())

@@ -101,6 +101,8 @@ class Obstacles final : public ContactFinder {
 
   /// Number of pairs passed to Bullet's narrowphase so far.
   [[nodiscard]] std::uint64_t searches() const noexcept;
+  /// Number of pairs whose kept contact answered instead.
+  [[nodiscard]] std::uint64_t frozenSearches() const noexcept;
 
  private:
   struct [[gnu::visibility("hidden")]] Impl;

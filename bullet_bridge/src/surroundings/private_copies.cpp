@@ -1,6 +1,7 @@
 #include "surroundings/private_copies.h"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
@@ -24,6 +25,11 @@ bool hasTriangles(const btCollisionShape& shape) {
              CONST_GIMPACT_COMPOUND_SHAPE;
 }
 
+Vec3 halfOf(const btCollisionShape& shape) {
+  if (shape.getShapeType() != BOX_SHAPE_PROXYTYPE) return Vec3::Zero();
+  return fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
+}
+
 /// Adds the parts of a shape, also of compounds in compounds. False if one cannot be copied.
 bool appendParts(const btCollisionShape& shape, const btTransform& pose, std::vector<Part>& parts) {
   if (shape.isCompound()) {
@@ -36,6 +42,7 @@ bool appendParts(const btCollisionShape& shape, const btTransform& pose, std::ve
   Part part;
   part.pose = pose;
   part.shape = copyShape(shape);
+  part.half = halfOf(shape);
   if (!part.shape) {
     if (!hasTriangles(shape)) return false;
     part.host_mesh = static_cast<const btConcaveShape*>(&shape);
@@ -63,7 +70,8 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
     plane = own.get();
     parts.push_back({std::move(own), nullptr, 0, {}, btTransform::getIdentity()});
   } else if (skin > 0) {
-    parts.push_back({copyShape(only, skin), nullptr, 0, {}, btTransform::getIdentity()});
+    parts.push_back(
+        {copyShape(only, skin), nullptr, 0, {}, btTransform::getIdentity(), halfOf(only)});
   } else if (!appendParts(only, btTransform::getIdentity(), parts)) {
     parts.clear();
   }
@@ -71,7 +79,7 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
   const btCollisionShape& measured =
       is_single ? *parts.front().shape : *host_object.getCollisionShape();
   breaking_threshold = measured.getContactBreakingThreshold(gContactBreakingThreshold);
-  place(btTransform::getIdentity());
+  place(Vec3::Zero(), Quat::Identity());
   filter = filterOf(host_object);
   own_filters = OwnFilters::countIn(host_object);
   host_filters = OwnFilters::countOfHost(host_object);
@@ -107,7 +115,7 @@ bool ShapeLook::operator==(const ShapeLook& other) const noexcept {
          bounds == other.bounds && revision == other.revision;
 }
 
-btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
+PrivatePose PrivateCopy::findOriginal(const Vec3& origin_W) const {
   const btTransform& host_pose = original->getWorldTransform();
   Vec3 p = fromBullet(host_pose.getOrigin()) - origin_W;
   if (plane) {
@@ -117,7 +125,7 @@ btTransform PrivateCopy::findOriginal(const Vec3& origin_W) const {
     const Vec3 normal = fromBullet(host_pose.getBasis() * host_plane.getPlaneNormal());
     p = (normal.dot(p) + static_cast<double>(host_plane.getPlaneConstant())) * normal;
   }
-  return btTransform(host_pose.getBasis(), toBullet(p));
+  return {btTransform(host_pose.getBasis(), toBullet(p)), p};
 }
 
 Region PrivateCopy::computeBounds(const Part& part, const btTransform& pose) {
@@ -125,7 +133,25 @@ Region PrivateCopy::computeBounds(const Part& part, const btTransform& pose) {
   return moveRegion(part.bounds, pose * part.pose);
 }
 
-void PrivateCopy::place(const btTransform& pose) {
+void PrivateCopy::place(const PrivatePose& pose) {
+  const btMatrix3x3& basis = pose.rounded.getBasis();
+  Eigen::Matrix3d axes;
+  for (int i = 0; i < 3; ++i) axes.row(i) = fromBullet(basis[i]).transpose();
+  p_placed = pose.p;
+  // Axes of a float are off by its rounding, and are not quite at right angles.
+  q_placed = Quat(axes).normalized();
+  axes_placed = q_placed.toRotationMatrix();
+  moveTo(pose.rounded);
+}
+
+void PrivateCopy::place(const Vec3& p, const Quat& q) {
+  p_placed = p;
+  q_placed = q;
+  axes_placed = q.toRotationMatrix();
+  moveTo(toBullet(p, q));
+}
+
+void PrivateCopy::moveTo(const btTransform& pose) {
   object.setWorldTransform(pose);
   if (!is_compound && isWhole() && parts.front().shape) {
     bounds = computeRegion(*parts.front().shape, pose);

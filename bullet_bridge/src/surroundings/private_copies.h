@@ -44,8 +44,15 @@ struct Part {
   std::unique_ptr<btCollisionShape> shape;    ///< null: a mesh
   const btConcaveShape* host_mesh = nullptr;  ///< for the host's thread only
   btScalar mesh_margin = 0;
-  Region bounds{};   ///< of a mesh, in its frame
-  btTransform pose;  ///< in its object
+  Region bounds{};           ///< of a mesh, in its frame
+  btTransform pose;          ///< in its object
+  Vec3 half = Vec3::Zero();  ///< half extents of the host's box, if it is one [m]
+};
+
+/// A pose from the private origin: as Bullet gets it, and the position in double.
+struct PrivatePose {
+  btTransform rounded;
+  Vec3 p;
 };
 
 /// Private copy of a host's object for the contact search: same shape, own pose. It reads nothing
@@ -55,8 +62,10 @@ struct PrivateCopy {
   PrivateCopy(btCollisionObject& host_object, BodyIndex index);
 
   /// Pose of a standing original relative to `origin_W`.
-  [[nodiscard]] btTransform findOriginal(const Vec3& origin_W) const;
-  void place(const btTransform& pose);
+  [[nodiscard]] PrivatePose findOriginal(const Vec3& origin_W) const;
+  void place(const PrivatePose& pose);
+  /// Places a body.
+  void place(const Vec3& p, const Quat& q);
   /// False: a shape is none that can be copied. Its contact stays Bullet's.
   [[nodiscard]] bool isWhole() const noexcept { return !parts.empty(); }
   /// True if the original, which must be in its world, is that object and has the shape that was
@@ -87,9 +96,13 @@ struct PrivateCopy {
   CollisionFilter filter;                     ///< the host's group and mask at the last look
   int own_filters = 0;                        ///< that the original should hold (OwnFilters)
   int host_filters = 0;                       ///< of the host in it, at the last look
-  Vec3 p_placed = Vec3::Zero();  ///< last position of a body, from the private origin [m]
+  Vec3 p_placed = Vec3::Zero();               ///< last position, from the private origin [m]
   Quat q_placed = Quat::Identity();
+  Eigen::Matrix3d axes_placed = Eigen::Matrix3d::Identity();  ///< the same as a matrix
   Region bounds;  ///< box around the copy at its last pose
+
+ private:
+  void moveTo(const btTransform& pose);
 };
 
 /// True if the host changes contact points of the object by its callback.
