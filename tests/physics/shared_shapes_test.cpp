@@ -84,7 +84,10 @@ TEST_P(SharedShape, IsPushedOverAFloor) {
   if (std::string(GetParam()) == "CapsuleLying") return;
   // While the object slides, Bullet drops contact points and finds them again.
   EXPECT_NEAR(scene.velocityOf(object).x(), MovingHand::kSpeed, 5e-3);
-  EXPECT_NEAR(-hand.meanForce().x(), NeighbourScene::kFriction * kObject * kGravity, 0.01);
+  // The hull yields sideways at its edge and yaws: friction of its points is no longer along x.
+  const double yaw_rate = std::abs(static_cast<double>(object.getAngularVelocity().z()));
+  EXPECT_NEAR(-hand.meanForce().x(), NeighbourScene::kFriction * kObject * kGravity,
+              yaw_rate < 1e-3 ? 1e-3 : 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SharedShape,

@@ -9,8 +9,9 @@ namespace {
 
 /// Stiffness of the penalties beside the points' own: multipliers gain this factor per iteration.
 constexpr double kStiffness = 1e4;
-/// Slip that is none, and slip that will do where rounding lets it not fall any further [m/s].
-constexpr double kSettled = 1e-9, kNearlySettled = 1e-7;
+/// Slip that is none, and slip that will do where it hardly falls [m/s]. Multipliers of a tall stack
+/// converge slowly: the next step goes on with them.
+constexpr double kSettled = 1e-9, kNearlySettled = 1e-6;
 /// Residual of Newton's iteration that is none [m/s].
 constexpr double kSmallResidual = 1e-10;
 /// A new point that opens slower is taken as closed at first [m/s].

@@ -2,88 +2,113 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "island/impulse_sweeps.h"
 
 namespace tandem {
 namespace {
 
-/// Bounds of a sweep's tolerance [m/s]. Sweeps end when no velocity changes by more than a tenth of
-/// the first sweep's change. The next step corrects the rest, starting from this one's result.
-constexpr double kLeastTolerance = 1e-9, kMostTolerance = 1e-7;
-/// After this many relaxations the impatient tolerance is enough [m/s]: a row of bodies never
-/// converges fully. Small groups may take more sweeps.
-constexpr std::size_t kPatientRelaxations = 400;
-constexpr double kImpatientTolerance = 1e-6;
-constexpr int kMaxSweeps = 30;
-/// Overlap that is tolerated, and gap that counts as contact [m]. Corners of a face that differ by
-/// rounding would otherwise demand velocities that a rigid body cannot have together.
+/// Overlap that is tolerated, and gap that counts as contact [m].
 constexpr double kSlop = 1e-9;
+/// Gap of a known point that is closed without a velocity, and gap that need not be closed [m].
+/// Corners differ by rounding: to close each by a velocity would need several at once.
+constexpr double kSmallGap = 2e-6, kClosed = 1e-12;
+/// Gap of a new point that stands, by rounding of the finder: it is closed as a known one [m].
+constexpr double kRounding = 1e-7;
 /// Highest speed at which overlap is moved out [m/s].
 constexpr double kMaxShiftSpeed = 0.25;
 constexpr int kMaxShiftSweeps = 8;
-/// A point nearer than this to one of the last step is the same point [m].
-constexpr double kSamePoint = 1e-3;
-/// Impulses that change a velocity by at most this count as predicted [m/s].
-constexpr double kForeseen = 5e-4;
-/// A point that opens or closes faster than this at the start of a step has an impact in it [m/s].
-constexpr double kImpactSpeed = 1e-4;
+/// A new point that approaches faster has an impact [m/s].
+constexpr double kImpactSpeed = 1e-3;
+/// Overlap with which an impact is wanted, and how exactly [m].
+constexpr double kImpactOverlap = 5e-9;
+/// Steps shorter than this part of the shortest, up to an impact, tell nothing of forces.
+constexpr double kTellingPart = 0.25;
+constexpr int kMaxImpactTries = 8;
+/// A coupler that yields lets the second try be off by a part of the first.
+constexpr int kMaxTimesLearned = 2;
+/// Error of position that a change of force may make in a step [m].
+constexpr double kAllowedError = 3e-8;
 
 }  // namespace
 
 RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity)
     : movers_(body_count),
-      group_of_(body_count),
-      place_of_(body_count),
       held_(body_count),
-      allowance_(contact_capacity) {
+      groups_(body_count, contact_capacity),
+      memory_(contact_capacity),
+      solver_(body_count, contact_capacity),
+      allowance_(contact_capacity),
+      allowance_before_(contact_capacity) {
   contacts_.reserve(contact_capacity);
   points_.reserve(contact_capacity);
-  known_.reserve(contact_capacity);
-  rows_.reserve(contact_capacity);
-  groups_.reserve(body_count);
-  members_.reserve(body_count);
+  gaps_.reserve(contact_capacity);
 }
 
 void RigidStep::forget() noexcept {
-  known_.clear();
+  memory_.forget();
   allowance_.forget();
   for (Wrench& held : held_) held = {};
 }
 
-void RigidStep::holdForces(const States& before) noexcept {
-  for (Wrench& held : held_) held = {};
-  for (const Known& known : known_) {
-    held_[known.a].f_W += known.f_W;
-    held_[known.a].t_W += (known.p_W - before[known.a].p_W).cross(known.f_W);
-    if (known.b == kStanding) continue;
-    held_[known.b].f_W -= known.f_W;
-    held_[known.b].t_W -= (known.p_W - before[known.b].p_W).cross(known.f_W);
-  }
+void RigidStep::begin() noexcept {
+  allowance_before_ = allowance_;
+  times_learned_ = 0;
+  impact_tries_ = 0;
+  latest_ = HUGE_VAL;
 }
 
-bool RigidStep::correct(const IslandModel& model, ContactFinder& finder, const States& before,
-                        double h, States& after) noexcept {
+void RigidStep::holdForces(const States& before, double h) noexcept {
+  for (Wrench& held : held_) held = {};
+  memory_.hold(before, h, held_);
+}
+
+double RigidStep::correct(const IslandModel& model, ContactFinder& finder, const States& before,
+                          double h, double shortest, bool may_repeat, States& after) noexcept {
+  is_done_ = true;
   contacts_.clear();
   finder.find(after, contacts_);
   setUp(model, before, after, h);
-  if (points_.empty() && known_.empty()) return true;
-  for (Point& point : points_) aim(h, point);
-  startFromKnown(after, h);
-  solveVelocities();
-  sumShifts(h);
+  if (points_.empty() && memory_.isEmpty()) return h;
+  const auto repeat = [&](double next) {
+    is_done_ = false;
+    allowance_ = allowance_before_;
+    return next;
+  };
+  if (const double impact = findImpacts(h); impact != h && may_repeat) {
+    times_learned_ = 0;
+    memory_.startAgain();
+    return repeat(impact);
+  }
+  aim(h);
+  takeBackGone(after, h);
+  solveSteady(h);
+  if (may_repeat && h * measureChange(after) > kAllowedError) {
+    if (times_learned_ < kMaxTimesLearned &&
+        (hasUnknownForce() || h * measureEvents() < kAllowedError)) {
+      ++times_learned_;
+      memory_.learn(points_, after, h);
+      return repeat(h);
+    }
+    if (h > shortest * (1.0 + 1e-9)) {
+      times_learned_ = 0;
+      memory_.startAgain();
+      return repeat(std::max(shortest, 0.5 * h));
+    }
+  }
   moveOutOfOverlap(h);
+  solveImpacts();
   writeBack(after);
-  const bool foreseen = wasForeseen();
-  keepKnown(h);
-  return foreseen;
+  memory_.keep(points_, after, h, kTellingPart * shortest);
+  return h;
 }
 
 void RigidStep::setUp(const IslandModel& model, const States& before, const States& after,
                       double h) noexcept {
   for (RigidMover& mover : movers_) mover.ready = false;
   const auto getReady = [&](BodyIndex body) {
-    if (body != kStanding && !movers_[body].ready)
-      movers_[body] = RigidMover(model.bodies[body], after[body]);
+    if (body != kStanding && !mover(body).ready)
+      mover(body) = RigidMover(model.bodies[body], after[body]);
   };
   const auto armOf = [&](BodyIndex body, const Vec3& p_W) {
     return body == kStanding ? Vec3::Zero() : Vec3(p_W - after[body].p_W);
@@ -98,7 +123,7 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
     getReady(contact.b);
     const Vec3 arm_a = armOf(contact.a, contact.p_W), arm_b = armOf(contact.b, contact.p_W);
     points_.emplace_back();
-    Point& point = points_.back();
+    ContactPoint& point = points_.back();
     point.contact = contact;
     point.row.setUp(mover(contact.a), mover(contact.b), PlainVec(arm_a), PlainVec(arm_b),
                     PlainVec(contact.n_W), PlainVec(contact.v_W));
@@ -109,195 +134,213 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
       points_.pop_back();
       continue;
     }
-    // A point that is closing at the start of the step has an impact in it.
-    const double opening = contact.n_W.dot(velocityBefore(contact.a, arm_a) -
-                                           velocityBefore(contact.b, arm_b) - contact.v_W);
-    point.lasts = std::abs(opening) < kImpactSpeed;
-    const double mean = 0.5 * (opening + point.row.normalVelocity());
-    allowance_.look(contact, contact.distance - h * mean);
+    point.opening = contact.n_W.dot(velocityBefore(contact.a, arm_a) -
+                                    velocityBefore(contact.b, arm_b) - contact.v_W);
+    point.at_start = contact.distance - 0.5 * h * (point.opening + point.row.normalVelocity());
+    allowance_.look(contact, point.at_start);
   }
   allowance_.end();
-  for (const Known& known : known_) {
-    getReady(known.a);
-    getReady(known.b);
+  for (ContactPoint& point : points_) {
+    point.row.distance = point.contact.distance - allowance_.overlapOf(point.contact);
+    point.at_start -= allowance_.overlapOf(point.contact);
+  }
+  memory_.match(points_, h);
+  memory_.visitGone([&](BodyIndex a, BodyIndex b, const auto&...) {
+    getReady(a);
+    getReady(b);
+  });
+}
+
+/// Marks new points that close within the step. Returns h if they close at its end, or else a
+/// length at which the first of them does, by Newton's method.
+double RigidStep::findImpacts(double h) noexcept {
+  double earliest = HUGE_VAL;
+  bool is_late = false;
+  for (ContactPoint& point : points_) {
+    const double u = point.row.normalVelocity();
+    if (point.known >= 0 || u > -kImpactSpeed) continue;
+    // It stood there, and nothing was known of its force.
+    if (point.at_start < kImpactOverlap && point.opening > -kImpactSpeed) continue;
+    const double time = (point.row.distance + kImpactOverlap) / -u;
+    point.is_impact = point.row.distance <= kSlop;
+    // Overlap that was there before is no matter of this step.
+    if (point.at_start < -2.0 * kImpactOverlap) continue;
+    earliest = std::min(earliest, time);
+    is_late |= point.row.distance < -2.0 * kImpactOverlap;
+  }
+  if (earliest == HUGE_VAL || impact_tries_ >= kMaxImpactTries) return h;
+  const bool is_early = impact_tries_ > 0 && earliest > 0.0 && h + earliest < latest_;
+  if (!is_late && !is_early) return h;
+  if (is_late) latest_ = std::min(latest_, h);
+  ++impact_tries_;
+  const double shorter = h + earliest;
+  return shorter > 0.0 ? shorter : 0.01 * h;
+}
+
+/// Chooses the wanted normal velocity of each point.
+void RigidStep::aim(double h) noexcept {
+  for (ContactPoint& point : points_) {
+    RigidRow& row = point.row;
+    const double u = row.normalVelocity();
+    row.wanted = 0.0;
+    if (point.known >= 0 && std::abs(row.distance) < kSmallGap) continue;
+    // Of corners that stand, some carry and others just miss; they swap by rounding.
+    if (std::abs(row.distance) < kRounding && point.opening > -kImpactSpeed) continue;
+    // An open point may be closed by other impulses, but no more. An overlap at the start that held
+    // forces have opened asks for no velocity.
+    if (row.distance > kSlop) row.wanted = std::min(0.0, u - row.distance / (0.5 * h));
   }
 }
 
-/// Chooses the wanted normal velocity of a point, and the time at which its impulse acts.
-void RigidStep::aim(double h, Point& point) noexcept {
-  const double u = point.row.normalVelocity();
-  point.distance = point.contact.distance - allowance_.overlapOf(point.contact);
-  point.gamma = 0.5;
-  if (point.distance > kSlop) {
-    // The point is open after the smooth motion. Other impulses may close it but no more. An
-    // overlap at the start that held forces have opened asks for no velocity.
-    point.row.wanted = std::min(0.0, u - point.distance / (point.gamma * h));
-    return;
-  }
-  if (!point.lasts) point.gamma = u < 0.0 ? std::min(point.distance / (h * u), 1.0) : 1.0;
-  const bool bounces = point.contact.restitution > 0.0 && -u > point.contact.min_bounce_speed;
-  point.row.wanted = bounces ? -point.contact.restitution * u : 0.0;
-}
-
-void RigidStep::startFromKnown(const States& after, double h) noexcept {
-  // Contacts keep much the same order, so the search starts after the last match.
-  std::size_t next = 0;
-  for (Point& point : points_) {
-    for (std::size_t i = 0; i < known_.size(); ++i) {
-      const std::size_t place = (next + i) % known_.size();
-      Known& known = known_[place];
-      if (known.taken || known.a != point.contact.a || known.b != point.contact.b) continue;
-      if ((known.p_W - point.contact.p_W).squaredNorm() > kSamePoint * kSamePoint) continue;
-      known.taken = true;
-      next = place + 1;
-      point.held = point.row.toLocal(h * PlainVec(known.f_W));
-      point.row.impulse = point.held;
-      point.row.impulse.n = std::max(0.0, point.held.n);
-      break;
-    }
-  }
-  // The held force of a contact that disappeared is taken back.
-  for (const Known& known : known_) {
-    if (known.taken) continue;
-    takeBack(known.a, after, known, -h * known.f_W, h);
-    if (known.b != kStanding) takeBack(known.b, after, known, h * known.f_W, h);
-  }
-}
-
-void RigidStep::takeBack(BodyIndex body, const States& after, const Known& known,
-                         const Vec3& impulse_W, double h) noexcept {
-  RigidMover& mover = movers_[body];
-  const PlainVec dv = multiplyEach(mover.inverse_mass_W, PlainVec(impulse_W));
-  const PlainVec dw =
-      mover.turnBy(cross(PlainVec(Vec3(known.p_W - after[body].p_W)), PlainVec(impulse_W)));
-  mover.v = mover.v + dv;
-  mover.w = mover.w + dw;
-  mover.shift = mover.shift + (0.5 * h) * dv;
-  mover.turn = mover.turn + (0.5 * h) * dw;
-}
-
-/// Splits the points into groups of touching bodies. One group may converge and rest while another
-/// moves.
-void RigidStep::groupPoints() noexcept {
-  for (std::size_t b = 0; b < group_of_.size(); ++b) group_of_[b] = static_cast<int>(b);
-  for (const Point& point : points_) {
-    if (point.contact.b == kStanding) continue;
-    const int a = findGroup(point.contact.a), b = findGroup(point.contact.b);
-    group_of_[std::max(a, b)] = std::min(a, b);
-  }
-  groups_.clear();
-  for (std::size_t b = 0; b < group_of_.size(); ++b) {
-    if (!movers_[b].ready) continue;
-    const int root = findGroup(static_cast<BodyIndex>(b));
-    if (root == static_cast<int>(b)) {
-      place_of_[b] = groups_.size();
-      groups_.emplace_back();
-    }
-    ++groups_[place_of_[static_cast<std::size_t>(root)]].member_count;
-  }
-  const auto groupOf = [&](BodyIndex body) -> Group& {
-    return groups_[place_of_[static_cast<std::size_t>(findGroup(body))]];
+/// Takes back the held force of each contact that has gone.
+void RigidStep::takeBackGone(const States& after, double h) noexcept {
+  const auto push = [&](BodyIndex body, const Vec3& p_W, const Vec3& impulse_W,
+                        const Vec3& twist_W) {
+    RigidMover& moved = mover(body);
+    const PlainVec dv = multiplyEach(moved.inverse_mass_W, PlainVec(impulse_W));
+    const Vec3 angular_W = (p_W - after[body].p_W).cross(impulse_W) + twist_W;
+    const PlainVec dw = moved.turnBy(PlainVec(angular_W));
+    moved.v = moved.v + dv;
+    moved.w = moved.w + dw;
+    moved.shift = moved.shift + (0.5 * h) * dv;
+    moved.turn = moved.turn + (0.5 * h) * dw;
   };
-  for (const Point& point : points_) ++groupOf(point.contact.a).row_count;
-  std::size_t row = 0, member = 0;
-  for (Group& group : groups_) {
-    group.first_row = row;
-    group.first_member = member;
-    row += std::exchange(group.row_count, 0);
-    member += std::exchange(group.member_count, 0);
-  }
-  rows_.resize(row);
-  members_.resize(member);
-  // First the first point of each pair, then the second, and so on. Neighbours in the list share no
-  // body, so the processor works on several at once.
-  for (std::size_t left = points_.size(), round = 0; left > 0; ++round) {
-    std::size_t in_pair = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const RigidContact& contact = points_[i].contact;
-      const bool same =
-          i > 0 && contact.a == points_[i - 1].contact.a && contact.b == points_[i - 1].contact.b;
-      in_pair = same ? in_pair + 1 : 0;
-      if (in_pair != round) continue;
-      Group& group = groupOf(contact.a);
-      rows_[group.first_row + group.row_count++] = &points_[i].row;
-      --left;
-    }
-  }
-  for (std::size_t b = 0; b < group_of_.size(); ++b) {
-    if (!movers_[b].ready) continue;
-    Group& group = groupOf(static_cast<BodyIndex>(b));
-    members_[group.first_member + group.member_count++] = static_cast<BodyIndex>(b);
-  }
+  memory_.visitGone(
+      [&](BodyIndex a, BodyIndex b, const Vec3& p_W, const Vec3& f_W, const Vec3& t_W) {
+        push(a, p_W, -h * f_W, -h * t_W);
+        if (b != kStanding) push(b, p_W, h * f_W, h * t_W);
+      });
 }
 
-/// The lowest body of the group of `body`.
-int RigidStep::findGroup(BodyIndex body) noexcept {
-  int group = group_of_[body];
-  while (group_of_[group] != group) group = group_of_[group];
-  group_of_[body] = group;
-  return group;
-}
-
-void RigidStep::solveVelocities() noexcept {
+/// Solves for forces over the step, without impacts.
+void RigidStep::solveSteady(double h) noexcept {
   point_count_ += points_.size();
-  groupPoints();
-  for (const Group& group : groups_)
-    if (group.row_count > 0) solve(group);
-}
-
-void RigidStep::solve(const Group& group) noexcept {
-  double tolerance = 0.0;
-  const auto patient_sweeps = static_cast<int>(kPatientRelaxations / group.row_count);
-  (void)measureChange(group);
-  const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(group.first_row);
-  const auto last = first + static_cast<std::ptrdiff_t>(group.row_count);
-  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
-    relaxation_count_ += group.row_count;
-    // Alternate the direction, so that a change at one end of a row reaches the other in one sweep.
-    if (sweep % 2 == 0) {
-      for (auto row = first; row != last; ++row) (*row)->solve();
-    } else {
-      for (auto row = last; row != first;) (*--row)->solve();
+  solver_.begin();
+  groups_.make(points_, movers_, [](const ContactPoint& point) { return !point.is_impact; });
+  for (const ContactGroups::Group& group : groups_.groups()) {
+    const bool is_settled = solve(group);
+    for (std::size_t i = 0; i < group.row_count; ++i) {
+      RigidRow& row = *group.rows[i];
+      const double time = 0.5 * h;
+      row.shift({time * (row.impulse.n - row.held.n), time * (row.impulse.s - row.held.s),
+                 time * (row.impulse.t - row.held.t)});
     }
-    const double change = measureChange(group);
-    if (sweep == 0) tolerance = std::clamp(0.1 * change, kLeastTolerance, kMostTolerance);
-    if (change < (sweep < patient_sweeps ? tolerance : kImpatientTolerance)) return;
+    if (is_settled) closeGaps(group);
+  }
+  for (ContactPoint& point : points_) {
+    point.steady = point.is_impact ? RigidRow::Local{} : point.row.impulse;
+    point.steady_twist = point.is_impact ? RigidRow::Local{} : point.row.twist;
   }
 }
 
-/// Largest change of a body's velocity since the last call [m/s]. Points may still share a load
-/// differently without it: four corners can do so in many ways.
-double RigidStep::measureChange(const Group& group) noexcept {
-  double change = 0.0;
-  for (std::size_t i = 0; i < group.member_count; ++i) {
-    RigidMover& mover = movers_[members_[group.first_member + i]];
-    const PlainVec dv = mover.v - mover.v_last, dw = mover.w - mover.w_last;
-    change = std::max({change, dot(dv, dv), mover.radius_squared * dot(dw, dw)});
-    mover.v_last = mover.v;
-    mover.w_last = mover.w;
+/// Largest change of a body's velocity that was not foreseen [m/s].
+double RigidStep::measureChange(const States& after) const noexcept {
+  double most = 0.0;
+  for (std::size_t b = 0; b < movers_.size(); ++b) {
+    const RigidMover& moved = movers_[b];
+    if (!moved.ready) continue;
+    const PlainVec dv = moved.v - PlainVec(after[b].v_W), dw = moved.w - PlainVec(after[b].w_W);
+    most = std::max({most, dot(dv, dv), moved.radius_squared * dot(dw, dw)});
   }
-  return std::sqrt(change);
+  return std::sqrt(most);
 }
 
-void RigidStep::sumShifts(double h) noexcept {
-  for (Point& point : points_) {
-    const RigidRow::Local& impulse = point.row.impulse;
-    const double time = point.gamma * h;
-    point.row.shift({time * (impulse.n - point.held.n), time * (impulse.s - point.held.s),
-                     time * (impulse.t - point.held.t)});
+/// True if a point pushes of which no force was known.
+bool RigidStep::hasUnknownForce() const noexcept {
+  return std::any_of(points_.begin(), points_.end(), [&](const ContactPoint& point) {
+    return point.steady.n > 0.0 && !memory_.hasForce(point);
+  });
+}
+
+/// Largest velocity by which a point breaks the law that held it in the last step [m/s]. Where none
+/// does, forces have changed without an event.
+double RigidStep::measureEvents() const noexcept {
+  using Mode = RigidRow::Mode;
+  if (memory_.hasGone()) return HUGE_VAL;
+  double most = 0.0;
+  for (const ContactPoint& point : points_) {
+    const RigidRow& row = point.row;
+    if (point.known < 0 || point.mode_before == row.mode) continue;
+    if (row.is_swept) return HUGE_VAL;
+    const double slip = std::hypot(row.velocityAlong(1), row.velocityAlong(2));
+    const double spare = row.friction * row.impulse.n - std::hypot(row.impulse.s, row.impulse.t);
+    const double broken = row.mode == Mode::kOpen    ? row.normalVelocity()
+                          : row.mode == Mode::kStick ? spare / row.inverse_normal
+                                                     : slip;
+    most = std::max(most, broken);
   }
+  return most;
+}
+
+void RigidStep::closeGaps(const ContactGroups::Group& group) noexcept {
+  gaps_.clear();
+  double widest = 0.0;
+  for (std::size_t i = 0; i < group.row_count; ++i) {
+    const RigidRow& row = *group.rows[i];
+    const double gap = row.distance + row.normalShift();
+    // moveOutOfOverlap() takes care of what is deeper.
+    gaps_.push_back(gap < -kSmallGap ? 0.0 : std::min(gap, kSmallGap));
+    if (row.mode != RigidRow::Mode::kOpen) widest = std::max(widest, std::abs(gaps_.back()));
+  }
+  if (widest > kClosed) solver_.repair(gaps_);
+}
+
+/// Solves for impulses that act at the end of the step. All points that touch take part.
+void RigidStep::solveImpacts() noexcept {
+  if (std::none_of(points_.begin(), points_.end(),
+                   [](const ContactPoint& point) { return point.is_impact; }))
+    return;
+  for (ContactPoint& point : points_) {
+    RigidRow& row = point.row;
+    const double u = row.normalVelocity();
+    const RigidContact& contact = point.contact;
+    const bool bounces =
+        point.is_impact && contact.restitution > 0.0 && -u > contact.min_bounce_speed;
+    row.wanted = bounces ? -contact.restitution * u : 0.0;
+    row.held = row.impulse = row.twist_held = row.twist = {};
+    row.mode = RigidRow::Mode::kUnknown;
+  }
+  // First as if nothing else touched, then with all: a blow spreads from where it struck. Where
+  // several ways share it, that chooses one.
+  const auto solveAll = [&](auto counts) {
+    groups_.make(points_, movers_, counts);
+    solver_.beginImpacts();
+    for (const ContactGroups::Group& group : groups_.groups()) (void)solve(group);
+    for (ContactPoint& point : points_) {
+      point.row.held = point.row.impulse;
+      point.row.twist_held = point.row.twist;
+      point.row.mode = RigidRow::Mode::kUnknown;
+    }
+  };
+  solveAll([](const ContactPoint& point) { return point.is_impact; });
+  solveAll([](const ContactPoint& point) {
+    return point.is_impact || point.steady.n > 0.0 || point.row.distance <= kSlop;
+  });
+  for (ContactPoint& point : points_) point.blow = point.row.impulse;
+}
+
+/// False if sweeps had to do what the solver could not.
+bool RigidStep::solve(const ContactGroups::Group& group) noexcept {
+  if (solver_.solve(group.rows, group.row_count, group.movers, group.mover_count)) return true;
+  relaxation_count_ += sweepImpulses(group);
+  return false;
 }
 
 void RigidStep::moveOutOfOverlap(double h) noexcept {
-  for (Point& point : points_) {
-    const double distance = point.distance + point.row.normalShift();
+  for (ContactPoint& point : points_) {
+    const double distance = point.row.distance + point.row.normalShift();
     point.aim_distance = std::min(0.0, distance + kMaxShiftSpeed * h);
     point.shift = 0.0;
+    // Corners that push and differ by rounding share what is left: closeGaps() has done its best.
+    const bool pushes =
+        point.row.mode == RigidRow::Mode::kStick || point.row.mode == RigidRow::Mode::kSlide;
+    if (pushes && !point.row.is_swept && std::abs(distance) < kSmallGap)
+      point.aim_distance = std::min(point.aim_distance, distance);
   }
   for (int sweep = 0; sweep < kMaxShiftSweeps; ++sweep) {
     double most = 0.0;
-    for (Point& point : points_) {
-      const double missing = point.aim_distance - point.distance - point.row.normalShift();
+    for (ContactPoint& point : points_) {
+      const double missing = point.aim_distance - point.row.distance - point.row.normalShift();
       const double shift_before = point.shift;
       point.shift = std::max(0.0, shift_before + missing * point.row.inverse_normal);
       const double change = point.shift - shift_before;
@@ -322,28 +365,6 @@ void RigidStep::writeBack(States& after) noexcept {
     if (angle > 0.0)
       state.q_WB = (Quat(Eigen::AngleAxisd(angle, turn_W / angle)) * state.q_WB).normalized();
   }
-}
-
-/// True if every lasting contact kept its predicted impulse and none disappeared.
-bool RigidStep::wasForeseen() const noexcept {
-  for (const Known& known : known_)
-    if (!known.taken) return false;
-  for (const Point& point : points_) {
-    if (!point.lasts) continue;
-    const RigidRow::Local& impulse = point.row.impulse;
-    const double change =
-        std::hypot(impulse.n - point.held.n, impulse.s - point.held.s, impulse.t - point.held.t);
-    if (change > kForeseen * point.row.inverse_normal) return false;
-  }
-  return true;
-}
-
-void RigidStep::keepKnown(double h) noexcept {
-  known_.clear();
-  for (const Point& point : points_)
-    if (point.lasts && point.row.impulse.n > 0.0)
-      known_.push_back({point.contact.a, point.contact.b, point.contact.p_W,
-                        point.row.toWorld(point.row.impulse).toVec3() / h, false});
 }
 
 }  // namespace tandem

@@ -18,7 +18,12 @@ constexpr double kTimeToRest = 0.05;
 
 /// Stiff springs shorten the inner step to this part of SmoothMotion's longest step, because
 /// RigidStep is of first order. The inner step never gets shorter than this share of its setting.
-constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 0.5;
+constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 1.0;
+
+/// Steps as multiples of the inner step: where contact lasts, and where it comes and goes.
+constexpr double kLastingSteps = 4.0, kShortPartOfStep = 0.5;
+/// Tries of steps in an advance after which each is taken as it is.
+constexpr int kMaxTries = 48;
 
 /// Most touches of spheres on obstacles; one fingertip never touches more.
 constexpr std::size_t kMaxObstacleTouches = 64;
@@ -337,38 +342,50 @@ void SpatialMotion::advanceTogether(const IslandModel& model, double dt,
     smooth_.hold(rigid_step_.heldForces());
     return smooth_.advance(states_, dt, counters);
   }
-  // Springs faster than the inner step would push a body against a rigid one for a whole step
-  // before that one responds.
-  const double inner_step = model.settings.inner_step;
-  const double step =
-      std::clamp(kRigidPartOfStep * smooth_.maxStep(), kShortestInnerStep * inner_step, inner_step);
-  const double count = std::ceil(dt / step * (1.0 - 1e-9));
-  for (double i = 0; i < count; ++i) advanceWithRigid(model, dt / count, counters);
+  advanceWithRigid(model, dt, counters);
 }
 
-/// One inner step with rigid contact. If contacts come or go, a first try finds their forces.
-void SpatialMotion::advanceWithRigid(const IslandModel& model, double h,
+/// Steps as long as contacts last, and short ones where they come or go.
+void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
                                      IslandCounters& counters) noexcept {
-  for (const BodyIndex b : model.present) before_rigid_[b] = states_[b];
-  for (int tries = 0; tries < 2; ++tries) {
-    ++counters.rigid_steps;
-    for (const BodyIndex b : model.present) states_[b] = before_rigid_[b];
-    rigid_step_.holdForces(states_);
-    smooth_.hold(rigid_step_.heldForces());
-    smooth_.advance(states_, h, counters);
-    // Prescribed bodies move on with the others.
-    for (const BodyIndex b : model.present)
-      if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
-    const bool foreseen = rigid_step_.correct(model, *model.finder, before_rigid_, h, states_);
+  // Springs faster than a step would push a body against a rigid one for a whole step before that
+  // one responds.
+  const double inner = model.settings.inner_step;
+  const double longest = std::clamp(kRigidPartOfStep * smooth_.maxStep(),
+                                    kShortestInnerStep * inner, kLastingSteps * inner);
+  const double shortest = std::min(kShortPartOfStep * inner, longest);
+  double length = longest;
+  int tries_left = kMaxTries;
+  for (double rest = dt; rest > 1e-12 * dt;) {
+    // Even parts: a short last step would cost as much as a long one.
+    double h = rest / std::max(1.0, std::ceil(rest / length * (1.0 - 1e-9)));
+    for (const BodyIndex b : model.present) before_rigid_[b] = states_[b];
+    rigid_step_.begin();
+    for (bool is_done = false; !is_done; --tries_left) {
+      ++counters.rigid_steps;
+      for (const BodyIndex b : model.present) states_[b] = before_rigid_[b];
+      rigid_step_.holdForces(states_, h);
+      smooth_.hold(rigid_step_.heldForces());
+      smooth_.advance(states_, h, counters);
+      // Prescribed bodies move on with the others.
+      for (const BodyIndex b : model.present)
+        if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
+      const double next = rigid_step_.correct(model, *model.finder, before_rigid_, h, shortest,
+                                              tries_left > 0, states_);
+      is_done = rigid_step_.isDone();
+      if (!is_done) h = std::min(next, rest);
+    }
     counters.rigid_points = rigid_step_.points();
     counters.rigid_relaxations = rigid_step_.relaxations();
-    if (foreseen) break;
+    counters.rigid_factorisations = rigid_step_.factorisations();
+    rest -= h;
+    length = std::min(2.0 * std::max(h, shortest), longest);
+    if (is_aside_) continue;
+    tally_.startStep(h);
+    rigid_step_.visitPoints([&](const RigidContact& contact, const Vec3& impulse_W) {
+      tally_.count(contact, impulse_W);
+    });
   }
-  if (is_aside_) return;
-  tally_.startStep(h);
-  rigid_step_.visitPoints([&](const RigidContact& contact, const Vec3& impulse_W) {
-    tally_.count(contact, impulse_W);
-  });
 }
 
 /// Finds the bodies that may touch something rigid. Wakes those at rest that an awake one may

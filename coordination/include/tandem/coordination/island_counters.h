@@ -20,10 +20,11 @@ struct IslandCounters {
   std::uint64_t contact_searches_skipped = 0;  ///< pairs whose bounding spheres are far apart
   std::uint64_t repeated = 0;      ///< advances repeated because a body moved alone met another
   std::uint64_t rigid_points = 0;  ///< rigid contact points solved
-  std::uint64_t rigid_relaxations = 0;  ///< relaxations of rigid contact points
-  std::uint64_t rigid_steps = 0;        ///< inner steps that called the ContactFinder
-  std::uint64_t asleep_bodies = 0;      ///< bodies skipped at rest with nothing near
-  std::uint64_t resting_bodies = 0;     ///< bodies at rest on a rigid contact that were not moved
+  std::uint64_t rigid_relaxations = 0;     ///< relaxations of rigid contact points
+  std::uint64_t rigid_steps = 0;           ///< inner steps that called the ContactFinder
+  std::uint64_t rigid_factorisations = 0;  ///< matrices factorised to solve rigid contact
+  std::uint64_t asleep_bodies = 0;         ///< bodies skipped at rest with nothing near
+  std::uint64_t resting_bodies = 0;  ///< bodies at rest on a rigid contact that were not moved
 };
 
 }  // namespace tandem
