@@ -1,0 +1,129 @@
+// Rigid contact where its laws are hard: a rod that jams, a block that rocks, a corner that
+// bounces.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "island/box_scene.h"
+
+namespace tandem {
+namespace {
+
+using test::BoxScene;
+
+Vec3 cornerOf(const Vec3& half_extents, int i) {
+  return {(i & 1) != 0 ? half_extents.x() : -half_extents.x(),
+          (i & 2) != 0 ? half_extents.y() : -half_extents.y(),
+          (i & 4) != 0 ? half_extents.z() : -half_extents.z()};
+}
+
+/// A box whose lowest corner is `gap` [m] above the floor.
+RigidState placeAbove(const Vec3& half_extents, const Quat& q_WB, double gap) {
+  double lowest = 0.0;
+  for (int i = 0; i < 8; ++i) lowest = std::min(lowest, (q_WB * cornerOf(half_extents, i)).z());
+  RigidState state;
+  state.q_WB = q_WB;
+  state.p_W.z() = gap - lowest;
+  return state;
+}
+
+// Overlap of 5e-9 m at an impact moves out again, and lifts the weight: 1e-8 J of a rod of 0.2 kg.
+TEST(HardContact, APainleveRodStaysFiniteAndGainsNoEnergy) {
+  const Vec3 half(0.2, 0.005, 0.005);
+  constexpr double kMass = 0.2, kLift = kMass * BoxScene::kGravity * 5e-9;
+  for (const double friction : {1.5, 2.0, 3.0})
+    for (const double angle : {0.7854, 1.2})
+      for (const double speed : {-2.0, 2.0}) {
+        BoxScene scene;
+        RigidState start = placeAbove(half, Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), 0.0);
+        start.v_W.x() = speed;
+        scene.add(half, kMass, start);
+        scene.world.friction = friction;
+        scene.prepare();
+        double energy = scene.energy();
+        for (int i = 0; i < 1000; ++i) {
+          scene.advance();
+          ASSERT_TRUE(scene.isFinite());
+          // Two impacts a tick, at each of two corners.
+          EXPECT_LT(scene.energy(), energy + 4.0 * kLift)
+              << "friction " << friction << " angle " << angle << " speed " << speed << " tick "
+              << i;
+          energy = scene.energy();
+        }
+        EXPECT_LE(scene.most_steps, 24U);
+        EXPECT_LT(scene.stepsPerTick(), 1.6);
+      }
+}
+
+// Each impact of a rocking block takes the same share of its energy (Housner 1963):
+// w+ / w- = 1 - 3/2 sin^2 a, tan a = width / height.
+TEST(HardContact, ARockingBlockLosesHousnersShare) {
+  const Vec3 half(0.02, 0.02, 0.1);
+  constexpr double kMass = 0.4;
+  const double ratio = 1.0 - 1.5 * std::pow(std::sin(std::atan2(half.x(), half.z())), 2);
+  for (const double tilt : {0.1, 0.15}) {
+    BoxScene scene;
+    scene.add(half, kMass, placeAbove(half, Quat(Eigen::AngleAxisd(tilt, Vec3::UnitY())), 0.0));
+    scene.world.friction = 1.0;
+    scene.prepare();
+    const double upright = kMass * BoxScene::kGravity * half.z();
+    const double start = scene.energy() - upright;
+    double energy = start;
+    int impacts = 0;
+    for (int i = 0; i < 3000; ++i) {
+      scene.advance();
+      const double now = scene.energy() - upright;
+      EXPECT_LT(now, energy + 1e-8) << "overlap of 5e-9 m, moved out";
+      if (now < 0.95 * energy && ++impacts <= 3) {
+        EXPECT_NEAR(now / energy, ratio * ratio, 1e-4) << "tilt " << tilt << " tick " << i;
+      }
+      energy = now;
+    }
+    EXPECT_GE(impacts, 3);
+    EXPECT_LE(scene.most_steps, 16U);
+    EXPECT_LT(scene.stepsPerTick(), 1.1);
+  }
+}
+
+// u+ = -e u- where the body touches. Without weight a cube flies and turns steadily, so that the
+// velocities at the impact follow from those of the ticks around it.
+TEST(HardContact, ACornerBouncesWithItsRestitution) {
+  const Vec3 half = Vec3::Constant(0.02);
+  for (const double restitution : {0.0, 0.5, 1.0}) {
+    BoxScene scene;
+    const Quat q_WB(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.3, 0.2).normalized()));
+    RigidState before = placeAbove(half, q_WB, 1.23e-3);
+    before.v_W = Vec3(0.1, 0.0, -0.5);
+    before.w_W = Vec3(0.5, 0.2, 0.0);
+    Vec3 corner_B = cornerOf(half, 0);
+    for (int i = 0; i < 8; ++i)
+      if ((q_WB * cornerOf(half, i)).z() < (q_WB * corner_B).z()) corner_B = cornerOf(half, i);
+    scene.add(half, 0.2, before);
+    scene.world.friction = 0.0;
+    scene.world.restitution = restitution;
+    scene.gravity = 0.0;
+    scene.prepare();
+    scene.run(3e-3);
+    const RigidState& after = scene.island.state(0);
+    // The moment when the corner touches, by bisection.
+    const auto armAt = [&](double time) {
+      const Vec3 turn_W = time * before.w_W;
+      return Vec3(Eigen::AngleAxisd(turn_W.norm(), turn_W.normalized()) * (q_WB * corner_B));
+    };
+    double early = 0.0, late = 3e-3;
+    for (int i = 0; i < 60; ++i) {
+      const double time = 0.5 * (early + late);
+      (before.p_W.z() + time * before.v_W.z() + armAt(time).z() > 0.0 ? early : late) = time;
+    }
+    const Vec3 arm = armAt(early);
+    const double u_before = (before.v_W + before.w_W.cross(arm)).z();
+    const double u_after = (after.v_W + after.w_W.cross(arm)).z();
+    // The impact comes up to 1e-8 s late.
+    EXPECT_NEAR(u_after, -restitution * u_before, 1e-6) << "restitution " << restitution;
+  }
+}
+
+}  // namespace
+}  // namespace tandem
