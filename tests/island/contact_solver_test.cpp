@@ -127,14 +127,14 @@ Group makeRandomGroup(test::Random& random) {
   return group;
 }
 
-// 1e-8 of velocities up to 1 m/s: the solver ends at 1e-9, or where rounding lets it not go on.
+// Velocities are up to 1 m/s. The solver ends at 1e-9 m/s, or within 1e-6 where it gets no further.
 TEST(ContactSolver, ObeysSignoriniAndCoulomb) {
   RecordProperty("seed", std::to_string(kSeed));
   test::Random random(kSeed);
   constexpr int kRuns = 1000;
-  constexpr double kSlip = 1e-8;     // [m/s]
-  constexpr double kImpulse = 1e-8;  // [N s]
-  int unsettled = 0;
+  constexpr double kSlip = 1e-6, kSettled = 1e-8;  // [m/s]
+  constexpr double kImpulse = 1e-8;                // [N s]
+  int unsettled = 0, nearly = 0;
   for (int run = 0; run < kRuns; ++run) {
     Group group = makeRandomGroup(random);
     const double energy_before = group.energy();
@@ -144,6 +144,7 @@ TEST(ContactSolver, ObeysSignoriniAndCoulomb) {
       continue;
     }
     SCOPED_TRACE("seed " + std::to_string(kSeed) + " run " + std::to_string(run));
+    double deepest = 0.0;
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const Vec3& n_W = group.contacts[i].n_W;
       const double mu = group.contacts[i].friction;
@@ -151,6 +152,7 @@ TEST(ContactSolver, ObeysSignoriniAndCoulomb) {
       const double P_n = P.dot(n_W), u_n = u.dot(n_W);
       const Vec3 P_t = P - P_n * n_W, u_t = u - u_n * n_W;
       EXPECT_GE(u_n, -kSlip);
+      deepest = std::max(deepest, -u_n);
       EXPECT_GE(P_n, 0.0);
       EXPECT_NEAR(P_n * u_n, 0.0, kSlip);
       EXPECT_LE(P_t.norm(), mu * P_n + kImpulse);
@@ -161,8 +163,10 @@ TEST(ContactSolver, ObeysSignoriniAndCoulomb) {
         EXPECT_LT((P_t + mu * P_n * u_t.normalized()).norm(), 1e-6 * P_n + kImpulse);
       }
     }
+    if (deepest > kSettled) ++nearly;
     EXPECT_LE(group.energy(), energy_before + 1e-9);
   }
+  EXPECT_LE(nearly, kRuns / 100) << "seed " << kSeed;
   // Sweeps take over where modes do not settle: 35 of these groups, which are wilder than a step.
   EXPECT_LE(unsettled, kRuns / 25) << "seed " << kSeed;
 }

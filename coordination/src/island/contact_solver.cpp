@@ -9,8 +9,8 @@ namespace {
 
 /// Stiffness of the penalties beside the points' own: multipliers gain this factor per iteration.
 constexpr double kStiffness = 1e4;
-/// Slip that is none, and slip that will do where it hardly falls [m/s]. Multipliers of a tall stack
-/// converge slowly: the next step goes on with them.
+/// Slip that is none, and slip that will do where it hardly falls [m/s]. Multipliers of a tall
+/// stack converge slowly: the next step goes on with them.
 constexpr double kSettled = 1e-9, kNearlySettled = 1e-6;
 /// Residual of Newton's iteration that is none [m/s].
 constexpr double kSmallResidual = 1e-10;
@@ -32,6 +32,8 @@ ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points) {
   points_.reserve(max_points);
   point_of_.reserve(max_points);
   twists_.reserve(max_points);
+  answer_.reserve(max_points);
+  twist_answer_.reserve(max_points);
   J_.reserve(2 * max_points);
   D_.reserve(2 * max_points);
   x_.reserve(max_bodies);
@@ -55,6 +57,7 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
   }
   shapeMatrix();
   twists_.assign(point_of_.size(), TwistLaw());
+  answer_.clear();
   J_.resize(row_count + twists_.size());
   for (std::size_t i = 0; i < twists_.size(); ++i) setUpTwist(i);
   x_.assign(mover_count, Six());
@@ -66,7 +69,7 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
   bool is_factored = factor_->whole.isNear(J_, D_, first_);
   for (int steps = 0; steps < kMaxSteps; ++steps) {
     if (!is_factored) {
-      if (++factorisations > kMaxFactorisations || !factorise()) return false;
+      if (++factorisations > kMaxFactorisations || !factorise()) break;
       is_factored = true;
     }
     step();
@@ -83,6 +86,7 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
       finish();
       return true;
     }
+    if (slip < kNearlySettled) keepAnswer();
     slip_before = slip;
     residual_before = HUGE_VAL;
     for (PointLaw& point : points_) point.P0 = point.P;
@@ -90,7 +94,11 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
     is_factored = !chooseModes().have_changed && !modes.have_changed;
     (void)measureResidual();
   }
-  return false;
+  // Better multipliers may have upset modes that were nearly right.
+  if (answer_.empty()) return false;
+  takeAnswer();
+  finish();
+  return true;
 }
 
 /// Cuthill and McKee's order: bodies that touch are near each other in the matrix.
@@ -222,6 +230,8 @@ void ContactSolver::gatherStiffness() noexcept {
 }
 
 bool ContactSolver::factorise() noexcept {
+  if (work_left_ <= 0) return false;
+  work_left_ -= static_cast<int>(bodies_.size());
   ++factorisation_count_;
   gatherStiffness();
   return factor_->whole.make(J_, D_, first_);
@@ -301,6 +311,16 @@ double ContactSolver::measureSlip() const noexcept {
   return most;
 }
 
+void ContactSolver::keepAnswer() noexcept {
+  answer_.assign(points_.begin(), points_.end());
+  twist_answer_.assign(twists_.begin(), twists_.end());
+}
+
+void ContactSolver::takeAnswer() noexcept {
+  points_.assign(answer_.begin(), answer_.end());
+  twists_.assign(twist_answer_.begin(), twist_answer_.end());
+}
+
 void ContactSolver::finish() noexcept {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     RigidRow& row = *rows_[i];
@@ -330,6 +350,7 @@ void ContactSolver::repair(const std::vector<double>& gaps) noexcept {
   ContactFactor& factor = slides ? factor_->positions : factor_->whole;
   if (!factor.isNear(J_, D_, first_)) {
     ++factorisation_count_;
+    work_left_ -= static_cast<int>(bodies_.size());
     if (!factor.make(J_, D_, first_)) return;
   }
   for (Six& x : x_) x.setZero();

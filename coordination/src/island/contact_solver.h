@@ -24,6 +24,10 @@ class ContactSolver {
   /// Allocates.
   ContactSolver(std::size_t max_bodies, std::size_t max_points);
 
+  /// Before an advance of the island: its work is bounded.
+  void startAdvance() noexcept { work_left_ = kMaxWork; }
+  /// False once the work of this advance is done: groups that need new factors are left to sweeps.
+  [[nodiscard]] bool hasWorkLeft() const noexcept { return work_left_ > 0; }
   /// Before the groups of a step: each is likely to be what it was in the step before.
   void begin() noexcept { next_factor_ = 0; }
   /// Before the groups of impacts, which do not last.
@@ -42,6 +46,8 @@ class ContactSolver {
   [[nodiscard]] std::uint64_t factorisations() const noexcept { return factorisation_count_; }
 
  private:
+  /// Bodies whose blocks are factorised in an advance, about a microsecond each.
+  static constexpr int kMaxWork = 2048;
   /// Factors for a group: of all its points, and of its normals and sticking tangents.
   struct Factors {
     ContactFactor whole, positions;
@@ -66,6 +72,8 @@ class ContactSolver {
   double measureResidual() noexcept;
   [[nodiscard]] double measureSlip() const noexcept;
   void addMotions() noexcept;
+  void keepAnswer() noexcept;
+  void takeAnswer() noexcept;
   void finish() noexcept;
 
   std::vector<RigidMover*> bodies_;  ///< by block row
@@ -74,13 +82,16 @@ class ContactSolver {
   std::vector<PointLaw> points_;       ///< by point
   std::vector<std::size_t> point_of_;  ///< by twist
   std::vector<TwistLaw> twists_;       ///< by twist
-  std::vector<ContactJacobian> J_;     ///< of points, then of twists
-  std::vector<ContactStiffness> D_;    ///< the same
-  std::vector<Factors> factors_;       ///< by group; the last for impacts and many groups
+  std::vector<PointLaw> answer_;       ///< nearly settled; empty: none yet
+  std::vector<TwistLaw> twist_answer_;
+  std::vector<ContactJacobian> J_;   ///< of points, then of twists
+  std::vector<ContactStiffness> D_;  ///< the same
+  std::vector<Factors> factors_;     ///< by group; the last for impacts and many groups
   std::size_t next_factor_ = 0;
   Factors* factor_ = nullptr;  ///< of the present group
   std::vector<Six> x_, dx_;
   std::uint64_t factorisation_count_ = 0;
+  int work_left_ = kMaxWork;
 };
 
 }  // namespace tandem

@@ -35,6 +35,10 @@ class RigidStep {
   /// Allocates.
   RigidStep(std::size_t body_count, std::size_t contact_capacity);
 
+  /// Begins an advance of one step or several: its work is bounded.
+  void startAdvance() noexcept { solver_.startAdvance(); }
+  /// False once that work is done: steps are taken as they are.
+  [[nodiscard]] bool hasWorkLeft() const noexcept { return solver_.hasWorkLeft(); }
   /// Begins a step, or repeats it with another length of `h` [s].
   void begin() noexcept;
   /// Turns the expected contact forces into forces on the bodies.

@@ -356,6 +356,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
   const double shortest = std::min(kShortPartOfStep * inner, longest);
   double length = longest;
   int tries_left = kMaxTries;
+  rigid_step_.startAdvance();
   for (double rest = dt; rest > 1e-12 * dt;) {
     // Even parts: a short last step would cost as much as a long one.
     double h = rest / std::max(1.0, std::ceil(rest / length * (1.0 - 1e-9)));
@@ -371,7 +372,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
       for (const BodyIndex b : model.present)
         if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
       const double next = rigid_step_.correct(model, *model.finder, before_rigid_, h, shortest,
-                                              tries_left > 0, states_);
+                                              tries_left > 0 && rigid_step_.hasWorkLeft(), states_);
       is_done = rigid_step_.isDone();
       if (!is_done) h = std::min(next, rest);
     }
@@ -386,6 +387,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
       tally_.count(contact, impulse_W);
     });
   }
+  if (tries_left <= 0 || !rigid_step_.hasWorkLeft()) ++counters.rigid_bounded;
 }
 
 /// Finds the bodies that may touch something rigid. Wakes those at rest that an awake one may
