@@ -111,7 +111,9 @@ void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
       state.w_W += dw_W;
       return state;
     };
-    timeline_.changeKeptAfter(clock_.time() + kClockTolerance, body.index, change);
+    // Newcomers catch up from the end of the step on: a move from there to the next tick would look
+    // like a speed of metres per millisecond.
+    timeline_.changeKeptAfter(clock_.time() - kClockTolerance, body.index, change);
     step.end = change(step.end, clock_.time());
     step.shift.moved = true;
   }
