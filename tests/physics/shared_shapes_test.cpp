@@ -83,9 +83,9 @@ TEST_P(SharedShape, IsPushedOverAFloor) {
   // A capsule rolls away.
   if (std::string(GetParam()) == "CapsuleLying") return;
   // While the object slides, Bullet drops contact points and finds them again.
-  EXPECT_NEAR(scene.velocityOf(object).x(), MovingHand::kSpeed, 5e-3);
   // The hull yields sideways at its edge and yaws: friction of its points is no longer along x.
   const double yaw_rate = std::abs(static_cast<double>(object.getAngularVelocity().z()));
+  EXPECT_NEAR(scene.velocityOf(object).x(), MovingHand::kSpeed, yaw_rate < 1e-3 ? 1e-4 : 1e-2);
   EXPECT_NEAR(-hand.meanForce().x(), NeighbourScene::kFriction * kObject * kGravity,
               yaw_rate < 1e-3 ? 1e-3 : 0.02);
 }

@@ -16,6 +16,7 @@ struct ContactPoint {
   RigidRow row;
   double at_start = 0.0;   ///< its distance at the start of the step, about [m]
   double opening = 0.0;    ///< speed at which it opens at the start of the step [m/s]
+  bool stood = false;      ///< its bodies did not move beside each other at that time
   bool is_impact = false;  ///< it closes at the end of the step: its impulse takes no time
   RigidRow::Mode mode_before = RigidRow::Mode::kUnknown;  ///< in the last step
   int known = -1;                ///< index in ContactMemory of the point of the last step; -1: new
@@ -54,6 +55,10 @@ class ContactMemory {
   [[nodiscard]] bool hasGone() const noexcept {
     return std::any_of(trial_.begin(), trial_.end(),
                        [](const Known& known) { return !known.is_taken; });
+  }
+  /// Place of a known point at the start of the step.
+  [[nodiscard]] const Vec3& startOf(const ContactPoint& point) const noexcept {
+    return trial_[static_cast<std::size_t>(point.known)].p_W;
   }
   /// Finds each point among the known ones, and starts its row from what they had.
   void match(std::vector<ContactPoint>& points, double h) noexcept;

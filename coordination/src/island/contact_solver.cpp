@@ -337,7 +337,7 @@ void ContactSolver::finish() noexcept {
   }
 }
 
-void ContactSolver::repair(const std::vector<double>& gaps) noexcept {
+void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps) noexcept {
   // Friction of sliding points is no matter of positions.
   bool slides = false;
   for (PointLaw& point : points_) {
@@ -354,7 +354,7 @@ void ContactSolver::repair(const std::vector<double>& gaps) noexcept {
     if (!factor.make(J_, D_, first_)) return;
   }
   for (Six& x : x_) x.setZero();
-  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].u = {gaps[i], 0.0, 0.0};
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].u = gaps[i];
   for (int round = 0; round < 2; ++round) {
     for (Six& dx : dx_) dx.setZero();
     for (std::size_t i = 0; i < points_.size(); ++i) {

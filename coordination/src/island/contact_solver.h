@@ -39,9 +39,9 @@ class ContactSolver {
   [[nodiscard]] bool solve(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
                            std::size_t mover_count) noexcept;
 
-  /// After solve(). Shifts the movers' poses so that the normal of each pushing point moves by
-  /// `-gap` [m], and its tangents, if they stick, not at all. `gaps` is by row.
-  void repair(const std::vector<double>& gaps) noexcept;
+  /// After solve(). Shifts the movers' poses so that each pushing point moves by `-gap` [m] along
+  /// its normal and, if it sticks, its tangents. `gaps` is by row.
+  void repair(const std::vector<RigidRow::Local>& gaps) noexcept;
 
   [[nodiscard]] std::uint64_t factorisations() const noexcept { return factorisation_count_; }
 

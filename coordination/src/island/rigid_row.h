@@ -21,6 +21,8 @@ struct RigidMover {
   PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
   /// Roots of inverse mass and inertia: I^-1 = root root^T, by column.
   PlainVec root_mass_W, root_x, root_y, root_z;
+  PlainVec way;        ///< of the centre since the start of the step [m]
+  PlainRotation back;  ///< turns directions back to the start of the step
   bool ready = false;  ///< set up for this step
   /// For ContactSolver: its block row, and its number of points with other bodies.
   int place = -1, degree = 0;
@@ -34,6 +36,10 @@ struct RigidMover {
   }
   [[nodiscard]] PlainVec rootTurn(const PlainVec& of) const noexcept {
     return of.x * root_x + of.y * root_y + of.z * root_z;
+  }
+  /// Way since the start of the step of the point that is now at `arm` [m].
+  [[nodiscard]] PlainVec wayOf(const PlainVec& arm) const noexcept {
+    return way + arm - back.toWorld(arm);
   }
   [[nodiscard]] PlainVec velocityAt(const PlainVec& arm) const noexcept {
     return v + cross(w, arm);
@@ -144,11 +150,14 @@ class RigidRow {
     if (b_moves_) b->w = b->w - b->turnBy(angular);
   }
 
-  /// Distance by which the shifts have opened the contact [m].
-  [[nodiscard]] double normalShift() const noexcept {
-    const Axis& n = axis_[0];
-    return dot(n.direction, a->shift - b->shift) + dot(n.arm_a, a->turn) - dot(n.arm_b, b->turn);
+  /// Way of a beside b that the shifts have made along direction i [m].
+  [[nodiscard]] double shiftAlong(int i) const noexcept {
+    const Axis& axis = axis_[i];
+    return dot(axis.direction, a->shift - b->shift) + dot(axis.arm_a, a->turn) -
+           dot(axis.arm_b, b->turn);
   }
+  /// Distance by which the shifts have opened the contact [m].
+  [[nodiscard]] double normalShift() const noexcept { return shiftAlong(0); }
 
   RigidMover *a = nullptr, *b = nullptr;
   Local held;                            ///< impulse that the velocities have already [N s]
@@ -156,6 +165,8 @@ class RigidRow {
   Local twist_held, twist;               ///< the same against turning [N m s]
   Mode mode = Mode::kUnknown;            ///< that of the last step, then of this one
   bool is_swept = false;                 ///< modes have not settled: sweeps took over
+  Local slip;                            ///< tangential way of a beside b in this step [m]
+  bool is_anchored = false;              ///< it stuck in the last step, and `slip` is known
   double distance = 0.0;                 ///< above the overlap that the pair may keep [m]
   double wanted = 0.0;                   ///< least normal velocity [m/s]
   double friction = 0.0;                 ///< Coulomb's coefficient

@@ -15,6 +15,10 @@ constexpr double kSlop = 1e-9;
 constexpr double kSmallGap = 2e-6, kClosed = 1e-12;
 /// Gap of a new point that stands, by rounding of the finder: it is closed as a known one [m].
 constexpr double kRounding = 1e-7;
+/// Speed below which bodies stand on each other [m/s].
+constexpr double kStandSpeed = 1e-6;
+/// A point that moved with a body to this distance belongs to it, or hardly rolls [m].
+constexpr double kSamePlace = 1e-6;
 /// Highest speed at which overlap is moved out [m/s].
 constexpr double kMaxShiftSpeed = 0.25;
 constexpr int kMaxShiftSweeps = 8;
@@ -107,8 +111,11 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
                       double h) noexcept {
   for (RigidMover& mover : movers_) mover.ready = false;
   const auto getReady = [&](BodyIndex body) {
-    if (body != kStanding && !mover(body).ready)
-      mover(body) = RigidMover(model.bodies[body], after[body]);
+    if (body == kStanding || mover(body).ready) return;
+    RigidMover& made = mover(body);
+    made = RigidMover(model.bodies[body], after[body]);
+    made.way = PlainVec(Vec3(after[body].p_W - before[body].p_W));
+    made.back = PlainRotation(before[body].q_WB * after[body].q_WB.conjugate());
   };
   const auto armOf = [&](BodyIndex body, const Vec3& p_W) {
     return body == kStanding ? Vec3::Zero() : Vec3(p_W - after[body].p_W);
@@ -134,8 +141,10 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
       points_.pop_back();
       continue;
     }
-    point.opening = contact.n_W.dot(velocityBefore(contact.a, arm_a) -
-                                    velocityBefore(contact.b, arm_b) - contact.v_W);
+    const Vec3 before_W =
+        velocityBefore(contact.a, arm_a) - velocityBefore(contact.b, arm_b) - contact.v_W;
+    point.opening = contact.n_W.dot(before_W);
+    point.stood = before_W.squaredNorm() < kStandSpeed * kStandSpeed;
     point.at_start = contact.distance - 0.5 * h * (point.opening + point.row.normalVelocity());
     allowance_.look(contact, point.at_start);
   }
@@ -145,10 +154,34 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
     point.at_start -= allowance_.overlapOf(point.contact);
   }
   memory_.match(points_, h);
+  for (ContactPoint& point : points_) anchor(point, after, h);
   memory_.visitGone([&](BodyIndex a, BodyIndex b, const auto&...) {
     getReady(a);
     getReady(b);
   });
+}
+
+/// A point that stuck, and belongs to one of its bodies, has slipped by the ways of both.
+/// Velocities do not tell: a force that begins within the step moves bodies before friction knows
+/// of it.
+void RigidStep::anchor(ContactPoint& point, const States& after, double h) noexcept {
+  RigidRow& row = point.row;
+  const bool is_known = point.known >= 0;
+  const bool stuck = is_known ? point.mode_before == RigidRow::Mode::kStick
+                              : point.stood && std::abs(point.at_start) < kRounding;
+  if (!stuck) return;
+  const RigidContact& contact = point.contact;
+  const auto wayOf = [&](BodyIndex body) {
+    if (body == kStanding) return PlainVec();
+    return mover(body).wayOf(PlainVec(Vec3(contact.p_W - after[body].p_W)));
+  };
+  const PlainVec way_a = wayOf(contact.a), way_b = wayOf(contact.b);
+  row.slip = row.toLocal(way_a - way_b - h * PlainVec(contact.v_W));
+  row.is_anchored = true;
+  if (!is_known) return;
+  const PlainVec seen(Vec3(contact.p_W - memory_.startOf(point)));
+  const PlainVec off_a = seen - way_a, off_b = seen - way_b;
+  row.is_anchored = std::min(dot(off_a, off_a), dot(off_b, off_b)) < kSamePlace * kSamePlace;
 }
 
 /// Marks new points that close within the step. Returns h if they close at its end, or else a
@@ -277,10 +310,16 @@ void RigidStep::closeGaps(const ContactGroups::Group& group) noexcept {
   double widest = 0.0;
   for (std::size_t i = 0; i < group.row_count; ++i) {
     const RigidRow& row = *group.rows[i];
-    const double gap = row.distance + row.normalShift();
+    const double distance = row.distance + row.normalShift();
     // moveOutOfOverlap() takes care of what is deeper.
-    gaps_.push_back(gap < -kSmallGap ? 0.0 : std::min(gap, kSmallGap));
-    if (row.mode != RigidRow::Mode::kOpen) widest = std::max(widest, std::abs(gaps_.back()));
+    RigidRow::Local gap{distance < -kSmallGap ? 0.0 : std::min(distance, kSmallGap), 0.0, 0.0};
+    if (row.is_anchored && row.mode == RigidRow::Mode::kStick) {
+      gap.s = std::clamp(row.slip.s + row.shiftAlong(1), -kSmallGap, kSmallGap);
+      gap.t = std::clamp(row.slip.t + row.shiftAlong(2), -kSmallGap, kSmallGap);
+    }
+    gaps_.push_back(gap);
+    if (row.mode != RigidRow::Mode::kOpen)
+      widest = std::max({widest, std::abs(gap.n), std::abs(gap.s), std::abs(gap.t)});
   }
   if (widest > kClosed) solver_.repair(gaps_);
 }

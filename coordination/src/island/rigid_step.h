@@ -83,6 +83,7 @@ class RigidStep {
              double h) noexcept;
   [[nodiscard]] double distanceOf(const ContactPoint& point) const noexcept;
   [[nodiscard]] double findImpacts(double h) noexcept;
+  void anchor(ContactPoint& point, const States& after, double h) noexcept;
   void aim(double h) noexcept;
   void takeBackGone(const States& after, double h) noexcept;
   void solveSteady(double h) noexcept;
@@ -99,8 +100,8 @@ class RigidStep {
   RigidMover standing_;
   std::vector<RigidContact> contacts_;
   std::vector<ContactPoint> points_;
-  std::vector<Wrench> held_;  ///< by body
-  std::vector<double> gaps_;  ///< working memory of closeGaps()
+  std::vector<Wrench> held_;           ///< by body
+  std::vector<RigidRow::Local> gaps_;  ///< working memory of closeGaps()
   ContactGroups groups_;
   ContactMemory memory_;
   ContactSolver solver_;
