@@ -11,6 +11,7 @@ std::vector<std::unique_ptr<Method>> makeAll() {
   all.push_back(makePluginLate());
   all.push_back(makePluginImpulse());
   all.push_back(makeForceInjection());
+  all.push_back(makeSmallWorld());
   all.push_back(makeBulletRigid());
   all.push_back(makeBulletSoft());
   all.push_back(makeBulletSpring6Dof());

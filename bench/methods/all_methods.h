@@ -16,6 +16,7 @@ namespace tandem::demos::bench {
 [[nodiscard]] std::unique_ptr<Method> makePluginLate();
 [[nodiscard]] std::unique_ptr<Method> makePluginImpulse();
 [[nodiscard]] std::unique_ptr<Method> makeForceInjection();
+[[nodiscard]] std::unique_ptr<Method> makeSmallWorld();
 [[nodiscard]] std::unique_ptr<Method> makeBulletRigid();
 [[nodiscard]] std::unique_ptr<Method> makeBulletSoft();
 [[nodiscard]] std::unique_ptr<Method> makeBulletSpring6Dof();

@@ -12,6 +12,7 @@ from table import read_text
 _METHODS = {
     "plugin handoff": ("#0072b2", "o"), "plugin handoff, late": ("#56b4e9", "o", "none"),
     "plugin impulse": ("#009e73", "s"), "force injection": ("#e69f00", "^"),
+    "small Bullet world": ("#000000", "d"),
     "Bullet rigid": ("#999999", "+"), "Bullet soft": ("#d55e00", "v"),
     "Bullet 6DofSpring2": ("#cc79a7", "<"), "Bullet Point2Point": ("#8c564b", "D"),
     "MuJoCo": ("#9467bd", "*"), "ODE": ("#17becf", "x"), "Simbody": ("#bcbd22", "p")}
