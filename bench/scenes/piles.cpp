@@ -1,0 +1,46 @@
+#include "bench/scenes/scene_parts.h"
+
+namespace tandem::demos::bench {
+namespace {
+
+/// The boxes have gaps of 1 mm. Their friction alone is 9.4 N.
+BenchScene makeRow16() {
+  constexpr double kGap = 0.001;  // [m]
+  BenchScene scene = makeFloorScene("row16", "row of 16 boxes on the floor", 1.0, 0.1, kHalfCube,
+                                    {{0.0, 0.85, {0.045, 0, 0}, 0.3}});
+  for (int i = 1; i <= 16; ++i)
+    scene.bodies.push_back(
+        makeBox("box" + std::to_string(i), 0.2, {i * (2.0 * kHalfCube + kGap), 0, kHalfCube}));
+  return scene;
+}
+
+/// A tower of cubes of 0.1 kg on the cube, which slides `way` [m] beyond what its friction presses
+/// coupler and contact in. An even acceleration of g / blocks would tip the tower.
+BenchScene makeTower(int blocks, double duration, double way) {
+  constexpr double kMass = 0.1;  // [kg]
+  const double pressed = kFriction * blocks * kMass * 9.81 / 1000.0;
+  const std::string count = std::to_string(blocks);
+  BenchScene scene =
+      makeFloorScene("tower" + count, "tower of " + count + " blocks, pushed at its foot", duration,
+                     kMass, kHalfCube, {{0.0, duration - 0.1, {0.002 + pressed + way, 0, 0}, 0.5}});
+  for (int i = 1; i < blocks; ++i)
+    scene.bodies.push_back(
+        makeBox("block" + std::to_string(i), kMass, {0, 0, (2 * i + 1) * kHalfCube}));
+  return scene;
+}
+
+/// The box weighs 25 times as much as the cube under it. Friction is 15.3 N.
+BenchScene makeHeavy() {
+  constexpr double kHalfBox = 0.03;  // [m]
+  BenchScene scene = makeFloorScene("heavy", "cube under a box of 5 kg", 1.0, 0.2, kHalfCube,
+                                    {{0.0, 0.9, {0.032, 0, 0}, 0.5}});
+  scene.bodies.push_back(
+      makeBox("box", 5.0, {0, 0, 2.0 * kHalfCube + kHalfBox}, Vec3::Constant(kHalfBox)));
+  return scene;
+}
+
+}  // namespace
+
+std::vector<BenchScene> makePiles() { return {makeRow16(), makeTower(9, 1.2, 0.009), makeHeavy()}; }
+
+}  // namespace tandem::demos::bench
