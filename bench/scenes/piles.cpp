@@ -14,15 +14,16 @@ BenchScene makeRow16() {
   return scene;
 }
 
-/// A tower of cubes of 0.1 kg on the cube, which slides `way` [m] beyond what its friction presses
-/// coupler and contact in. An even acceleration of g / blocks would tip the tower.
-BenchScene makeTower(int blocks, double duration, double way) {
+/// A tower of cubes of 0.1 kg on the cube. The device moves for `time` [s], and `way` [m] beyond
+/// what friction presses coupler and contact in. An even acceleration of g / blocks would tip the
+/// tower.
+BenchScene makeTower(int blocks, double duration, double time, double way) {
   constexpr double kMass = 0.1;  // [kg]
   const double pressed = kFriction * blocks * kMass * 9.81 / 1000.0;
   const std::string count = std::to_string(blocks);
   BenchScene scene =
       makeFloorScene("tower" + count, "tower of " + count + " blocks, pushed at its foot", duration,
-                     kMass, kHalfCube, {{0.0, duration - 0.1, {0.002 + pressed + way, 0, 0}, 0.5}});
+                     kMass, kHalfCube, {{0.0, time, {0.002 + pressed + way, 0, 0}, 0.5}});
   for (int i = 1; i < blocks; ++i)
     scene.bodies.push_back(
         makeBox("block" + std::to_string(i), kMass, {0, 0, (2 * i + 1) * kHalfCube}));
@@ -41,6 +42,8 @@ BenchScene makeHeavy() {
 
 }  // namespace
 
-std::vector<BenchScene> makePiles() { return {makeRow16(), makeTower(9, 1.2, 0.009), makeHeavy()}; }
+std::vector<BenchScene> makePiles() {
+  return {makeRow16(), makeTower(9, 1.2, 1.1, 0.009), makeTower(18, 1.1, 1.4, 0.006), makeHeavy()};
+}
 
 }  // namespace tandem::demos::bench
