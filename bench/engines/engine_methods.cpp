@@ -16,4 +16,9 @@ std::vector<std::unique_ptr<Method>> makeEngineMethods() {
   return engines;
 }
 
+void refuseBelts(const BenchScene& scene) {
+  for (const BenchBody& body : scene.bodies)
+    if (body.isBelt()) throw NotApplicable("belts are not built for this engine");
+}
+
 }  // namespace tandem::demos::bench

@@ -11,6 +11,9 @@ namespace tandem::demos::bench {
 /// is missing without its Debian package (scripts/packages.sh, group bench).
 [[nodiscard]] std::vector<std::unique_ptr<Method>> makeEngineMethods();
 
+/// Throws NotApplicable for a scene with a belt: these engines' bodies without mass stand still.
+void refuseBelts(const BenchScene& scene);
+
 /// @name Factories, one for each engine that is built, defined in the file with its name.
 /// @{
 [[nodiscard]] std::unique_ptr<Method> makeMujoco();

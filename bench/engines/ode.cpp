@@ -180,6 +180,7 @@ class OdeMethod final : public Method {
  public:
   std::string name() const override { return "ODE"; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
+    refuseBelts(scene);
     return std::make_unique<OdeSimulation>(scene, host_rate);
   }
 };

@@ -34,7 +34,7 @@ class BulletNative final : public Simulation {
       const auto target = heldTarget(tool, steps_ * step_);
       if (target) couplers_[i]->pull({target->p_W, Quat::Identity(), target->v_W, {}}, step_);
     }
-    bullet_.world().stepSimulation(static_cast<btScalar>(step_), 0);
+    bullet_.step(step_);
     ++steps_;
   }
   void read(SceneState& state) const override { bullet_.read(state); }

@@ -33,6 +33,7 @@ BulletScene::BulletScene(const BenchScene& scene, const BulletSceneOptions& opti
     if (options.has_tools && !options.tools_touch) mask &= ~kToolGroup;
     add(bodies_, makeShape(body), factor * body.mass, factor * computeInertia(body), body.start,
         friction, group, mask);
+    if (body.isBelt()) bodies_.back()->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     if (!options.keeps_plane) continue;
     bodies_.back()->setLinearFactor(btVector3(1, 0, 1));
     bodies_.back()->setAngularFactor(btVector3(0, 1, 0));
@@ -73,6 +74,18 @@ btRigidBody& BulletScene::add(std::vector<std::unique_ptr<btRigidBody>>& list,
   world_.addRigidBody(&body, group, mask);
   shapes_.push_back(std::move(shape));
   return body;
+}
+
+void BulletScene::step(double h) {
+  time_ += h;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const BenchBody& body = scene_.bodies[b];
+    if (!body.isBelt()) continue;
+    // Bullet takes a kinematic body's velocity from its way since the last step.
+    const Vec3 p_W = body.start.p_W + time_ * body.start.v_W;
+    bodies_[b]->setCenterOfMassTransform(toBullet(p_W, body.start.q_WB));
+  }
+  world_.stepSimulation(static_cast<btScalar>(h), 0);
 }
 
 void BulletScene::read(SceneState& state) const {

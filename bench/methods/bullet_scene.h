@@ -34,6 +34,9 @@ class BulletScene {
   [[nodiscard]] btRigidBody& body(std::size_t i) { return *bodies_[i]; }
   [[nodiscard]] const btRigidBody& body(std::size_t i) const { return *bodies_[i]; }
 
+  /// Moves belts, which are kinematic bodies, and steps the world by `h` [s] at once.
+  void step(double h);
+
   /// Reads states of bodies, and of tools if there are any.
   void read(SceneState& state) const;
 
@@ -50,6 +53,7 @@ class BulletScene {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> tools_, bodies_;
+  double time_ = 0.0;  ///< of steps [s]
 };
 
 [[nodiscard]] PointState pointOf(const btRigidBody& body);

@@ -16,7 +16,7 @@ InjectedScene::InjectedScene(const BenchScene& scene, int rate)
 }
 
 void InjectedScene::step() {
-  bullet_.world().stepSimulation(static_cast<btScalar>(step_), 0);
+  bullet_.step(step_);
   ++steps_;
 }
 

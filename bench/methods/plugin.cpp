@@ -105,7 +105,7 @@ class PluginSimulation final : public Simulation {
     if (variant_ == Variant::kLate) tickUntil((steps_ + 2) * step_);
     for (std::size_t i = 0; i < scene_.tools.size(); ++i)
       proxy(i).applyCentralForce(toBullet(scene_.tools[i].f_W));
-    bullet_.world().stepSimulation(static_cast<btScalar>(step_), 0);
+    bullet_.step(step_);
     ++steps_;
   }
 

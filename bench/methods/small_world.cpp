@@ -33,7 +33,7 @@ class SmallWorld final : public Simulation {
         small_(scene, small_rate_) {}
 
   void step() override {
-    host_.world().stepSimulation(static_cast<btScalar>(host_step_), 0);
+    host_.step(host_step_);
     ++steps_;
     const double now = steps_ * host_step_;
     while (smallTime() < now - 1e-9) {

@@ -38,11 +38,12 @@ struct PlaneShape {
 struct BenchBody {
   std::string name;
   std::variant<BoxShape, SphereShape, PlaneShape> shape = BoxShape{};
-  double mass = 0.0;       ///< [kg]; 0: static
+  double mass = 0.0;       ///< [kg]; 0: static, or a belt that moves at its start's v_W for ever
   bool is_shared = false;  ///< the plugin shares it; for other methods a normal body
   RigidState start;
 
   [[nodiscard]] bool isStatic() const { return mass == 0.0; }
+  [[nodiscard]] bool isBelt() const { return isStatic() && start.v_W != Vec3::Zero(); }
 };
 
 /// A sphere that a user holds by a spring-damper, like the plugin's remote dynamic proxy. It does
@@ -87,7 +88,7 @@ struct BenchScene {
 /// States of all moving bodies at one moment, in the order of BenchScene::tools and ::bodies.
 struct SceneState {
   std::vector<PointState> tools;
-  std::vector<RigidState> bodies;  ///< static ones stay at their start
+  std::vector<RigidState> bodies;  ///< without mass: unspecified
 };
 
 [[nodiscard]] SceneState startState(const BenchScene& scene);

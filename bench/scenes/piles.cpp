@@ -40,10 +40,26 @@ BenchScene makeHeavy() {
   return scene;
 }
 
+/// The cube is put on a belt, on which a box comes behind it. The belt carries both to the tool,
+/// which holds them, pushes them back and lets go.
+BenchScene makeConveyor() {
+  BenchScene scene = makeScene("conveyor", "belt carries two boxes to the tool", 1.0);
+  scene.gravity_W = kGravity;
+  scene.friction = kFriction;
+  BenchBody belt = makeBox("belt", 0.0, {0, 0, -0.02}, {0.5, 0.1, 0.02});
+  belt.start.v_W = {0.1, 0, 0};
+  scene.bodies = {belt, makeCube(0.25), makeBox("box", 0.2, {-0.06, 0, kHalfCube})};
+  scene.bodies[2].start.v_W = belt.start.v_W;
+  scene.tools = {makeTool({kHalfCube + kToolRadius + 0.012, 0, kHalfCube},
+                          {{0.4, 0.25, {-0.02, 0, 0}, 0.4}, {0.75, 0.2, {0.04, 0, 0}, 0.4}})};
+  return scene;
+}
+
 }  // namespace
 
 std::vector<BenchScene> makePiles() {
-  return {makeRow16(), makeTower(9, 1.2, 1.1, 0.009), makeTower(18, 1.1, 1.4, 0.006), makeHeavy()};
+  return {makeRow16(), makeTower(9, 1.2, 1.1, 0.009), makeTower(18, 1.1, 1.4, 0.006), makeHeavy(),
+          makeConveyor()};
 }
 
 }  // namespace tandem::demos::bench

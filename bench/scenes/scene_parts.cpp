@@ -5,8 +5,6 @@
 namespace tandem::demos::bench {
 namespace {
 
-const Vec3 kGravity{0, 0, -9.81};  // [m/s^2]
-
 /// Finished part of a leg's way at s in [0, 1] of its time, and its slope.
 std::pair<double, double> computeShare(double s, double ease) {
   const double top = 1.0 / (1.0 - ease);  // slope in the middle

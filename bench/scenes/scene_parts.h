@@ -12,6 +12,7 @@ namespace tandem::demos::bench {
 inline constexpr double kHalfCube = 0.02;    // [m]
 inline constexpr double kToolRadius = 0.01;  // [m]
 inline constexpr double kFriction = 0.3;
+inline const Vec3 kGravity{0, 0, -9.81};  // [m/s^2]
 
 /// A part of a device's path: `way` from time `start` on, at constant speed except `ease` at each
 /// end.

@@ -107,7 +107,8 @@ TEST_P(SmoothScene, HalvingTheStepChangesNothing) {
 class RigidScene : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(All, RigidScene,
                          ::testing::Values("wall", "post", "free_box", "free_box_fast", "row",
-                                           "squeeze", "stack", "row16", "tower9", "heavy"),
+                                           "squeeze", "stack", "row16", "tower9", "heavy",
+                                           "conveyor"),
                          [](const auto& one) { return std::string(one.param); });
 
 // Order one: at 24 kHz and twice as fine, the difference is at most 20 um, and further refinement
