@@ -101,11 +101,17 @@ void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
     const double since = std::max(0.0, timeline_.time() - clock_.time());
     island_.shift(body.index, step.shift.offset_W + since * dv_W,
                   makeRotation(since * dw_W) * step.shift.rotation_W);
-    // Rigid contacts may have held the body back.
-    const Vec3 offset_W = island_.state(body.index).p_W - after.p_W - since * dv_W;
+    // Rigid contacts may have held the body back: on its way since the end of the step, and beyond
+    // that already there.
+    const Vec3 way_W = since * dv_W;
+    const Vec3 held_back_W =
+        step.shift.offset_W + way_W - (island_.state(body.index).p_W - after.p_W);
+    const double size = way_W.squaredNorm();
+    const double part = size > 0.0 ? std::clamp(held_back_W.dot(way_W) / size, 0.0, 1.0) : 0.0;
+    const Vec3 offset_W = step.shift.offset_W - (held_back_W - part * way_W);
     const auto change = [&](RigidState state, double time) {
       const double until = time - clock_.time();
-      state.p_W += offset_W + until * dv_W;
+      state.p_W += offset_W + (1.0 - part) * until * dv_W;
       state.q_WB = (makeRotation(until * dw_W) * step.shift.rotation_W * state.q_WB).normalized();
       state.v_W += dv_W;
       state.w_W += dw_W;
