@@ -23,7 +23,21 @@ struct Slide {
   }
 };
 
+double divide(double value, double mobility) noexcept {
+  return mobility > 0.0 ? value / mobility : 0.0;
+}
+
 }  // namespace
+
+void PointLaw::setStiffness(const ContactJacobian& J, double stiffness) noexcept {
+  rho_n = divide(stiffness, J.mobility(0));
+  rho_t = divide(stiffness, std::max(J.mobility(1), J.mobility(2)));
+}
+
+void TwistLaw::setStiffness(const ContactJacobian& J, double stiffness) noexcept {
+  rho_n = divide(stiffness, J.mobility(0));
+  rho_t = divide(stiffness, std::max(J.mobility(1), J.mobility(2)));
+}
 
 PointLaw::Mode PointLaw::findMode() const noexcept {
   const Local q = push();

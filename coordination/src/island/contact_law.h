@@ -45,6 +45,8 @@ struct PointLaw {
   [[nodiscard]] Local push() const noexcept {
     return {P0.n - rho_n * u.n, P0.s - rho_t * u.s, P0.t - rho_t * u.t};
   }
+  /// Sets the penalties: `stiffness` times what J's directions have as mass.
+  void setStiffness(const ContactJacobian& J, double stiffness) noexcept;
   /// Mode that the present velocity asks for.
   [[nodiscard]] Mode findMode() const noexcept;
   /// Takes the mode that the present velocity asks for, and with it P and D. Friction that turns
@@ -67,6 +69,7 @@ struct TwistLaw {
   double rho_n = 0.0, rho_t = 0.0;
   ContactStiffness D;
 
+  void setStiffness(const ContactJacobian& J, double stiffness) noexcept;
   void respond(double spin_limit, double roll_limit) noexcept;
 };
 

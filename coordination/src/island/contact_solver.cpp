@@ -17,11 +17,10 @@ constexpr double kSmallResidual = 1e-10;
 /// A new point that opens slower is taken as closed at first [m/s].
 constexpr double kTogether = 1e-3;
 constexpr int kMaxFactorisations = 20, kMaxSteps = 40;
+/// Steps of Newton's with each of the softer penalties.
+constexpr int kSoftSteps = 5;
 /// Groups with factors of their own.
 constexpr std::size_t kMaxFactors = 8;
-
-/// `mobility` in the directions of a row as mass.
-double divide(double value, double mobility) { return mobility > 0.0 ? value / mobility : 0.0; }
 
 }  // namespace
 
@@ -48,21 +47,38 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
   next_factor_ = std::min(next_factor_ + 1, factors_.size() - 1);
   orderBodies(rows, row_count, movers, mover_count);
   rows_.assign(rows, rows + row_count);
-  points_.assign(row_count, PointLaw());
-  J_.resize(row_count);
+  x_.resize(mover_count);
+  dx_.resize(mover_count);
+  setUp();
+  if (!settle()) {
+    setUp();
+    soften();
+    if (!settle()) return false;
+  }
+  finish();
+  return true;
+}
+
+/// Begins with the impulses and modes of the rows, and their velocities.
+void ContactSolver::setUp() noexcept {
+  points_.assign(rows_.size(), PointLaw());
+  J_.resize(rows_.size());
   point_of_.clear();
-  for (std::size_t i = 0; i < row_count; ++i) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
     setUpPoint(i);
-    if (rows[i]->resistsTurning()) point_of_.push_back(i);
+    if (rows_[i]->resistsTurning()) point_of_.push_back(i);
   }
   shapeMatrix();
   twists_.assign(point_of_.size(), TwistLaw());
-  answer_.clear();
-  J_.resize(row_count + twists_.size());
+  J_.resize(rows_.size() + twists_.size());
   for (std::size_t i = 0; i < twists_.size(); ++i) setUpTwist(i);
-  x_.assign(mover_count, Six());
-  dx_.resize(mover_count);
+  x_.assign(x_.size(), Six());
+  answer_.clear();
   (void)measureResidual();
+}
+
+/// Iterates until all laws hold. False if the modes do not settle.
+bool ContactSolver::settle() noexcept {
   double slip_before = HUGE_VAL, residual_before = HUGE_VAL;
   int factorisations = 0;
   gatherStiffness();
@@ -82,23 +98,44 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
       continue;
     }
     const double slip = measureSlip();
-    if (slip < kSettled || (slip > 0.5 * slip_before && slip < kNearlySettled)) {
-      finish();
-      return true;
-    }
+    if (slip < kSettled || (slip > 0.5 * slip_before && slip < kNearlySettled)) return true;
     if (slip < kNearlySettled) keepAnswer();
     slip_before = slip;
     residual_before = HUGE_VAL;
-    for (PointLaw& point : points_) point.P0 = point.P;
-    for (TwistLaw& twist : twists_) twist.T0 = twist.T;
+    updateMultipliers();
     is_factored = !chooseModes().have_changed && !modes.have_changed;
     (void)measureResidual();
   }
   // Better multipliers may have upset modes that were nearly right.
   if (answer_.empty()) return false;
   takeAnswer();
-  finish();
   return true;
+}
+
+/// Finds multipliers and modes with softer penalties, whose modes depend less on each other, and
+/// then with harder ones.
+void ContactSolver::soften() noexcept {
+  for (const double stiffness : {1e1, 1e2, 1e3, kStiffness}) {
+    for (std::size_t i = 0; i < points_.size(); ++i) points_[i].setStiffness(J_[i], stiffness);
+    (void)chooseModes();
+    (void)measureResidual();
+    if (stiffness == kStiffness) return;
+    for (int i = 0; i < kSoftSteps; ++i) {
+      if (!factorise()) return;
+      step();
+      (void)chooseModes();
+      if (measureResidual() < kNearlySettled) {
+        updateMultipliers();
+        (void)chooseModes();
+        (void)measureResidual();
+      }
+    }
+  }
+}
+
+void ContactSolver::updateMultipliers() noexcept {
+  for (PointLaw& point : points_) point.P0 = point.P;
+  for (TwistLaw& twist : twists_) twist.T0 = twist.T;
 }
 
 /// Cuthill and McKee's order: bodies that touch are near each other in the matrix.
@@ -154,8 +191,7 @@ void ContactSolver::setUpPoint(std::size_t index) noexcept {
     if (J.b >= 0) fill(*row.b, row.direction(i), row.armOfB(i), -1.0, J.of_b[i]);
   }
   PointLaw& law = points_[index];
-  law.rho_n = divide(kStiffness, J.mobility(0));
-  law.rho_t = divide(kStiffness, std::max(J.mobility(1), J.mobility(2)));
+  law.setStiffness(J, kStiffness);
   law.friction = row.friction;
   law.u = {row.velocityAlong(0) - row.wanted, row.velocityAlong(1), row.velocityAlong(2)};
   law.held = row.held;
@@ -188,8 +224,7 @@ void ContactSolver::setUpTwist(std::size_t index) noexcept {
   }
   TwistLaw& law = twists_[index];
   law.w = {w[0], w[1], w[2]};
-  law.rho_n = divide(kStiffness, J.mobility(0));
-  law.rho_t = divide(kStiffness, std::max(J.mobility(1), J.mobility(2)));
+  law.setStiffness(J, kStiffness);
   law.held = row.twist_held;
   law.T0 = row.twist;
   respond(index);

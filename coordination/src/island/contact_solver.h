@@ -59,6 +59,10 @@ class ContactSolver {
 
   void orderBodies(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
                    std::size_t mover_count) noexcept;
+  void setUp() noexcept;
+  [[nodiscard]] bool settle() noexcept;
+  void soften() noexcept;
+  void updateMultipliers() noexcept;
   void setUpPoint(std::size_t point) noexcept;
   void setUpTwist(std::size_t twist) noexcept;
   void shapeMatrix() noexcept;
