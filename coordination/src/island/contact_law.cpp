@@ -23,24 +23,25 @@ struct Slide {
   }
 };
 
-double divide(double value, double mobility) noexcept {
-  return mobility > 0.0 ? value / mobility : 0.0;
+/// Sets a law's penalties: `stiffness` times what J's directions have as mass.
+template <typename Law>
+void setPenalties(Law& law, const ContactJacobian& J, double stiffness) noexcept {
+  const auto divide = [&](double mobility) { return mobility > 0.0 ? stiffness / mobility : 0.0; };
+  law.rho_n = divide(J.mobility(0));
+  law.rho_t = divide(std::max(J.mobility(1), J.mobility(2)));
 }
 
 }  // namespace
 
 void PointLaw::setStiffness(const ContactJacobian& J, double stiffness) noexcept {
-  rho_n = divide(stiffness, J.mobility(0));
-  rho_t = divide(stiffness, std::max(J.mobility(1), J.mobility(2)));
+  setPenalties(*this, J, stiffness);
 }
 
 void TwistLaw::setStiffness(const ContactJacobian& J, double stiffness) noexcept {
-  rho_n = divide(stiffness, J.mobility(0));
-  rho_t = divide(stiffness, std::max(J.mobility(1), J.mobility(2)));
+  setPenalties(*this, J, stiffness);
 }
 
-PointLaw::Mode PointLaw::findMode() const noexcept {
-  const Local q = push();
+PointLaw::Mode PointLaw::findMode(const Local& q) const noexcept {
   if (!(q.n > 0.0)) return Mode::kOpen;
   const double limit = friction * q.n;
   return friction > 0.0 && q.s * q.s + q.t * q.t <= limit * limit ? Mode::kStick : Mode::kSlide;
@@ -48,7 +49,7 @@ PointLaw::Mode PointLaw::findMode() const noexcept {
 
 void PointLaw::choose(bool& has_changed, bool& is_forced) noexcept {
   const Local q = push();
-  Mode next = findMode();
+  Mode next = findMode(q);
   if (next == Mode::kSlide && friction > 0.0) {
     const double size = std::sqrt(q.s * q.s + q.t * q.t);
     const Local slip{0.0, q.s / size, q.t / size};

@@ -48,7 +48,7 @@ struct PointLaw {
   /// Sets the penalties: `stiffness` times what J's directions have as mass.
   void setStiffness(const ContactJacobian& J, double stiffness) noexcept;
   /// Mode that the present velocity asks for.
-  [[nodiscard]] Mode findMode() const noexcept;
+  [[nodiscard]] Mode findMode() const noexcept { return findMode(push()); }
   /// Takes the mode that the present velocity asks for, and with it P and D. Friction that turns
   /// round within an iteration stops the slip instead; then `is_forced` becomes true.
   void choose(bool& has_changed, bool& is_forced) noexcept;
@@ -56,6 +56,7 @@ struct PointLaw {
   void respond() noexcept { respond(push()); }
 
  private:
+  [[nodiscard]] Mode findMode(const Local& q) const noexcept;
   void respond(const Local& q) noexcept;
 };
 

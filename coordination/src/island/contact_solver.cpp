@@ -115,11 +115,13 @@ bool ContactSolver::settle() noexcept {
 /// Finds multipliers and modes with softer penalties, whose modes depend less on each other, and
 /// then with harder ones.
 void ContactSolver::soften() noexcept {
-  for (const double stiffness : {1e1, 1e2, 1e3, kStiffness}) {
+  const auto setStiffness = [&](double stiffness) {
     for (std::size_t i = 0; i < points_.size(); ++i) points_[i].setStiffness(J_[i], stiffness);
     (void)chooseModes();
     (void)measureResidual();
-    if (stiffness == kStiffness) return;
+  };
+  for (const double stiffness : {1e1, 1e2, 1e3}) {
+    setStiffness(stiffness);
     for (int i = 0; i < kSoftSteps; ++i) {
       if (!factorise()) return;
       step();
@@ -131,6 +133,7 @@ void ContactSolver::soften() noexcept {
       }
     }
   }
+  setStiffness(kStiffness);
 }
 
 void ContactSolver::updateMultipliers() noexcept {

@@ -37,10 +37,6 @@ struct SixBySix {
     for (int i = 0; i < 6; ++i) column[i].at[i] = 1.0;
   }
 
-  /// *this += a b^T
-  void addOuter(const Six& a, const Six& b) noexcept {
-    for (int c = 0; c < 6; ++c) column[c].addScaled(b.at[c], a);
-  }
   /// *this += a b
   void addProduct(const SixBySix& a, const SixBySix& b) noexcept {
     for (int c = 0; c < 6; ++c)

@@ -16,9 +16,9 @@ constexpr double kRigidWatchDistance = 5e-4;
 constexpr double kStillSpeed = 1e-6;
 constexpr double kTimeToRest = 0.05;
 
-/// Stiff springs shorten the inner step to this part of SmoothMotion's longest step, because
-/// RigidStep is of first order. The inner step never gets shorter than this share of its setting.
-constexpr double kShortestInnerStep = 1.0 / 64.0, kRigidPartOfStep = 1.0;
+/// Stiff springs shorten a step with rigid contact to SmoothMotion's longest one, but not below
+/// this part of the inner step.
+constexpr double kShortestInnerStep = 1.0 / 64.0;
 
 /// Steps as multiples of the inner step: where contact lasts, and where it comes and goes.
 constexpr double kLastingSteps = 4.0, kShortPartOfStep = 0.5;
@@ -351,8 +351,8 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
   // Springs faster than a step would push a body against a rigid one for a whole step before that
   // one responds.
   const double inner = model.settings.inner_step;
-  const double longest = std::clamp(kRigidPartOfStep * smooth_.maxStep(),
-                                    kShortestInnerStep * inner, kLastingSteps * inner);
+  const double longest =
+      std::clamp(smooth_.maxStep(), kShortestInnerStep * inner, kLastingSteps * inner);
   const double shortest = std::min(kShortPartOfStep * inner, longest);
   double length = longest;
   int tries_left = kMaxTries;
