@@ -279,7 +279,7 @@ TEST(FrozenContact, NoCornerSinksInUnseen) {
   EXPECT_GT(sunk, 25) << "a second corner must come down";
 }
 
-// What stands may move, and be replaced.
+// A standing body may move, and be replaced.
 TEST(FrozenContact, FollowsAStandingObjectThatMoves) {
   Finder finder;
   kPairs[0].build(finder);

@@ -217,7 +217,7 @@ void RigidStep::aim(double h) noexcept {
     const double u = row.normalVelocity();
     row.wanted = 0.0;
     if (point.known >= 0 && std::abs(row.distance) < kSmallGap) continue;
-    // Of corners that stand, some carry and others just miss; they swap by rounding.
+    // Some corners that stand carry, others just miss, and they swap by rounding.
     if (std::abs(row.distance) < kRounding && point.opening > -kImpactSpeed) continue;
     // An open point may be closed by other impulses, but no more. An overlap at the start that held
     // forces have opened asks for no velocity.

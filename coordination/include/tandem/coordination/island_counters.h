@@ -23,8 +23,7 @@ struct IslandCounters {
   std::uint64_t rigid_relaxations = 0;     ///< relaxations of rigid contact points
   std::uint64_t rigid_steps = 0;           ///< inner steps that called the ContactFinder
   std::uint64_t rigid_factorisations = 0;  ///< matrices factorised to solve rigid contact
-  std::uint64_t rigid_bounded =
-      0;  ///< advances whose rigid contact was too much work for full accuracy
+  std::uint64_t rigid_bounded = 0;   ///< advances cut short, as rigid contact was too much work
   std::uint64_t asleep_bodies = 0;   ///< bodies skipped at rest with nothing near
   std::uint64_t resting_bodies = 0;  ///< bodies at rest on a rigid contact that were not moved
 };
