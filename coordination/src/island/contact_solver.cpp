@@ -24,7 +24,8 @@ constexpr std::size_t kMaxFactors = 8;
 
 }  // namespace
 
-ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points) {
+ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points,
+                             std::size_t max_holds) {
   bodies_.reserve(max_bodies);
   first_.reserve(max_bodies);
   rows_.reserve(max_points);
@@ -33,20 +34,26 @@ ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points) {
   twists_.reserve(max_points);
   answer_.reserve(max_points);
   twist_answer_.reserve(max_points);
-  J_.reserve(2 * max_points);
-  D_.reserve(2 * max_points);
+  holds_.reserve(max_holds);
+  hold_laws_.reserve(max_holds);
+  hold_answer_.reserve(max_holds);
+  const std::size_t max_laws = 2 * max_points + max_holds;
+  J_.reserve(max_laws);
+  D_.reserve(max_laws);
   x_.reserve(max_bodies);
   dx_.reserve(max_bodies);
   for (std::size_t i = 0; i <= kMaxFactors; ++i)
-    factors_.push_back({{max_bodies, 2 * max_points}, {max_bodies, 2 * max_points}});
+    factors_.push_back({{max_bodies, max_laws}, {max_bodies, max_laws}});
 }
 
 bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
-                          std::size_t mover_count) noexcept {
+                          std::size_t mover_count, JointHold* const* holds,
+                          std::size_t hold_count) noexcept {
   factor_ = &factors_[next_factor_];
   next_factor_ = std::min(next_factor_ + 1, factors_.size() - 1);
-  orderBodies(rows, row_count, movers, mover_count);
   rows_.assign(rows, rows + row_count);
+  holds_.assign(holds, holds + hold_count);
+  orderBodies(movers, mover_count);
   x_.resize(mover_count);
   dx_.resize(mover_count);
   setUp();
@@ -68,12 +75,13 @@ void ContactSolver::setUp() noexcept {
     setUpPoint(i);
     if (rows_[i]->resistsTurning()) point_of_.push_back(i);
   }
-  shapeMatrix();
   twists_.assign(point_of_.size(), TwistLaw());
   J_.resize(rows_.size() + twists_.size());
   for (std::size_t i = 0; i < twists_.size(); ++i) setUpTwist(i);
+  setUpHolds();
+  shapeMatrix();
   x_.assign(x_.size(), Six());
-  answer_.clear();
+  has_answer_ = false;
   (void)measureResidual();
 }
 
@@ -107,7 +115,7 @@ bool ContactSolver::settle() noexcept {
     (void)measureResidual();
   }
   // Better multipliers may have upset modes that were nearly right.
-  if (answer_.empty()) return false;
+  if (!has_answer_) return false;
   takeAnswer();
   return true;
 }
@@ -139,21 +147,30 @@ void ContactSolver::soften() noexcept {
 void ContactSolver::updateMultipliers() noexcept {
   for (PointLaw& point : points_) point.P0 = point.P;
   for (TwistLaw& twist : twists_) twist.T0 = twist.T;
+  for (HoldLaw& law : hold_laws_) std::copy_n(law.P, 3, law.P0);
 }
 
 /// Cuthill and McKee's order: bodies that touch are near each other in the matrix.
-void ContactSolver::orderBodies(RigidRow* const* rows, std::size_t row_count,
-                                RigidMover* const* movers, std::size_t mover_count) noexcept {
+void ContactSolver::orderBodies(RigidMover* const* movers, std::size_t mover_count) noexcept {
+  const auto forEachPair = [&](auto visit) {
+    for (const RigidRow* row : rows_)
+      if (row->b->ready) visit(*row->a, *row->b);
+    const JointHold* before = nullptr;
+    for (const JointHold* hold : holds_) {
+      const bool is_same = before && hold->joint == before->joint;
+      before = hold;
+      if (!is_same && hold->a && hold->b) visit(*hold->a, *hold->b);
+    }
+  };
   bodies_.clear();
   for (std::size_t i = 0; i < mover_count; ++i) {
     movers[i]->place = -1;
     movers[i]->degree = 0;
   }
-  for (std::size_t i = 0; i < row_count; ++i) {
-    if (!rows[i]->b->ready) continue;
-    ++rows[i]->a->degree;
-    ++rows[i]->b->degree;
-  }
+  forEachPair([](RigidMover& a, RigidMover& b) {
+    ++a.degree;
+    ++b.degree;
+  });
   const auto place = [&](RigidMover& mover) {
     mover.place = static_cast<int>(bodies_.size());
     bodies_.push_back(&mover);
@@ -164,11 +181,10 @@ void ContactSolver::orderBodies(RigidRow* const* rows, std::size_t row_count,
   place(*start);
   for (std::size_t next = 0; next < bodies_.size(); ++next) {
     const std::size_t first = bodies_.size();
-    for (std::size_t i = 0; i < row_count; ++i) {
-      if (!rows[i]->b->ready) continue;
-      if (rows[i]->a == bodies_[next] && rows[i]->b->place < 0) place(*rows[i]->b);
-      if (rows[i]->b == bodies_[next] && rows[i]->a->place < 0) place(*rows[i]->a);
-    }
+    forEachPair([&](RigidMover& a, RigidMover& b) {
+      if (&a == bodies_[next] && b.place < 0) place(b);
+      if (&b == bodies_[next] && a.place < 0) place(a);
+    });
     // Few come at once; std::stable_sort() would allocate.
     for (std::size_t i = first + 1; i < bodies_.size(); ++i)
       for (std::size_t j = i; j > first && bodies_[j]->degree < bodies_[j - 1]->degree; --j)
@@ -233,6 +249,43 @@ void ContactSolver::setUpTwist(std::size_t index) noexcept {
   respond(index);
 }
 
+/// Rows of a joint come one after the other.
+void ContactSolver::setUpHolds() noexcept {
+  hold_laws_.clear();
+  for (JointHold* hold : holds_) {
+    const bool is_new = hold_laws_.empty() || hold_laws_.back().count == 3 ||
+                        hold_laws_.back().hold[0]->joint != hold->joint;
+    if (is_new) {
+      hold_laws_.emplace_back();
+      J_.emplace_back();
+      J_.back().a = hold->a ? hold->a->place : hold->b->place;
+      J_.back().b = hold->a && hold->b ? hold->b->place : -1;
+    }
+    HoldLaw& law = hold_laws_.back();
+    const int i = law.count++;
+    setDirection(hold->row, hold->a, hold->b, i, J_.back());
+    law.hold[i] = hold;
+    law.u[i] = hold->speed() - hold->wanted;
+    law.P0[i] = hold->impulse;
+    const double mobility = J_.back().mobility(i);
+    law.rho[i] = mobility > 0.0 ? kStiffness / mobility : 0.0;
+  }
+  for (HoldLaw& law : hold_laws_) law.respond();
+}
+
+void ContactSolver::HoldLaw::respond() noexcept {
+  double stiffness[3] = {};
+  for (int i = 0; i < count; ++i) {
+    const double q = P0[i] - rho[i] * u[i];
+    P[i] = std::clamp(q, hold[i]->low, hold[i]->high);
+    if (P[i] == q) stiffness[i] = rho[i];
+  }
+  D = {};
+  D.nn = stiffness[0];
+  D.ss = stiffness[1];
+  D.tt = stiffness[2];
+}
+
 void ContactSolver::shapeMatrix() noexcept {
   first_.resize(bodies_.size());
   for (std::size_t i = 0; i < first_.size(); ++i) first_[i] = static_cast<int>(i);
@@ -258,6 +311,11 @@ ContactSolver::Modes ContactSolver::chooseModes() noexcept {
     respond(i);
     modes.have_changed |= !(twists_[i].D == before);
   }
+  for (HoldLaw& law : hold_laws_) {
+    const ContactStiffness before = law.D;
+    law.respond();
+    modes.have_changed |= !(law.D == before);
+  }
   return modes;
 }
 
@@ -265,6 +323,7 @@ void ContactSolver::gatherStiffness() noexcept {
   D_.clear();
   for (const PointLaw& point : points_) D_.push_back(point.D);
   for (const TwistLaw& twist : twists_) D_.push_back(twist.D);
+  for (const HoldLaw& law : hold_laws_) D_.push_back(law.D);
 }
 
 bool ContactSolver::factorise() noexcept {
@@ -307,6 +366,12 @@ void ContactSolver::addMotions() noexcept {
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i].add(dx_[i]);
   for (std::size_t i = 0; i < points_.size(); ++i) addMotion(J_[i], points_[i].u);
   for (std::size_t i = 0; i < twists_.size(); ++i) addMotion(J_[points_.size() + i], twists_[i].w);
+  for (std::size_t i = 0; i < hold_laws_.size(); ++i) {
+    double(&u)[3] = hold_laws_[i].u;
+    RigidRow::Local motion{u[0], u[1], u[2]};
+    addMotion(J_[firstHold() + i], motion);
+    u[0] = motion.n, u[1] = motion.s, u[2] = motion.t;
+  }
 }
 
 /// Change of velocity that the impulses give beyond the present one: sets dx_, and returns the
@@ -319,6 +384,12 @@ double ContactSolver::measureResidual() noexcept {
   for (std::size_t i = 0; i < points_.size(); ++i) addPush(J_[i], points_[i].P - points_[i].held);
   for (std::size_t i = 0; i < twists_.size(); ++i)
     addPush(J_[points_.size() + i], twists_[i].T - twists_[i].held);
+  for (std::size_t i = 0; i < hold_laws_.size(); ++i) {
+    const HoldLaw& law = hold_laws_[i];
+    double change[3] = {};
+    for (int k = 0; k < law.count; ++k) change[k] = law.P[k] - law.hold[k]->held;
+    addPush(J_[firstHold() + i], {change[0], change[1], change[2]});
+  }
   double most = 0.0;
   for (std::size_t i = 0; i < dx_.size(); ++i) {
     const RigidMover& mover = *bodies_[i];
@@ -346,17 +417,25 @@ double ContactSolver::measureSlip() const noexcept {
     if (law.D.ss == law.rho_t && law.D.tt == law.rho_t)
       most = std::max(most, radius * std::sqrt(law.w.s * law.w.s + law.w.t * law.w.t));
   }
+  for (const HoldLaw& law : hold_laws_) {
+    const double stiffness[3] = {law.D.nn, law.D.ss, law.D.tt};
+    for (int i = 0; i < law.count; ++i)
+      if (stiffness[i] > 0.0) most = std::max(most, law.hold[i]->reach * std::abs(law.u[i]));
+  }
   return most;
 }
 
 void ContactSolver::keepAnswer() noexcept {
   answer_.assign(points_.begin(), points_.end());
   twist_answer_.assign(twists_.begin(), twists_.end());
+  hold_answer_.assign(hold_laws_.begin(), hold_laws_.end());
+  has_answer_ = true;
 }
 
 void ContactSolver::takeAnswer() noexcept {
   points_.assign(answer_.begin(), answer_.end());
   twists_.assign(twist_answer_.begin(), twist_answer_.end());
+  hold_laws_.assign(hold_answer_.begin(), hold_answer_.end());
 }
 
 void ContactSolver::finish() noexcept {
@@ -373,10 +452,17 @@ void ContactSolver::finish() noexcept {
     row.applyTwist(law.T - law.held);
     row.twist = law.T;
   }
+  for (const HoldLaw& law : hold_laws_)
+    for (int i = 0; i < law.count; ++i) {
+      JointHold& hold = *law.hold[i];
+      hold.apply(law.P[i] - hold.held);
+      hold.impulse = law.P[i];
+    }
 }
 
-void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps) noexcept {
-  // Friction of sliding points is no matter of positions.
+void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps,
+                           const std::vector<double>& ways) noexcept {
+  // Friction of sliding points and motors are no matter of positions.
   bool slides = false;
   for (PointLaw& point : points_) {
     if (point.mode != RigidRow::Mode::kSlide) continue;
@@ -384,6 +470,15 @@ void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps) noexcept {
     point.D.nn = point.rho_n;
     slides = true;
   }
+  std::size_t next_way = 0;
+  for (HoldLaw& law : hold_laws_)
+    for (int i = 0; i < law.count; ++i) {
+      law.u[i] = ways[next_way++];
+      if (law.hold[i]->row.law != JointLaw::kMotor) continue;
+      double& stiffness = i == 0 ? law.D.nn : i == 1 ? law.D.ss : law.D.tt;
+      slides |= stiffness != 0.0;
+      stiffness = 0.0;
+    }
   gatherStiffness();
   ContactFactor& factor = slides ? factor_->positions : factor_->whole;
   if (!factor.isNear(J_, D_, first_)) {
@@ -399,6 +494,11 @@ void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps) noexcept {
       const ContactStiffness& D = D_[i];
       const RigidRow::Local& u = points_[i].u;
       addPush(J_[i], {-D.nn * u.n, -D.ss * u.s - D.st * u.t, -D.st * u.s - D.tt * u.t});
+    }
+    for (std::size_t i = 0; i < hold_laws_.size(); ++i) {
+      const HoldLaw& law = hold_laws_[i];
+      addPush(J_[firstHold() + i],
+              {-law.D.nn * law.u[0], -law.D.ss * law.u[1], -law.D.tt * law.u[2]});
     }
     factor.solve(dx_);
     addMotions();

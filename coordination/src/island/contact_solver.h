@@ -5,11 +5,12 @@
 
 #include "island/contact_factor.h"
 #include "island/contact_law.h"
+#include "island/joint_hold.h"
 #include "island/rigid_row.h"
 
 namespace tandem {
 
-/// Solves the impulses of a group of touching bodies to their end, all points at once.
+/// Solves the impulses of a group of touching and joined bodies to their end, all at once.
 ///
 /// The unknown is the change x of velocity of all bodies, in units in which each has mass and
 /// inertia 1. Each point has the law of PointLaw, with multipliers P0 and slip u:
@@ -18,11 +19,12 @@ namespace tandem {
 ///
 /// Modes (open, stick, slide) of the last step are tried first: a contact that lasts needs one
 /// factorisation. The matrix is never singular, however many corners share a load. They share it
-/// as they did before. Real-time safe after the constructor.
+/// as they did before. A joint's row has the same law, with bounds of its impulse instead of a
+/// cone: none if it is locked, 0 and none for a limit. Real-time safe after the constructor.
 class ContactSolver {
  public:
   /// Allocates.
-  ContactSolver(std::size_t max_bodies, std::size_t max_points);
+  ContactSolver(std::size_t max_bodies, std::size_t max_points, std::size_t max_holds = 0);
 
   /// Before an advance of the island: its work is bounded.
   void startAdvance() noexcept { work_left_ = kMaxWork; }
@@ -37,11 +39,13 @@ class ContactSolver {
   /// and modes, and moves on the movers' velocities. False: modes have not settled, or there are
   /// too many bodies. Then the rows are unchanged.
   [[nodiscard]] bool solve(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
-                           std::size_t mover_count) noexcept;
+                           std::size_t mover_count, JointHold* const* holds = nullptr,
+                           std::size_t hold_count = 0) noexcept;
 
   /// After solve(). Shifts the movers' poses so that each pushing point moves by `-gap` [m] along
-  /// its normal and, if it sticks, its tangents. `gaps` is by row.
-  void repair(const std::vector<RigidRow::Local>& gaps) noexcept;
+  /// its normal and, if it sticks, its tangents. `gaps` is by row. Rows of joints that hold move by
+  /// `-ways`, by hold.
+  void repair(const std::vector<RigidRow::Local>& gaps, const std::vector<double>& ways) noexcept;
 
   [[nodiscard]] std::uint64_t factorisations() const noexcept { return factorisation_count_; }
 
@@ -57,14 +61,25 @@ class ContactSolver {
     bool are_forced = false;  ///< some are not those of the present velocities
   };
 
-  void orderBodies(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
-                   std::size_t mover_count) noexcept;
+  /// Up to three rows of a joint. Bounds are those of their impulses.
+  struct HoldLaw {
+    JointHold* hold[3] = {};
+    int count = 0;
+    double u[3] = {}, P0[3] = {}, P[3] = {}, rho[3] = {};
+    ContactStiffness D;
+
+    void respond() noexcept;
+  };
+
+  void orderBodies(RigidMover* const* movers, std::size_t mover_count) noexcept;
   void setUp() noexcept;
   [[nodiscard]] bool settle() noexcept;
   void soften() noexcept;
   void updateMultipliers() noexcept;
   void setUpPoint(std::size_t point) noexcept;
   void setUpTwist(std::size_t twist) noexcept;
+  void setUpHolds() noexcept;
+  [[nodiscard]] std::size_t firstHold() const noexcept { return points_.size() + twists_.size(); }
   void shapeMatrix() noexcept;
   void respond(std::size_t twist) noexcept;
   void gatherStiffness() noexcept;
@@ -86,9 +101,13 @@ class ContactSolver {
   std::vector<PointLaw> points_;       ///< by point
   std::vector<std::size_t> point_of_;  ///< by twist
   std::vector<TwistLaw> twists_;       ///< by twist
-  std::vector<PointLaw> answer_;       ///< nearly settled; empty: none yet
+  std::vector<JointHold*> holds_;
+  std::vector<HoldLaw> hold_laws_;
+  bool has_answer_ = false;
+  std::vector<PointLaw> answer_;  ///< nearly settled
   std::vector<TwistLaw> twist_answer_;
-  std::vector<ContactJacobian> J_;   ///< of points, then of twists
+  std::vector<HoldLaw> hold_answer_;
+  std::vector<ContactJacobian> J_;   ///< of points, then of twists, then of joints
   std::vector<ContactStiffness> D_;  ///< the same
   std::vector<Factors> factors_;     ///< by group; the last for impacts and many groups
   std::size_t next_factor_ = 0;

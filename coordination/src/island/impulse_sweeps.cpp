@@ -35,11 +35,13 @@ RigidRow::Mode findMode(const RigidRow& row) noexcept {
 }  // namespace
 
 std::size_t sweepImpulses(const ContactGroups::Group& group) noexcept {
-  const auto patient_sweeps = static_cast<int>(kPatientRelaxations / group.row_count);
+  const std::size_t count = group.row_count + group.hold_count;
+  const auto patient_sweeps = static_cast<int>(kPatientRelaxations / count);
   (void)measureChange(group);
   RigidRow* const* const end = group.rows + group.row_count;
   int sweeps = 0;
   while (sweeps < kMaxSweeps) {
+    for (auto hold = group.holds; hold != group.holds + group.hold_count; ++hold) (*hold)->solve();
     // Alternate the direction, so that a change at one end of a row reaches the other in one sweep.
     if (sweeps % 2 == 0) {
       for (auto row = group.rows; row != end; ++row) (*row)->solve();
@@ -54,7 +56,7 @@ std::size_t sweepImpulses(const ContactGroups::Group& group) noexcept {
     (*row)->mode = findMode(**row);
     (*row)->is_swept = true;
   }
-  return static_cast<std::size_t>(sweeps) * group.row_count;
+  return static_cast<std::size_t>(sweeps) * count;
 }
 
 }  // namespace tandem

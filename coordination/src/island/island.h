@@ -11,6 +11,7 @@
 #include "island/collision_filter.h"
 #include "island/contact_finder.h"
 #include "island/contact_tally.h"
+#include "island/joint_source.h"
 #include "island/virtual_coupler.h"
 
 #pragma GCC visibility push(default)
@@ -141,6 +142,9 @@ class Island {
   void setFilter(BodyIndex body, const CollisionFilter& filter);
   /// Sets the finder of rigid contacts; null: there are none. It must outlive the island.
   void setContactFinder(ContactFinder* finder);
+  /// Sets the source of joints; null: there are none. It must outlive the island. Joints are not
+  /// for a guided island. wake() after they have changed.
+  void setJointSource(JointSource* joints);
   /// Builds the exact maps of everything added.
   void prepare();
   /// @}

@@ -56,11 +56,13 @@ void IslandCatchUp::setAside(IslandModel& model, const std::vector<BodyIndex>& s
   couplers_.clear();
   contacts_.clear();
   swapPast(model);
+  model.joins_slots_only = true;
   obstacles_ = std::exchange(model.obstacles, nullptr);
 }
 
 void IslandCatchUp::takeBack(IslandModel& model) noexcept {
   swapPast(model);
+  model.joins_slots_only = false;
   model.obstacles = obstacles_;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "island/island.h"
+#include "island/joint_source.h"
 #include "island/touch_memory.h"
 #include "island/touched_faces.h"
 
@@ -99,12 +101,18 @@ struct IslandModel {
   std::vector<BodyIndex> slots;
   const std::vector<Obstacle>* obstacles = nullptr;
   ContactFinder* finder = nullptr;
+  JointSource* joints = nullptr;
+  bool joins_slots_only = false;  ///< the others' joints have acted already: IslandCatchUp
   TouchMemory memory;
   TouchedFaces faces;
   bool remembers_touches = true;  ///< Island::setTouchMemory()
   bool has_jumps = false;         ///< since the last advance some body or obstacle came or jumped
   bool has_arrivals = false;      ///< some obstacle came or moved, and no contact knows it yet
 
+  /// True if a joint between two bodies acts in the present advance.
+  [[nodiscard]] bool isJoinedNow(BodyIndex a, BodyIndex b) const noexcept {
+    return !joins_slots_only || isIn(slots, a) || isIn(slots, b);
+  }
   /// True if the filters of the two let them touch.
   [[nodiscard]] bool letsMeet(BodyIndex a, BodyIndex b) const noexcept {
     return bodies[a].settings.filter.meets(bodies[b].settings.filter);
@@ -127,6 +135,11 @@ struct IslandModel {
   void wake(BodyIndex body) noexcept {
     is_listed = is_listed && !bodies[body].is_asleep;
     bodies[body].is_asleep = false;
+  }
+
+ private:
+  [[nodiscard]] static bool isIn(const std::vector<BodyIndex>& list, BodyIndex body) noexcept {
+    return std::find(list.begin(), list.end(), body) != list.end();
   }
 };
 

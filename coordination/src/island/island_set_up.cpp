@@ -116,6 +116,11 @@ void Island::setContactFinder(ContactFinder* finder) {
   wake();
 }
 
+void Island::setJointSource(JointSource* joints) {
+  impl_->model.joints = joints;
+  wake();
+}
+
 void Island::prepare() {
   Impl& impl = *impl_;
   impl.counters = {};

@@ -38,10 +38,17 @@ struct JointRow {
   double low = 0.0, high = 0.0;
 };
 
+/// Most rows of a joint: six locked or limited ones, six motors, six springs, and some to spare.
+/// JointRow::number is below it.
+inline constexpr int kMostJointRows = 24;
+
+/// Most joints of an island.
+inline constexpr std::size_t kMaxJoints = 256;
+
 /// A joint between two bodies of the island, or of one and a fixed place.
 struct JointEnds {
-  BodyIndex a = 0;
-  BodyIndex b = kStanding;
+  BodyIndex a = kStanding, b = kStanding;
+  const void* id = nullptr;  ///< another joint has another one
 };
 
 /// Tells how joints hold bodies of the island.
@@ -53,17 +60,16 @@ class JointSource {
  public:
   virtual ~JointSource() = default;
 
-  /// The joints that act now. They change only between advances.
+  /// The joints that act now, at most kMaxJoints. They change only between advances.
   [[nodiscard]] virtual const std::vector<JointEnds>& joints() const noexcept = 0;
+  /// Relative rounding of the rows' directions.
+  [[nodiscard]] virtual double rounding() const noexcept = 0;
 
   /// Adds the rows of a joint at given poses and velocities of its ends, at most kMostJointRows.
   /// The state of a fixed end is unused. Limits that are far may be missing.
   virtual void evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                         std::vector<JointRow>& rows) noexcept = 0;
 };
-
-/// Most rows of a joint: six locked or limited ones, six motors, six springs.
-inline constexpr std::size_t kMostJointRows = 18;
 
 }  // namespace tandem
 #pragma GCC visibility pop

@@ -33,20 +33,27 @@ constexpr int kMaxImpactTries = 8;
 constexpr int kMaxTimesLearned = 2;
 /// Error of position that a change of force may make in a step [m].
 constexpr double kAllowedError = 3e-8;
+/// Rows of a joint.
+constexpr auto kMostHolds = static_cast<std::size_t>(kMostJointRows);
 
 }  // namespace
 
-RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity)
+RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity, std::size_t max_joints,
+                     JointForces& joints)
     : movers_(body_count),
       held_(body_count),
-      groups_(body_count, contact_capacity),
+      joints_(&joints),
+      groups_(body_count, contact_capacity, max_joints * kMostHolds),
       memory_(contact_capacity),
-      solver_(body_count, contact_capacity),
+      solver_(body_count, contact_capacity, max_joints * kMostHolds),
       allowance_(contact_capacity),
       allowance_before_(contact_capacity) {
   contacts_.reserve(contact_capacity);
   points_.reserve(contact_capacity);
   gaps_.reserve(contact_capacity);
+  ways_.reserve(max_joints * kMostHolds);
+  holds_.reserve(max_joints * kMostHolds);
+  if (max_joints > 0) joint_rows_.reserve(kMostHolds);
 }
 
 void RigidStep::forget() noexcept {
@@ -62,26 +69,50 @@ void RigidStep::begin() noexcept {
   latest_ = HUGE_VAL;
 }
 
+void RigidStep::answerBlows(const IslandModel& model, States& states) noexcept {
+  for (RigidMover& mover : movers_) mover.ready = false;
+  points_.clear();
+  setUpJoints(model, states, states, 0.0);
+  double fastest = 0.0;
+  for (JointHold& hold : holds_) {
+    const double u = hold.reach * hold.speed();
+    hold.is_impact = hold.row.law == JointLaw::kLimit && hold.reach * hold.row.way <= kSlop;
+    hold.startBlow();
+    if (hold.row.law == JointLaw::kLocked) fastest = std::max(fastest, std::abs(u));
+    if (hold.is_impact) fastest = std::max(fastest, -u);
+  }
+  if (fastest < kStandSpeed) return;
+  groups_.make(points_, holds_, movers_, [](const ContactPoint&) { return true; });
+  solver_.beginImpacts();
+  for (const ContactGroups::Group& group : groups_.groups()) (void)solve(group);
+  writeBack(states);
+}
+
 void RigidStep::holdForces(const States& before, double h) noexcept {
   for (Wrench& held : held_) held = {};
   memory_.hold(before, h, held_);
 }
 
-double RigidStep::correct(const IslandModel& model, ContactFinder& finder, const States& before,
-                          double h, double shortest, bool may_repeat, States& after) noexcept {
+double RigidStep::correct(const IslandModel& model, const States& before, double h, double shortest,
+                          bool may_repeat, States& after) noexcept {
   is_done_ = true;
   contacts_.clear();
-  finder.find(after, contacts_);
+  if (model.finder) model.finder->find(after, contacts_);
   setUp(model, before, after, h);
-  if (points_.empty() && memory_.isEmpty()) return h;
+  setUpJoints(model, before, after, h);
+  if (points_.empty() && holds_.empty() && memory_.isEmpty()) return h;
   const auto repeat = [&](double next) {
     is_done_ = false;
     allowance_ = allowance_before_;
     return next;
   };
-  if (const double impact = findImpacts(h); impact != h && may_repeat) {
+  const auto startAgain = [&] {
     times_learned_ = 0;
     memory_.startAgain();
+    joints_->memory().startAgain();
+  };
+  if (const double impact = findImpacts(h); impact != h && may_repeat) {
+    startAgain();
     return repeat(impact);
   }
   aim(h);
@@ -89,14 +120,14 @@ double RigidStep::correct(const IslandModel& model, ContactFinder& finder, const
   solveSteady(h);
   if (may_repeat && h * measureChange(after) > kAllowedError) {
     if (times_learned_ < kMaxTimesLearned &&
-        (hasUnknownForce() || h * measureEvents() < kAllowedError)) {
+        (hasUnknownForce() || haveJointModesChanged() || h * measureEvents() < kAllowedError)) {
       ++times_learned_;
       memory_.learn(points_, after, h);
+      learnJointModes();
       return repeat(h);
     }
     if (h > shortest * (1.0 + 1e-9)) {
-      times_learned_ = 0;
-      memory_.startAgain();
+      startAgain();
       return repeat(std::max(shortest, 0.5 * h));
     }
   }
@@ -104,6 +135,8 @@ double RigidStep::correct(const IslandModel& model, ContactFinder& finder, const
   solveImpacts();
   writeBack(after);
   memory_.keep(points_, after, h, kTellingPart * shortest);
+  learnJointModes();
+  joints_->memory().keep();
   return h;
 }
 
@@ -161,6 +194,60 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
   });
 }
 
+/// Asks for the rows of all joints at the end of the step.
+void RigidStep::setUpJoints(const IslandModel& model, const States& before, const States& after,
+                            double h) noexcept {
+  static const RigidState kNowhere;
+  holds_.clear();
+  const auto stateOf = [&](BodyIndex body) -> const RigidState& {
+    return body == kStanding ? kNowhere : after[static_cast<std::size_t>(body)];
+  };
+  const auto moverOf = [&](BodyIndex body) -> RigidMover* {
+    if (body == kStanding) return nullptr;
+    RigidMover& made = mover(body);
+    if (!made.ready) made = RigidMover(model.bodies[static_cast<std::size_t>(body)], stateOf(body));
+    return &made;
+  };
+  for (const JointForces::Joint& joint : joints_->joints()) {
+    RigidMover *const a = moverOf(joint.a), *const b = moverOf(joint.b);
+    joint_rows_.clear();
+    model.joints->evaluate(joint.index, stateOf(joint.a), stateOf(joint.b), joint_rows_);
+    for (const JointRow& row : joint_rows_) {
+      holds_.emplace_back();
+      JointHold& hold = holds_.back();
+      hold.joint = joint.index;
+      hold.body_a = joint.a;
+      hold.body_b = joint.b;
+      hold.row = row;
+      hold.a = a;
+      hold.b = b;
+      hold.setUp(joints_->memory().mode(joint.index, row), joints_->force(joint.index, row), h);
+      if (!(hold.inverse > 0.0)) {
+        holds_.pop_back();
+        continue;
+      }
+      const auto speedBefore = [&](BodyIndex body, double sign, const Vec3& turn_W) {
+        if (body == kStanding) return 0.0;
+        const RigidState& state = before[static_cast<std::size_t>(body)];
+        return sign * row.n_W.dot(state.v_W) + turn_W.dot(state.w_W);
+      };
+      hold.opening =
+          speedBefore(joint.a, 1.0, row.turn_a_W) + speedBefore(joint.b, -1.0, row.turn_b_W);
+      hold.at_start = row.way - 0.5 * h * (hold.opening + hold.speed());
+    }
+  }
+}
+
+bool RigidStep::haveJointModesChanged() const noexcept {
+  return std::any_of(holds_.begin(), holds_.end(),
+                     [](const JointHold& hold) { return hold.findMode() != hold.mode; });
+}
+
+void RigidStep::learnJointModes() noexcept {
+  for (const JointHold& hold : holds_)
+    joints_->memory().setMode(hold.joint, hold.row, hold.findMode());
+}
+
 /// A point that stuck, and belongs to one of its bodies, has slipped by the ways of both.
 /// Velocities do not tell: a force that begins within the step moves bodies before friction knows
 /// of it.
@@ -201,6 +288,17 @@ double RigidStep::findImpacts(double h) noexcept {
     earliest = std::min(earliest, time);
     is_late |= point.row.distance < -2.0 * kImpactOverlap;
   }
+  for (JointHold& hold : holds_) {
+    const double u = hold.reach * hold.speed(), way = hold.reach * hold.row.way;
+    const double at_start = hold.reach * hold.at_start;
+    if (hold.row.law != JointLaw::kLimit || hold.mode != JointMode::kIdle || u > -kImpactSpeed)
+      continue;
+    if (at_start < kImpactOverlap && hold.reach * hold.opening > -kImpactSpeed) continue;
+    hold.is_impact = way <= kSlop;
+    if (at_start < -2.0 * kImpactOverlap) continue;
+    earliest = std::min(earliest, (way + kImpactOverlap) / -u);
+    is_late |= way < -2.0 * kImpactOverlap;
+  }
   if (earliest == HUGE_VAL || impact_tries_ >= kMaxImpactTries) return h;
   const bool is_early = impact_tries_ > 0 && earliest > 0.0 && h + earliest < latest_;
   if (!is_late && !is_early) return h;
@@ -222,6 +320,13 @@ void RigidStep::aim(double h) noexcept {
     // An open point may be closed by other impulses, but no more. An overlap at the start that held
     // forces have opened asks for no velocity.
     if (row.distance > kSlop) row.wanted = std::min(0.0, u - row.distance / (0.5 * h));
+  }
+  for (JointHold& hold : holds_) {
+    hold.wanted = hold.row.speed;
+    if (hold.row.law != JointLaw::kLimit) continue;
+    if (hold.is_impact) hold.low = hold.high = 0.0;
+    if (hold.mode == JointMode::kHolds || hold.reach * hold.row.way < kRounding) continue;
+    hold.wanted = std::min(0.0, hold.speed() - hold.row.way / (0.5 * h));
   }
 }
 
@@ -249,7 +354,8 @@ void RigidStep::takeBackGone(const States& after, double h) noexcept {
 void RigidStep::solveSteady(double h) noexcept {
   point_count_ += points_.size();
   solver_.begin();
-  groups_.make(points_, movers_, [](const ContactPoint& point) { return !point.is_impact; });
+  groups_.make(points_, holds_, movers_,
+               [](const ContactPoint& point) { return !point.is_impact; });
   for (const ContactGroups::Group& group : groups_.groups()) {
     const bool is_settled = solve(group);
     for (std::size_t i = 0; i < group.row_count; ++i) {
@@ -258,7 +364,12 @@ void RigidStep::solveSteady(double h) noexcept {
       row.shift({time * (row.impulse.n - row.held.n), time * (row.impulse.s - row.held.s),
                  time * (row.impulse.t - row.held.t)});
     }
-    if (is_settled) closeGaps(group);
+    for (std::size_t i = 0; i < group.hold_count; ++i) {
+      JointHold& hold = *group.holds[i];
+      hold.steady = hold.impulse;
+      hold.shift(0.5 * h * (hold.impulse - hold.held));
+    }
+    if (is_settled) closeGaps(group, h);
   }
   for (ContactPoint& point : points_) {
     point.steady = point.is_impact ? RigidRow::Local{} : point.row.impulse;
@@ -305,7 +416,7 @@ double RigidStep::measureEvents() const noexcept {
   return most;
 }
 
-void RigidStep::closeGaps(const ContactGroups::Group& group) noexcept {
+void RigidStep::closeGaps(const ContactGroups::Group& group, double h) noexcept {
   gaps_.clear();
   double widest = 0.0;
   for (std::size_t i = 0; i < group.row_count; ++i) {
@@ -321,14 +432,24 @@ void RigidStep::closeGaps(const ContactGroups::Group& group) noexcept {
     if (row.mode != RigidRow::Mode::kOpen)
       widest = std::max({widest, std::abs(gap.n), std::abs(gap.s), std::abs(gap.t)});
   }
-  if (widest > kClosed) solver_.repair(gaps_);
+  ways_.clear();
+  for (std::size_t i = 0; i < group.hold_count; ++i) {
+    const JointHold& hold = *group.holds[i];
+    const double most = kMaxShiftSpeed * h / hold.reach;
+    ways_.push_back(std::clamp(hold.row.way + hold.shifted(), -most, most));
+    if (hold.row.law != JointLaw::kMotor && hold.findMode() == JointMode::kHolds)
+      widest = std::max(widest, hold.reach * std::abs(ways_.back()));
+  }
+  if (widest > kClosed) solver_.repair(gaps_, ways_);
 }
 
 /// Solves for impulses that act at the end of the step. All points that touch take part.
 void RigidStep::solveImpacts() noexcept {
-  if (std::none_of(points_.begin(), points_.end(),
-                   [](const ContactPoint& point) { return point.is_impact; }))
+  const auto isImpact = [](const auto& one) { return one.is_impact; };
+  if (std::none_of(points_.begin(), points_.end(), isImpact) &&
+      std::none_of(holds_.begin(), holds_.end(), isImpact))
     return;
+  for (JointHold& hold : holds_) hold.startBlow();
   for (ContactPoint& point : points_) {
     RigidRow& row = point.row;
     const double u = row.normalVelocity();
@@ -342,7 +463,7 @@ void RigidStep::solveImpacts() noexcept {
   // First as if nothing else touched, then with all: a blow spreads from where it struck. Where
   // several ways share it, that chooses one.
   const auto solveAll = [&](auto counts) {
-    groups_.make(points_, movers_, counts);
+    groups_.make(points_, holds_, movers_, counts);
     solver_.beginImpacts();
     for (const ContactGroups::Group& group : groups_.groups()) (void)solve(group);
     for (ContactPoint& point : points_) {
@@ -350,17 +471,21 @@ void RigidStep::solveImpacts() noexcept {
       point.row.twist_held = point.row.twist;
       point.row.mode = RigidRow::Mode::kUnknown;
     }
+    for (JointHold& hold : holds_) hold.held = hold.impulse;
   };
   solveAll([](const ContactPoint& point) { return point.is_impact; });
   solveAll([](const ContactPoint& point) {
     return point.is_impact || point.steady.n > 0.0 || point.row.distance <= kSlop;
   });
   for (ContactPoint& point : points_) point.blow = point.row.impulse;
+  for (JointHold& hold : holds_) hold.endBlow();
 }
 
 /// False if sweeps had to do what the solver could not.
 bool RigidStep::solve(const ContactGroups::Group& group) noexcept {
-  if (solver_.solve(group.rows, group.row_count, group.movers, group.mover_count)) return true;
+  if (solver_.solve(group.rows, group.row_count, group.movers, group.mover_count, group.holds,
+                    group.hold_count))
+    return true;
   relaxation_count_ += sweepImpulses(group);
   return false;
 }

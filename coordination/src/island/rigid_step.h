@@ -7,6 +7,8 @@
 #include "island/contact_groups.h"
 #include "island/contact_memory.h"
 #include "island/contact_solver.h"
+#include "island/joint_forces.h"
+#include "island/joint_hold.h"
 #include "island/overlap_allowance.h"
 #include "island/rigid_row.h"
 #include "island/touch.h"
@@ -17,7 +19,7 @@ namespace tandem {
 inline constexpr std::size_t kMaxRigidContacts = 512;
 
 // clang-format off
-/// Keeps rigid bodies apart over a step, with Coulomb friction.
+/// Keeps rigid bodies apart over a step, with Coulomb friction, and joined ones together.
 ///
 ///   forces expected of known contacts are held  ->  smooth motion over h  ->  contacts at its end
 ///     -> a new one closed within the step: an impact. Once more, up to its moment
@@ -27,18 +29,23 @@ inline constexpr std::size_t kMaxRigidContacts = 512;
 ///     -> impacts act at the end, in no time
 ///
 /// While a set of contacts lasts, and sticks or slides as before, a step may be as long as a tick,
-/// and is of second order. A body at rest neither sinks nor creeps nor bounces. Overlap is moved
+/// and is of second order. Joints push within the smooth motion (JointForces): only their change by
+/// contacts, limits and motors is left. A body at rest neither sinks nor creeps nor bounces. Overlap is moved
 /// out of positions only, at a limited speed. OverlapAllowance handles the host's overlap.
 // clang-format on
 class RigidStep {
  public:
   /// Allocates.
-  RigidStep(std::size_t body_count, std::size_t contact_capacity);
+  RigidStep(std::size_t body_count, std::size_t contact_capacity, std::size_t max_joints,
+            JointForces& joints);
 
   /// Begins an advance of one step or several: its work is bounded.
   void startAdvance() noexcept { solver_.startAdvance(); }
   /// False once that work is done: steps are taken as they are.
   [[nodiscard]] bool hasWorkLeft() const noexcept { return solver_.hasWorkLeft(); }
+  /// Joints answer impulses that the bodies got since the last advance: velocities that no joint
+  /// allows change at once.
+  void answerBlows(const IslandModel& model, States& states) noexcept;
   /// Begins a step, or repeats it with another length of `h` [s].
   void begin() noexcept;
   /// Turns the expected contact forces into forces on the bodies.
@@ -50,9 +57,8 @@ class RigidStep {
   /// [s]. Returns h if the step is done, or else the length with which to repeat it from
   /// holdForces() on: if it `may_repeat`, and at least `shortest` unless an impact comes sooner.
   /// Real-time safe.
-  [[nodiscard]] double correct(const IslandModel& model, ContactFinder& finder,
-                               const States& before, double h, double shortest, bool may_repeat,
-                               States& after) noexcept;
+  [[nodiscard]] double correct(const IslandModel& model, const States& before, double h,
+                               double shortest, bool may_repeat, States& after) noexcept;
   /// After a correct() that is not done: whether the same length is to be tried again.
   [[nodiscard]] bool isDone() const noexcept { return is_done_; }
 
@@ -84,13 +90,17 @@ class RigidStep {
   [[nodiscard]] double distanceOf(const ContactPoint& point) const noexcept;
   [[nodiscard]] double findImpacts(double h) noexcept;
   void anchor(ContactPoint& point, const States& after, double h) noexcept;
+  void setUpJoints(const IslandModel& model, const States& before, const States& after,
+                   double h) noexcept;
+  [[nodiscard]] bool haveJointModesChanged() const noexcept;
+  void learnJointModes() noexcept;
   void aim(double h) noexcept;
   void takeBackGone(const States& after, double h) noexcept;
   void solveSteady(double h) noexcept;
   [[nodiscard]] double measureChange(const States& after) const noexcept;
   [[nodiscard]] bool hasUnknownForce() const noexcept;
   [[nodiscard]] double measureEvents() const noexcept;
-  void closeGaps(const ContactGroups::Group& group) noexcept;
+  void closeGaps(const ContactGroups::Group& group, double h) noexcept;
   void solveImpacts() noexcept;
   [[nodiscard]] bool solve(const ContactGroups::Group& group) noexcept;
   void moveOutOfOverlap(double h) noexcept;
@@ -102,6 +112,10 @@ class RigidStep {
   std::vector<ContactPoint> points_;
   std::vector<Wrench> held_;           ///< by body
   std::vector<RigidRow::Local> gaps_;  ///< working memory of closeGaps()
+  std::vector<double> ways_;           ///< the same
+  JointForces* joints_;
+  std::vector<JointHold> holds_;
+  std::vector<JointRow> joint_rows_;  ///< working memory of setUpJoints()
   ContactGroups groups_;
   ContactMemory memory_;
   ContactSolver solver_;

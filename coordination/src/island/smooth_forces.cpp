@@ -13,8 +13,8 @@ constexpr int kWay = 6, kWayAndTurn = SmoothForces::kMaxSize;
 
 }  // namespace
 
-SmoothForces::SmoothForces(const IslandModel& model, std::size_t max_touches)
-    : period_(model.settings.haptic_period) {
+SmoothForces::SmoothForces(const IslandModel& model, std::size_t max_touches, JointForces& joints)
+    : period_(model.settings.haptic_period), joints_(joints) {
   const std::size_t n = model.bodies.size();
   movers_.reserve(n);
   springs_.reserve(model.couplers.size());
@@ -34,6 +34,10 @@ void SmoothForces::choose(const IslandModel& model, const std::vector<char>& tog
     if (together[b]) addMover(model, b, alone[b]);
   }
   tieCouplers(model);
+  for (const BodyIndex b : joints_.ends()) {
+    const auto frame = static_cast<std::size_t>(findFrame(model, b));
+    if (frame < movers_.size()) movers_[frame].needs_rotation = movers_[frame].turns;
+  }
   for (const Touch& touch : touches) addContact(model, touch);
 }
 
@@ -201,6 +205,7 @@ void SmoothForces::evaluate(double t, const double* y, double* k, Look look) noe
   for (Contact& contact : contacts_)
     if (contact.pushes || look != Look::kPushing) push(contact, look);
   computeRates(y, k);
+  if (!joints_.isEmpty()) join(t, y, k);
 }
 
 void SmoothForces::acceptFaces() noexcept {
@@ -329,6 +334,48 @@ void SmoothForces::computeRates(const double* y, double* k) const noexcept {
     }
     (alpha - mover.turn_rate * w).store(rates + kW);
     rates[kWayAndTurn - 1] = 0.0;
+  }
+}
+
+/// Adds what joints do to the rates.
+void SmoothForces::join(double t, const double* y, double* k) noexcept {
+  const auto moverOf = [&](BodyIndex b) -> const Mover* {
+    const auto frame = static_cast<std::size_t>(frame_of_[b]);
+    return frame < movers_.size() ? &movers_[frame] : nullptr;
+  };
+  for (const BodyIndex b : joints_.ends()) {
+    JointForces::End& end = joints_.end(b);
+    const Frame& frame = frames_[frame_of_[b]];
+    end = {};
+    end.state.p_W = frame.p.toVec3();
+    end.state.v_W = frame.v.toVec3();
+    end.state.w_W = frame.w.toVec3();
+    if (const Mover* mover = moverOf(b)) {
+      const double* rates = k + mover->offset;
+      end.a_W = PlainVec(rates + 3).toVec3();
+      if (!mover->turns) continue;
+      end.state.q_WB = Quat(y + mover->offset + kQ).normalized();
+      end.alpha_W = PlainVec(rates + kW).toVec3();
+    }
+  }
+  for (const Driven& driven : driven_) {
+    if (!joints_.isEnd(driven.body)) continue;
+    RigidState& state = joints_.end(driven.body).state;
+    state.q_WB = driven.q_WB;
+    if (driven.turns) {
+      const Vec3 p_W = state.p_W;
+      goOn(state, t);
+      state.p_W = p_W;
+    }
+    // A held body stays: its velocity counts in dampers only.
+    if (!driven.goes_on) state.v_W = state.w_W = Vec3::Zero();
+  }
+  joints_.solve();
+  for (const BodyIndex b : joints_.ends()) {
+    const Mover* mover = moverOf(b);
+    if (!mover) continue;
+    PlainVec(joints_.end(b).a_W).store(k + mover->offset + 3);
+    if (mover->turns) PlainVec(joints_.end(b).alpha_W).store(k + mover->offset + kW);
   }
 }
 

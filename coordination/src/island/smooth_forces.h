@@ -4,6 +4,7 @@
 
 #include "geometry/separation.h"
 #include "island/island_model.h"
+#include "island/joint_forces.h"
 #include "island/touch.h"
 
 namespace tandem {
@@ -69,9 +70,10 @@ class SmoothForces {
   };
 
   /// Allocates.
-  explicit SmoothForces(const IslandModel& model, std::size_t max_touches);
+  SmoothForces(const IslandModel& model, std::size_t max_touches, JointForces& joints);
 
-  /// Selects the bodies and touches for the coming steps. A body that is `alone` only rotates.
+  /// Selects the bodies and touches for the coming steps, after JointForces::choose(). A body that
+  /// is `alone` only rotates.
   void choose(const IslandModel& model, const std::vector<char>& together,
               const std::vector<char>& alone, const std::vector<Touch>& touches) noexcept;
 
@@ -133,10 +135,12 @@ class SmoothForces {
                                            Look look) noexcept;
   void push(Contact& contact, Look look) noexcept;
   void computeRates(const double* y, double* k) const noexcept;
+  void join(double t, const double* y, double* k) noexcept;
   static void accelerateByFactors(const Mover& mover, const Frame& frame, double* rates) noexcept;
   [[nodiscard]] static PlainVec turnByFactors(const Mover& mover, const Frame& frame) noexcept;
 
   double period_;
+  JointForces& joints_;
   int size_ = 0;
   std::vector<Mover> movers_;  ///< frames_ starts with their frames, in the same order
   std::vector<TurnSpring> springs_;

@@ -31,8 +31,8 @@ constexpr double kShortest = 1.0 / 1024.0;
 
 }  // namespace
 
-SmoothMotion::SmoothMotion(const IslandModel& model, std::size_t max_touches)
-    : forces_(model, max_touches),
+SmoothMotion::SmoothMotion(const IslandModel& model, std::size_t max_touches, JointForces& joints)
+    : forces_(model, max_touches, joints),
       period_(model.settings.haptic_period),
       tolerance_(model.settings.tolerance) {
   const auto size = static_cast<Eigen::Index>(SmoothForces::kMaxSize * model.bodies.size());

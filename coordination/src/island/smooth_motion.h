@@ -16,7 +16,7 @@ namespace tandem {
 class SmoothMotion {
  public:
   /// Allocates.
-  SmoothMotion(const IslandModel& model, std::size_t max_touches);
+  SmoothMotion(const IslandModel& model, std::size_t max_touches, JointForces& joints);
 
   /// Recomputes the limits from gains and masses, after a slot was filled or cleared.
   void chooseLimits(const IslandModel& model) noexcept;

@@ -35,6 +35,12 @@ std::size_t countMostTouches(const IslandModel& model) {
   return model.contacts.size() + kMaxObstacleTouches + kMaxSlotTouches * model.slots.size();
 }
 
+std::size_t countMostContacts(const IslandModel& model) {
+  return model.finder ? kMaxRigidContacts : 0;
+}
+
+std::size_t countMostJoints(const IslandModel& model) { return model.joints ? kMaxJoints : 0; }
+
 bool isSame(const Touch& a, const Touch& b) noexcept {
   return a.sphere == b.sphere && a.other == b.other && a.obstacle == b.obstacle &&
          a.piece == b.piece;
@@ -47,16 +53,19 @@ bool any(const std::vector<char>& flags) noexcept {
 }  // namespace
 
 SpatialMotion::SpatialMotion(const IslandModel& model)
-    : rigid_step_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
-      rigid_step_aside_(model.bodies.size(), model.finder ? kMaxRigidContacts : 0),
-      tally_(model.finder ? kMaxRigidContacts : 0),
-      smooth_(model, countMostTouches(model)),
+    : joints_(model.bodies.size(), countMostJoints(model)),
+      joint_memory_aside_(countMostJoints(model)),
+      rigid_step_(model.bodies.size(), countMostContacts(model), countMostJoints(model), joints_),
+      rigid_step_aside_(model.bodies.size(), countMostContacts(model), countMostJoints(model),
+                        joints_),
+      tally_(countMostContacts(model)),
+      smooth_(model, countMostTouches(model), joints_),
       sleepers_(model) {
   const std::size_t n = model.bodies.size();
   alone_motion_.resize(n);
   for (std::size_t b = 0; b < n; ++b) prepareAlone(model, static_cast<BodyIndex>(b));
-  for (auto* flags :
-       {&alone_, &turns_, &together_, &rigid_near_, &resting_, &awake_, &at_rest_, &resting_aside_})
+  for (auto* flags : {&alone_, &turns_, &together_, &rigid_near_, &resting_, &awake_, &at_rest_,
+                      &joined_, &resting_aside_})
     flags->resize(n);
   for (auto* values : {&allowance_, &reach_, &still_, &still_aside_}) values->resize(n);
   touches_.reserve(countMostTouches(model));
@@ -80,7 +89,9 @@ void SpatialMotion::refit(const IslandModel& model, BodyIndex b, bool is_damping
 
 void SpatialMotion::setAside() noexcept {
   std::swap(rigid_step_, rigid_step_aside_);
+  std::swap(joints_.memory(), joint_memory_aside_);
   rigid_step_.forget();
+  joints_.memory().forget();
   is_aside_ = true;
   resting_aside_ = resting_;
   still_aside_ = still_;
@@ -89,6 +100,7 @@ void SpatialMotion::setAside() noexcept {
 void SpatialMotion::takeBack(const IslandModel& model,
                              const std::vector<BodyIndex>& slots) noexcept {
   std::swap(rigid_step_, rigid_step_aside_);
+  std::swap(joints_.memory(), joint_memory_aside_);
   is_aside_ = false;
   for (std::size_t b = 0; b < resting_.size(); ++b) prepareAlone(model, static_cast<BodyIndex>(b));
   smooth_.chooseLimits(model);
@@ -126,6 +138,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
   if (!is_aside_) tally_.startAdvance();
 
   if (any(together_)) {
+    joints_.choose(model, together_);
     smooth_.choose(model, together_, alone_, touches_);
     advanceTogether(model, dt, counters);
   }
@@ -150,6 +163,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
         forEachPiece(model, touch, states_, allowance,
                      [&](const Touch& piece, double) { addTouch(model, piece); });
     });
+    joints_.choose(model, together_);
     smooth_.choose(model, together_, alone_, touches_);
     advanceTogether(model, dt, counters);
     advanceAlone(model, dt);
@@ -173,11 +187,12 @@ void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& co
     if (s.w_W != Vec3::Zero()) speed += s.w_W.norm() * body.bounding_radius;
     allowance_[b] = 2.0 * dt * speed + 0.5 * kWatchDistance;
   }
+  findJoined(model);
   sleepers_.wakeNear(model, states_, allowance_);
   findTouches(model, counters);
   lookAround(model);
   for (const BodyIndex b : model.present)
-    alone_[b] = model.bodies[b].isDynamic() && !rigid_near_[b] && !resting_[b];
+    alone_[b] = model.bodies[b].isDynamic() && !rigid_near_[b] && !resting_[b] && !joined_[b];
   for (const Touch& touch : touches_) alone_[touch.sphere] = alone_[touch.other] = 0;
 
   for (const BodyIndex b : model.present) {
@@ -335,10 +350,11 @@ bool SpatialMotion::mustRepeat(IslandModel& model, double dt) noexcept {
 
 void SpatialMotion::advanceTogether(const IslandModel& model, double dt,
                                     IslandCounters& counters) noexcept {
-  bool near_rigid = false;
+  bool near_rigid = !joints_.isEmpty();
   for (const BodyIndex b : model.present) near_rigid |= rigid_near_[b] && together_[b];
   if (!near_rigid) {
     rigid_step_.forget();
+    joints_.memory().forget();
     smooth_.hold(rigid_step_.heldForces());
     return smooth_.advance(states_, dt, counters);
   }
@@ -357,6 +373,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
   double length = longest;
   int tries_left = kMaxTries;
   rigid_step_.startAdvance();
+  if (were_joined_pushed_) rigid_step_.answerBlows(model, states_);
   for (double rest = dt; rest > 1e-12 * dt;) {
     // Even parts: a short last step would cost as much as a long one.
     double h = rest / std::max(1.0, std::ceil(rest / length * (1.0 - 1e-9)));
@@ -371,7 +388,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
       // Prescribed bodies move on with the others.
       for (const BodyIndex b : model.present)
         if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
-      const double next = rigid_step_.correct(model, *model.finder, before_rigid_, h, shortest,
+      const double next = rigid_step_.correct(model, before_rigid_, h, shortest,
                                               tries_left > 0 && rigid_step_.hasWorkLeft(), states_);
       is_done = rigid_step_.isDone();
       if (!is_done) h = std::min(next, rest);
@@ -390,6 +407,22 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
   if (tries_left <= 0 || !rigid_step_.hasWorkLeft()) ++counters.rigid_bounded;
 }
 
+/// Finds the bodies that joints hold; they are never left alone.
+void SpatialMotion::findJoined(const IslandModel& model) noexcept {
+  if (!model.joints) return;
+  were_joined_pushed_ = false;
+  std::fill(joined_.begin(), joined_.end(), char{0});
+  joints_.memory().follow(model.joints->joints());
+  for (const JointEnds& joint : model.joints->joints()) {
+    if (!model.isJoinedNow(joint.a, joint.b)) continue;
+    for (const BodyIndex b : {joint.a, joint.b})
+      if (b != kStanding) {
+        joined_[static_cast<std::size_t>(b)] = 1;
+        were_joined_pushed_ |= model.bodies[static_cast<std::size_t>(b)].disturbed;
+      }
+  }
+}
+
 /// Finds the bodies that may touch something rigid. Wakes those at rest that an awake one may
 /// touch.
 void SpatialMotion::lookAround(IslandModel& model) noexcept {
@@ -397,6 +430,8 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
   if (!model.finder) return;
   for (const Touch& touch : touches_)
     for (const BodyIndex b : {touch.sphere, touch.other}) resting_[b] = 0;
+  for (const BodyIndex b : model.present)
+    if (joined_[b]) resting_[b] = 0;
   for (const BodyIndex b : model.present) {
     ModelBody& body = model.bodies[b];
     const bool is_rigid = body.is_active && body.settings.is_rigid;
@@ -423,7 +458,7 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
 /// Freezes a body that a rigid contact holds still for a while, until it is touched or disturbed.
 void SpatialMotion::letRest(const IslandModel& model, double dt) noexcept {
   for (const BodyIndex b : model.present) {
-    if (resting_[b]) continue;
+    if (resting_[b] || joined_[b]) continue;
     RigidState& state = states_[b];
     const ModelBody& body = model.bodies[b];
     if (!body.isDynamic()) continue;

@@ -18,7 +18,8 @@ namespace tandem {
 ///   alone with its couplers  -> exact map of translation (OscillatorMap), and of rotation while no
 ///                               torque acts
 ///   in reach of a contact    -> SmoothMotion, which locates contacts made and broken in the step
-///   near something rigid     -> SmoothMotion in inner steps, each corrected by RigidStep
+///   near something rigid,    -> SmoothMotion in inner steps, each corrected by RigidStep
+///   or in a joint
 ///
 /// A body counts as alone while nothing can reach it within the step. If the end shows that
 /// something did, the step is repeated with contact.
@@ -53,7 +54,7 @@ class SpatialMotion {
   [[nodiscard]] bool isResting(BodyIndex b) const noexcept { return resting_[b]; }
   /// True if it stood still in the last advance and nothing rigid near could move it.
   [[nodiscard]] bool isAtRest(BodyIndex b) const noexcept {
-    return at_rest_[b] && (resting_[b] || !rigid_near_[b]);
+    return at_rest_[b] && !joined_[b] && (resting_[b] || !rigid_near_[b]);
   }
   /// Points of rigid contact since the last host step.
   [[nodiscard]] ContactTally& tally() noexcept { return tally_; }
@@ -80,6 +81,7 @@ class SpatialMotion {
   /// True if bodies that advanced alone have met, or a sleeper near them was woken.
   [[nodiscard]] bool mustRepeat(IslandModel& model, double dt) noexcept;
   void advanceTogether(const IslandModel& model, double dt, IslandCounters& counters) noexcept;
+  void findJoined(const IslandModel& model) noexcept;
   void lookAround(IslandModel& model) noexcept;
   void advanceWithRigid(const IslandModel& model, double h, IslandCounters& counters) noexcept;
   void letRest(const IslandModel& model, double dt) noexcept;
@@ -89,11 +91,15 @@ class SpatialMotion {
   std::vector<char> turns_;          ///< per body: alone, and rotated exactly
   std::vector<char> together_;       ///< per body: integrated (also the rotation of one alone)
   std::vector<char> rigid_near_;     ///< per body: a rigid contact is near
+  std::vector<char> joined_;         ///< per body: a joint acts on it
+  bool were_joined_pushed_ = false;  ///< something outside changed a body in a joint
   std::vector<char> resting_;        ///< per body: held by a rigid contact, and frozen
   std::vector<char> at_rest_;        ///< per body: seemed at rest after the last advance
   std::vector<double> still_;        ///< per body: time it has stood still [s]
   std::vector<char> awake_;          ///< per body: rigid and not resting
   std::vector<double> reach_;        ///< per body: reach for the ContactFinder [m]
+  JointForces joints_;
+  JointMemory joint_memory_aside_;
   RigidStep rigid_step_, rigid_step_aside_;
   ContactTally tally_;
   bool is_aside_ = false;  ///< between setAside() and takeBack()

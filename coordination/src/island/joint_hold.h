@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+
+#include "island/contact_law.h"
+#include "island/joint_memory.h"
+#include "island/rigid_row.h"
+
+namespace tandem {
+
+/// A row of a joint while a step is solved. All speeds are along it.
+struct JointHold {
+  std::size_t joint = 0;
+  BodyIndex body_a = kStanding, body_b = kStanding;
+  JointRow row;
+  RigidMover *a = nullptr, *b = nullptr;
+  double inverse = 0.0;            ///< speed per impulse
+  double reach = 1.0;              ///< way of a part of the bodies per way along the row [1 or m]
+  double opening = 0.0;            ///< speed at the start of the step
+  double at_start = 0.0;           ///< way at that time, about
+  bool is_impact = false;          ///< a limit that is reached at the end of the step
+  double held = 0.0;               ///< impulse that the velocities have already
+  double impulse = 0.0;            ///< total of this step
+  double steady = 0.0;             ///< total without impacts at its end
+  double blow = 0.0;               ///< of those impacts
+  double wanted = 0.0;             ///< speed; a limit's least
+  double low = 0.0, high = 0.0;    ///< bounds of the impulse
+  double least = 0.0, most = 0.0;  ///< the same, of the step without impacts
+  JointMode mode = JointMode::kHolds;
+
+  [[nodiscard]] double speed() const noexcept {
+    double u = 0.0;
+    if (a) u += dot(PlainVec(row.n_W), a->v) + dot(PlainVec(row.turn_a_W), a->w);
+    if (b) u += dot(PlainVec(row.turn_b_W), b->w) - dot(PlainVec(row.n_W), b->v);
+    return u;
+  }
+  /// Way that the shifts of this step have made.
+  [[nodiscard]] double shifted() const noexcept {
+    double way = 0.0;
+    if (a) way += dot(PlainVec(row.n_W), a->shift) + dot(PlainVec(row.turn_a_W), a->turn);
+    if (b) way += dot(PlainVec(row.turn_b_W), b->turn) - dot(PlainVec(row.n_W), b->shift);
+    return way;
+  }
+  void apply(double change) noexcept {
+    const PlainVec n = change * PlainVec(row.n_W);
+    if (a) {
+      a->v = a->v + multiplyEach(a->inverse_mass_W, n);
+      a->w = a->w + change * a->turnBy(PlainVec(row.turn_a_W));
+    }
+    if (b) {
+      b->v = b->v - multiplyEach(b->inverse_mass_W, n);
+      b->w = b->w + change * b->turnBy(PlainVec(row.turn_b_W));
+    }
+  }
+  /// Shifts the poses by an impulse times a time.
+  void shift(double by) noexcept {
+    const PlainVec n = by * PlainVec(row.n_W);
+    if (a) {
+      a->shift = a->shift + multiplyEach(a->inverse_mass_W, n);
+      a->turn = a->turn + by * a->turnBy(PlainVec(row.turn_a_W));
+    }
+    if (b) {
+      b->shift = b->shift - multiplyEach(b->inverse_mass_W, n);
+      b->turn = b->turn + by * b->turnBy(PlainVec(row.turn_b_W));
+    }
+  }
+  /// One relaxation, within the bounds of the impulse.
+  void solve() noexcept {
+    const double next = std::clamp(impulse + (wanted - speed()) / inverse, low, high);
+    apply(next - impulse);
+    impulse = next;
+  }
+  /// After the ends are set. `force` is that of the smooth motion at the end of the step.
+  void setUp(JointMode mode_before, double force, double h) noexcept;
+  /// The mode that its impulse tells.
+  [[nodiscard]] JointMode findMode() const noexcept;
+  /// Between the impulses of the step and those at its end: motors have no part in these.
+  void startBlow() noexcept;
+  void endBlow() noexcept;
+};
+
+/// Writes the velocity along a joint's row into direction `i` of `J`, in units in which each end
+/// has mass and inertia 1. An end without a block row is null; J.a stands for the first that is
+/// not.
+void setDirection(const JointRow& row, const RigidMover* a, const RigidMover* b, int i,
+                  ContactJacobian& J) noexcept;
+
+}  // namespace tandem
