@@ -261,6 +261,32 @@ TEST(IslandJoints, ShareTheirLoadWithContact) {
   EXPECT_LT((a.p_W + a.q_WB * joint.at_A - b.p_W - b.q_WB * joint.at_B).norm(), 1e-9);
 }
 
+// Damped, a chain comes to rest as one, and costs nothing until it is pushed.
+TEST(IslandJoints, LetAChainRest) {
+  test::BoxScene scene;
+  scene.world.has_floor = false;
+  PlainJoints joints;
+  for (int i = 0; i < 2; ++i) {
+    scene.add(Vec3(0.02, 0.02, 0.05), 0.2, {0.0, 0.0, -0.05 - 0.1 * i});
+    PlainJoints::Joint joint;
+    joint.at_A = Vec3(0.0, 0.0, 0.05);
+    joint.at_B = i == 0 ? Vec3(Vec3::Zero()) : Vec3(0.0, 0.0, -0.05);
+    joints.add(i, i - 1, joint);
+  }
+  scene.island.setJointSource(&joints);
+  scene.prepare();
+  for (BodyIndex b = 0; b < 2; ++b)
+    scene.island.setExternalWrench(b, Vec3(0.0, 0.0, -0.2 * test::BoxScene::kGravity),
+                                   Vec3::Zero());
+  for (int i = 0; i < 200; ++i) scene.island.advance(kTick);
+  EXPECT_TRUE(scene.island.isAsleep());
+  scene.island.applyImpulse(1, Vec3(0.02, 0.0, 0.0), Vec3::Zero());
+  for (int i = 0; i < 100; ++i) scene.island.advance(kTick);
+  EXPECT_FALSE(scene.island.isAsleep());
+  EXPECT_GT(scene.island.state(1).p_W.x(), 1e-3);
+  EXPECT_NE(scene.island.state(0).p_W.x(), 0.0);
+}
+
 // The edge of a lid on a hinge hits the floor.
 TEST(IslandJoints, LetALidFallOnTheFloor) {
   test::BoxScene scene;

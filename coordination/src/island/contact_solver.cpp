@@ -253,37 +253,15 @@ void ContactSolver::setUpTwist(std::size_t index) noexcept {
 void ContactSolver::setUpHolds() noexcept {
   hold_laws_.clear();
   for (JointHold* hold : holds_) {
-    const bool is_new = hold_laws_.empty() || hold_laws_.back().count == 3 ||
-                        hold_laws_.back().hold[0]->joint != hold->joint;
-    if (is_new) {
+    if (hold_laws_.empty() || !hold_laws_.back().hasRoomFor(*hold)) {
       hold_laws_.emplace_back();
       J_.emplace_back();
       J_.back().a = hold->a ? hold->a->place : hold->b->place;
       J_.back().b = hold->a && hold->b ? hold->b->place : -1;
     }
-    HoldLaw& law = hold_laws_.back();
-    const int i = law.count++;
-    setDirection(hold->row, hold->a, hold->b, i, J_.back());
-    law.hold[i] = hold;
-    law.u[i] = hold->speed() - hold->wanted;
-    law.P0[i] = hold->impulse;
-    const double mobility = J_.back().mobility(i);
-    law.rho[i] = mobility > 0.0 ? kStiffness / mobility : 0.0;
+    hold_laws_.back().add(*hold, J_.back(), kStiffness);
   }
   for (HoldLaw& law : hold_laws_) law.respond();
-}
-
-void ContactSolver::HoldLaw::respond() noexcept {
-  double stiffness[3] = {};
-  for (int i = 0; i < count; ++i) {
-    const double q = P0[i] - rho[i] * u[i];
-    P[i] = std::clamp(q, hold[i]->low, hold[i]->high);
-    if (P[i] == q) stiffness[i] = rho[i];
-  }
-  D = {};
-  D.nn = stiffness[0];
-  D.ss = stiffness[1];
-  D.tt = stiffness[2];
 }
 
 void ContactSolver::shapeMatrix() noexcept {
@@ -384,12 +362,8 @@ double ContactSolver::measureResidual() noexcept {
   for (std::size_t i = 0; i < points_.size(); ++i) addPush(J_[i], points_[i].P - points_[i].held);
   for (std::size_t i = 0; i < twists_.size(); ++i)
     addPush(J_[points_.size() + i], twists_[i].T - twists_[i].held);
-  for (std::size_t i = 0; i < hold_laws_.size(); ++i) {
-    const HoldLaw& law = hold_laws_[i];
-    double change[3] = {};
-    for (int k = 0; k < law.count; ++k) change[k] = law.P[k] - law.hold[k]->held;
-    addPush(J_[firstHold() + i], {change[0], change[1], change[2]});
-  }
+  for (std::size_t i = 0; i < hold_laws_.size(); ++i)
+    addPush(J_[firstHold() + i], hold_laws_[i].missing());
   double most = 0.0;
   for (std::size_t i = 0; i < dx_.size(); ++i) {
     const RigidMover& mover = *bodies_[i];
@@ -417,11 +391,7 @@ double ContactSolver::measureSlip() const noexcept {
     if (law.D.ss == law.rho_t && law.D.tt == law.rho_t)
       most = std::max(most, radius * std::sqrt(law.w.s * law.w.s + law.w.t * law.w.t));
   }
-  for (const HoldLaw& law : hold_laws_) {
-    const double stiffness[3] = {law.D.nn, law.D.ss, law.D.tt};
-    for (int i = 0; i < law.count; ++i)
-      if (stiffness[i] > 0.0) most = std::max(most, law.hold[i]->reach * std::abs(law.u[i]));
-  }
+  for (const HoldLaw& law : hold_laws_) most = std::max(most, law.slip());
   return most;
 }
 
@@ -452,12 +422,7 @@ void ContactSolver::finish() noexcept {
     row.applyTwist(law.T - law.held);
     row.twist = law.T;
   }
-  for (const HoldLaw& law : hold_laws_)
-    for (int i = 0; i < law.count; ++i) {
-      JointHold& hold = *law.hold[i];
-      hold.apply(law.P[i] - hold.held);
-      hold.impulse = law.P[i];
-    }
+  for (HoldLaw& law : hold_laws_) law.finish();
 }
 
 void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps,
@@ -470,15 +435,11 @@ void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps,
     point.D.nn = point.rho_n;
     slides = true;
   }
-  std::size_t next_way = 0;
-  for (HoldLaw& law : hold_laws_)
-    for (int i = 0; i < law.count; ++i) {
-      law.u[i] = ways[next_way++];
-      if (law.hold[i]->row.law != JointLaw::kMotor) continue;
-      double& stiffness = i == 0 ? law.D.nn : i == 1 ? law.D.ss : law.D.tt;
-      slides |= stiffness != 0.0;
-      stiffness = 0.0;
-    }
+  auto way = ways.begin();
+  for (HoldLaw& law : hold_laws_) {
+    for (int i = 0; i < law.count; ++i) law.u[i] = *way++;
+    slides |= law.leaveMotorsOut();
+  }
   gatherStiffness();
   ContactFactor& factor = slides ? factor_->positions : factor_->whole;
   if (!factor.isNear(J_, D_, first_)) {

@@ -5,7 +5,7 @@
 
 #include "island/contact_factor.h"
 #include "island/contact_law.h"
-#include "island/joint_hold.h"
+#include "island/hold_law.h"
 #include "island/rigid_row.h"
 
 namespace tandem {
@@ -59,16 +59,6 @@ class ContactSolver {
   struct Modes {
     bool have_changed = false;
     bool are_forced = false;  ///< some are not those of the present velocities
-  };
-
-  /// Up to three rows of a joint. Bounds are those of their impulses.
-  struct HoldLaw {
-    JointHold* hold[3] = {};
-    int count = 0;
-    double u[3] = {}, P0[3] = {}, P[3] = {}, rho[3] = {};
-    ContactStiffness D;
-
-    void respond() noexcept;
   };
 
   void orderBodies(RigidMover* const* movers, std::size_t mover_count) noexcept;

@@ -2,21 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tandem {
 namespace {
 
-/// Stiffness of the penalties beside the rows' own: multipliers gain this factor per iteration.
-constexpr double kStiffness = 1e4;
-constexpr int kMaxIterations = 20;
+/// Compliance of a row beside its own mobility: far below what anybody feels.
+constexpr double kCompliance = 1e-12;
+constexpr int kMaxIterations = 4;
 /// Error of an acceleration that is none, beside the largest.
-constexpr double kSettled = 1e-11;
+constexpr double kSettled = 1e-10;
 /// Angular speed that stands for a linear one of 1 m/s [rad/s].
 constexpr double kTurnOfWay = 10.0;
 
-constexpr std::size_t kMaxTriples = kMostJointRows / 3 * kMaxJoints;
+constexpr std::size_t kMostRows = 6 * kMaxJoints;
+/// Entries of a row's skyline, on average: those of a wide tree.
+constexpr std::size_t kEntriesPerRow = 48;
 
-/// Rate of a row's speed, or the speed itself, by rates of both ends.
+/// Speed of a row, or its rate, by those of both ends.
 template <typename Linear, typename Angular>
 double along(const JointRow& row, BodyIndex a, BodyIndex b, Linear linear,
              Angular angular) noexcept {
@@ -34,20 +37,17 @@ JointForces::JointForces(std::size_t body_count, std::size_t max_joints)
       is_end_(body_count),
       moved_(body_count),
       at_(max_joints > 0 ? body_count : 0),
-      force_(max_joints * static_cast<std::size_t>(kMostJointRows)),
-      factor_(max_joints > 0 ? body_count : 0, max_joints > 0 ? kMaxTriples : 0) {
+      matrix_(max_joints > 0 ? kMostRows : 0, max_joints > 0 ? kEntriesPerRow * kMostRows : 0),
+      force_(max_joints * static_cast<std::size_t>(kMostJointRows)) {
   if (max_joints == 0) return;
   joints_.reserve(max_joints);
+  first_row_.reserve(max_joints);
   for (auto* bodies : {&ends_, &bodies_}) bodies->reserve(body_count);
   movers_.reserve(body_count);
-  rows_.reserve(max_joints * static_cast<std::size_t>(kMostJointRows));
+  rows_.reserve(kMostRows);
+  part_.reserve(kMostRows);
   for (auto* rows : {&now_, &later_}) rows->reserve(static_cast<std::size_t>(kMostJointRows));
-  triples_.reserve(kMaxTriples);
-  J_.reserve(kMaxTriples);
-  D_.reserve(kMaxTriples);
-  first_.reserve(body_count);
   x_.reserve(body_count);
-  dx_.reserve(body_count);
 }
 
 void JointForces::choose(const IslandModel& model, const std::vector<char>& moved) noexcept {
@@ -70,14 +70,15 @@ void JointForces::choose(const IslandModel& model, const std::vector<char>& move
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!isMoved(all[i].a) && !isMoved(all[i].b)) continue;
     if (!model.isJoinedNow(all[i].a, all[i].b)) continue;
-    joints_.push_back({i, all[i].a, all[i].b});
+    joints_.push_back({i, all[i].a, all[i].b, 0});
     addEnd(all[i].a);
     addEnd(all[i].b);
   }
   orderBodies();
+  orderJoints();
 }
 
-/// Bodies that are joined are near each other in the matrix: each chain from one of its ends on.
+/// Bodies that are joined are near each other: each chain from one of its ends on.
 void JointForces::orderBodies() noexcept {
   std::fill(block_of_.begin(), block_of_.end(), -1);
   bodies_.clear();
@@ -114,14 +115,35 @@ void JointForces::orderBodies() noexcept {
   }
 }
 
+/// Joints follow their bodies.
+void JointForces::orderJoints() noexcept {
+  const auto keyOf = [&](const Joint& joint) {
+    const int a = blockOf(joint.a), b = blockOf(joint.b);
+    return std::tuple(std::max(a, b), std::min(a, b), joint.index);
+  };
+  std::sort(joints_.begin(), joints_.end(),
+            [&](const Joint& x, const Joint& y) { return keyOf(x) < keyOf(y); });
+  const auto shareBody = [&](const Joint& x, const Joint& y) {
+    const auto is = [&](BodyIndex body) {
+      return blockOf(body) >= 0 && (body == y.a || body == y.b);
+    };
+    return is(x.a) || is(x.b);
+  };
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    std::size_t first = 0;
+    while (first < i && !shareBody(joints_[i], joints_[first])) ++first;
+    joints_[i].first = first;
+  }
+}
+
 void JointForces::solve() noexcept {
   movers_.clear();
   for (const BodyIndex b : bodies_)
     movers_.emplace_back(model_->bodies[static_cast<std::size_t>(b)], end(b).state);
-  const double moment = chooseMoment();
-  gather(moment);
-  build(moment);
-  iterate();
+  gather(chooseMoment());
+  if (rows_.empty()) return;
+  lookAtAccelerations();
+  if (factorise()) iterate();
 }
 
 /// Time over which the change of directions is measured [s]: their rounding and their bend do the
@@ -139,47 +161,41 @@ double JointForces::chooseMoment() const noexcept {
 void JointForces::gather(double moment) noexcept {
   static const RigidState kNowhere;
   rows_.clear();
+  first_row_.clear();
   for (const Joint& joint : joints_) {
     const auto stateOf = [&](BodyIndex body) -> const RigidState& {
       return body == kStanding ? kNowhere : end(body).state;
     };
     now_.clear();
-    source_->evaluate(joint.index, stateOf(joint.a), stateOf(joint.b), now_);
     later_.clear();
+    source_->evaluate(joint.index, stateOf(joint.a), stateOf(joint.b), now_);
     if (moment > 0.0) {
       RigidState a = stateOf(joint.a), b = stateOf(joint.b);
       goOn(a, moment);
       goOn(b, moment);
       source_->evaluate(joint.index, a, b, later_);
     }
-    for (const JointRow& row : now_) {
-      force_[place(joint.index, row)] *= memory_.mode(joint.index, row) == JointMode::kHolds;
-      switch (memory_.mode(joint.index, row)) {
-        case JointMode::kLow:
-          push(joint, row, row.low);
-          continue;
-        case JointMode::kHigh:
-          push(joint, row, row.high);
-          continue;
-        case JointMode::kIdle:
-          continue;
-        case JointMode::kHolds:
-          break;
-      }
-      const auto same = std::find_if(later_.begin(), later_.end(), [&](const JointRow& other) {
-        return other.number == row.number && other.law == row.law;
-      });
-      rows_.push_back({&joint, row, same == later_.end() ? row : *same});
+    first_row_.push_back(rows_.size());
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+      const JointRow& row = now_[i];
+      double& force = force_[place(joint.index, row)];
+      force = 0.0;
+      const JointMode mode = memory_.mode(joint.index, row);
+      if (mode == JointMode::kLow) push(joint, row, force = row.low);
+      if (mode == JointMode::kHigh) push(joint, row, force = row.high);
+      if (mode != JointMode::kHolds || rows_.size() == rows_.capacity()) continue;
+      // Rows hardly ever come or go within a moment.
+      const bool is_same = i < later_.size() && later_[i].number == row.number;
+      addRow(joint, row, is_same ? &later_[i] : nullptr, moment);
     }
   }
 }
 
 void JointForces::push(const Joint& joint, const JointRow& row, double force) noexcept {
-  force_[place(joint.index, row)] = force;
   const auto accelerate = [&](BodyIndex body, const Vec3& n_W, const Vec3& turn_W) {
-    if (body == kStanding || !moves(body)) return;
-    const RigidMover& mover =
-        movers_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(body)])];
+    const int block = blockOf(body);
+    if (block < 0) return;
+    const RigidMover& mover = movers_[static_cast<std::size_t>(block)];
     End& moved = end(body);
     moved.a_W += force * multiplyEach(mover.inverse_mass_W, PlainVec(n_W)).toVec3();
     moved.alpha_W += force * mover.turnBy(PlainVec(turn_W)).toVec3();
@@ -188,105 +204,99 @@ void JointForces::push(const Joint& joint, const JointRow& row, double force) no
   accelerate(joint.b, -row.n_W, row.turn_b_W);
 }
 
-/// Makes the equations of the rows that hold.
-void JointForces::build(double moment) noexcept {
-  triples_.clear();
-  J_.clear();
-  const auto a_W = [&](BodyIndex b) -> const Vec3& { return end(b).a_W; };
-  const auto alpha_W = [&](BodyIndex b) -> const Vec3& { return end(b).alpha_W; };
+void JointForces::addRow(const Joint& joint, const JointRow& now, const JointRow* later,
+                         double moment) noexcept {
+  const auto fill = [&](int block, const PlainVec& n, const PlainVec& turn, Six& along) {
+    if (block < 0) return;
+    const RigidMover& mover = movers_[static_cast<std::size_t>(block)];
+    multiplyEach(mover.root_mass_W, n).store(along.at);
+    PlainVec(dot(mover.root_x, turn), dot(mover.root_y, turn), dot(mover.root_z, turn))
+        .store(along.at + 3);
+  };
+  rows_.emplace_back();
+  Row& row = rows_.back();
+  row.place = place(joint.index, now);
+  row.block_a = blockOf(joint.a);
+  row.block_b = blockOf(joint.b);
+  row.n = PlainVec(now.n_W);
+  row.turn_a = PlainVec(now.turn_a_W);
+  row.turn_b = PlainVec(now.turn_b_W);
+  fill(row.block_a, row.n, row.turn_a, row.of_a);
+  fill(row.block_b, -1.0 * row.n, row.turn_b, row.of_b);
+  if (!later) return;
   const auto v_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.v_W; };
   const auto w_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.w_W; };
-  const Joint* joint_before = nullptr;
-  for (const Row& row : rows_) {
-    const BodyIndex a = row.joint->a, b = row.joint->b;
-    double rate = along(row.now, a, b, a_W, alpha_W);
-    if (moment > 0.0)
-      rate += (along(row.later, a, b, v_W, w_W) - along(row.now, a, b, v_W, w_W)) / moment;
-    addRow(row, -rate, row.joint != joint_before);
-    joint_before = row.joint;
-  }
-  D_.clear();
-  for (const Triple& triple : triples_) {
-    ContactStiffness D;
-    D.nn = triple.stiffness[0];
-    D.ss = triple.stiffness[1];
-    D.tt = triple.stiffness[2];
-    D_.push_back(D);
-  }
+  row.wanted =
+      (along(now, joint.a, joint.b, v_W, w_W) - along(*later, joint.a, joint.b, v_W, w_W)) / moment;
 }
 
-void JointForces::addRow(const Row& row, double wanted, bool is_first) noexcept {
-  const auto blockOf = [&](BodyIndex body) {
-    return body == kStanding ? -1 : block_of_[static_cast<std::size_t>(body)];
+/// Takes off what the other forces do, when all of them are known.
+void JointForces::lookAtAccelerations() noexcept {
+  const auto rateOf = [&](int block, const PlainVec& n, const PlainVec& turn) {
+    if (block < 0) return 0.0;
+    const End& moved = end(bodies_[static_cast<std::size_t>(block)]);
+    return dot(n, PlainVec(moved.a_W)) + dot(turn, PlainVec(moved.alpha_W));
   };
-  const int block_a = blockOf(row.joint->a), block_b = blockOf(row.joint->b);
-  const auto moverOf = [&](int block) {
-    return block < 0 ? nullptr : &movers_[static_cast<std::size_t>(block)];
-  };
-  if (is_first || triples_.back().count == 3) {
-    triples_.emplace_back();
-    J_.emplace_back();
-    J_.back().a = block_a >= 0 ? block_a : block_b;
-    J_.back().b = block_a >= 0 ? block_b : -1;
-  }
-  Triple& triple = triples_.back();
-  const int i = triple.count++;
-  setDirection(row.now, moverOf(block_a), moverOf(block_b), i, J_.back());
-  const double mobility = J_.back().mobility(i);
-  triple.place[i] = place(row.joint->index, row.now);
-  triple.wanted[i] = wanted;
-  triple.f[i] = force_[triple.place[i]];
-  triple.stiffness[i] = mobility > 0.0 ? kStiffness / mobility : 0.0;
+  for (Row& row : rows_)
+    row.wanted -=
+        rateOf(row.block_a, row.n, row.turn_a) + rateOf(row.block_b, -1.0 * row.n, row.turn_b);
 }
 
-/// Finds x with J x = wanted, and adds it.
+/// Makes J M^-1 J^T and its factor.
+bool JointForces::factorise() noexcept {
+  matrix_.clear();
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const std::size_t first = first_row_[joints_[j].first];
+    const std::size_t end = j + 1 < joints_.size() ? first_row_[j + 1] : rows_.size();
+    for (; next < end; ++next) {
+      if (!matrix_.hasRoomFor(first)) return false;
+      const Row& row = rows_[next];
+      double* entry = matrix_.addRow(first);
+      for (std::size_t i = first; i <= next; ++i) {
+        const Row& other = rows_[i];
+        double sum = 0.0;
+        if (row.block_a >= 0) {
+          if (row.block_a == other.block_a) sum += dot(row.of_a, other.of_a);
+          if (row.block_a == other.block_b) sum += dot(row.of_a, other.of_b);
+        }
+        if (row.block_b >= 0) {
+          if (row.block_b == other.block_a) sum += dot(row.of_b, other.of_a);
+          if (row.block_b == other.block_b) sum += dot(row.of_b, other.of_b);
+        }
+        *entry++ = sum;
+      }
+      entry[-1] *= 1.0 + kCompliance;
+      if (entry[-1] == 0.0) entry[-1] = 1.0;
+    }
+  }
+  return matrix_.factorise();
+}
+
+/// Finds the forces and adds what they do.
 void JointForces::iterate() noexcept {
-  first_.resize(bodies_.size());
-  for (std::size_t i = 0; i < first_.size(); ++i) first_[i] = static_cast<int>(i);
-  for (const ContactJacobian& J : J_) {
-    if (J.b < 0) continue;
-    int& first = first_[static_cast<std::size_t>(std::max(J.a, J.b))];
-    first = std::min({first, J.a, J.b});
-  }
-  if (!factor_.isNear(J_, D_, first_) && !factor_.make(J_, D_, first_)) return;
   x_.assign(bodies_.size(), Six());
-  dx_.resize(bodies_.size());
   double largest = 0.0;
-  for (const Triple& triple : triples_)
-    for (const double wanted : triple.wanted) largest = std::max(largest, std::abs(wanted));
-  const auto missing = [&](std::size_t i, int row) {
-    const ContactJacobian& J = J_[i];
-    double found = dot(J.of_a[row], x_[static_cast<std::size_t>(J.a)]);
-    if (J.b >= 0) found += dot(J.of_b[row], x_[static_cast<std::size_t>(J.b)]);
-    return triples_[i].wanted[row] - found;
-  };
+  for (const Row& row : rows_) largest = std::max(largest, std::abs(row.wanted));
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    for (std::size_t b = 0; b < x_.size(); ++b) {
-      dx_[b].setZero();
-      dx_[b].addScaled(-1.0, x_[b]);
-    }
-    for (std::size_t i = 0; i < triples_.size(); ++i) {
-      const ContactJacobian& J = J_[i];
-      const Triple& triple = triples_[i];
-      for (int row = 0; row < triple.count; ++row) {
-        const double f = triple.f[row] + triple.stiffness[row] * missing(i, row);
-        dx_[static_cast<std::size_t>(J.a)].addScaled(f, J.of_a[row]);
-        if (J.b >= 0) dx_[static_cast<std::size_t>(J.b)].addScaled(f, J.of_b[row]);
-      }
-    }
-    factor_.solve(dx_);
-    for (std::size_t b = 0; b < x_.size(); ++b) x_[b].add(dx_[b]);
+    part_.clear();
     double worst = 0.0;
-    for (std::size_t i = 0; i < triples_.size(); ++i)
-      for (int row = 0; row < triples_[i].count; ++row) {
-        const double error = missing(i, row);
-        triples_[i].f[row] += triples_[i].stiffness[row] * error;
-        worst = std::max(worst, std::abs(error));
-      }
+    for (const Row& row : rows_) {
+      double missing = row.wanted;
+      if (row.block_a >= 0) missing -= dot(row.of_a, x_[static_cast<std::size_t>(row.block_a)]);
+      if (row.block_b >= 0) missing -= dot(row.of_b, x_[static_cast<std::size_t>(row.block_b)]);
+      part_.push_back(missing);
+      worst = std::max(worst, std::abs(missing));
+    }
     if (worst <= kSettled * largest) break;
+    matrix_.solve(part_);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const Row& row = rows_[i];
+      force_[row.place] += part_[i];
+      if (row.block_a >= 0) x_[static_cast<std::size_t>(row.block_a)].addScaled(part_[i], row.of_a);
+      if (row.block_b >= 0) x_[static_cast<std::size_t>(row.block_b)].addScaled(part_[i], row.of_b);
+    }
   }
-  for (const Triple& triple : triples_)
-    for (int row = 0; row < triple.count; ++row) force_[triple.place[row]] = triple.f[row];
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     End& moved = end(bodies_[i]);
     moved.a_W += multiplyEach(movers_[i].root_mass_W, PlainVec(x_[i].at)).toVec3();

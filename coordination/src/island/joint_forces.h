@@ -2,12 +2,13 @@
 
 #include <vector>
 
-#include "island/contact_factor.h"
 #include "island/island_model.h"
 #include "island/joint_hold.h"
 #include "island/joint_memory.h"
 #include "island/joint_source.h"
 #include "island/rigid_row.h"
+#include "island/six.h"
+#include "island/skyline_matrix.h"
 
 namespace tandem {
 
@@ -17,8 +18,9 @@ namespace tandem {
 ///
 ///   J (a + x) + J' v = 0
 ///
-/// A motor at a bound pushes with it. The forces f are multipliers, found as ContactSolver finds
-/// impulses: closed loops do no harm. RigidStep takes out what errors of integration leave.
+/// A motor at a bound pushes with it. The matrix J M^-1 J^T of a chain has a narrow skyline. A
+/// trace of compliance keeps rows that say the same, as in closed loops, from making it singular.
+/// RigidStep takes out what errors of integration leave.
 class JointForces {
  public:
   /// An end of a joint during an evaluation.
@@ -55,31 +57,36 @@ class JointForces {
   struct Joint {
     std::size_t index;  ///< of JointSource
     BodyIndex a, b;
+    std::size_t first;  ///< joint from which on joints in this list may share a body with it
   };
   [[nodiscard]] const std::vector<Joint>& joints() const noexcept { return joints_; }
 
  private:
-  /// A row with its value a moment later.
+  /// A row that holds.
   struct Row {
-    const Joint* joint;
-    JointRow now, later;
-  };
-  struct Triple {
-    std::size_t place[3];  ///< in force_
-    double wanted[3] = {}, f[3] = {}, stiffness[3] = {};
-    int count = 0;
+    std::size_t place = 0;           ///< in force_
+    int block_a = -1, block_b = -1;  ///< -1: none
+    PlainVec n, turn_a, turn_b;      ///< JointRow
+    Six of_a, of_b;                  ///< the same in units in which each body has mass 1
+    double wanted = 0.0;             ///< rate of its speed that the bodies lack
   };
 
   [[nodiscard]] static std::size_t place(std::size_t joint, const JointRow& row) noexcept {
     return joint * static_cast<std::size_t>(kMostJointRows) + static_cast<std::size_t>(row.number);
   }
   void orderBodies() noexcept;
+  void orderJoints() noexcept;
   [[nodiscard]] double chooseMoment() const noexcept;
   void gather(double moment) noexcept;
   void push(const Joint& joint, const JointRow& row, double force) noexcept;
-  void build(double moment) noexcept;
-  void addRow(const Row& row, double wanted, bool is_first) noexcept;
+  void addRow(const Joint& joint, const JointRow& now, const JointRow* later,
+              double moment) noexcept;
+  void lookAtAccelerations() noexcept;
+  [[nodiscard]] bool factorise() noexcept;
   void iterate() noexcept;
+  [[nodiscard]] int blockOf(BodyIndex body) const noexcept {
+    return body == kStanding ? -1 : block_of_[static_cast<std::size_t>(body)];
+  }
 
   JointSource* source_ = nullptr;
   const IslandModel* model_ = nullptr;
@@ -92,14 +99,12 @@ class JointForces {
   std::vector<End> at_;             ///< by body
   std::vector<RigidMover> movers_;  ///< by block row
   std::vector<Row> rows_;
+  std::vector<std::size_t> first_row_;  ///< by joint of joints_
   std::vector<JointRow> now_, later_;
-  std::vector<Triple> triples_;
-  std::vector<ContactJacobian> J_;
-  std::vector<ContactStiffness> D_;
-  std::vector<int> first_;
-  std::vector<Six> x_, dx_;
+  SkylineMatrix matrix_;
+  std::vector<double> part_;   ///< of the forces, by row
+  std::vector<Six> x_;         ///< by block row
   std::vector<double> force_;  ///< by place()
-  ContactFactor factor_;
 };
 
 }  // namespace tandem

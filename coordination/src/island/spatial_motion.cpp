@@ -65,7 +65,7 @@ SpatialMotion::SpatialMotion(const IslandModel& model)
   alone_motion_.resize(n);
   for (std::size_t b = 0; b < n; ++b) prepareAlone(model, static_cast<BodyIndex>(b));
   for (auto* flags : {&alone_, &turns_, &together_, &rigid_near_, &resting_, &awake_, &at_rest_,
-                      &joined_, &resting_aside_})
+                      &joined_, &moves_, &resting_aside_})
     flags->resize(n);
   for (auto* values : {&allowance_, &reach_, &still_, &still_aside_}) values->resize(n);
   touches_.reserve(countMostTouches(model));
@@ -430,8 +430,6 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
   if (!model.finder) return;
   for (const Touch& touch : touches_)
     for (const BodyIndex b : {touch.sphere, touch.other}) resting_[b] = 0;
-  for (const BodyIndex b : model.present)
-    if (joined_[b]) resting_[b] = 0;
   for (const BodyIndex b : model.present) {
     ModelBody& body = model.bodies[b];
     const bool is_rigid = body.is_active && body.settings.is_rigid;
@@ -442,7 +440,12 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
       still_[b] = 0.0;  // or a tiny first step would let it rest again, against any force
     }
     body.disturbed = false;
-    awake_[b] = is_rigid && moves && !resting_[b];
+    moves_[b] = moves;
+  }
+  restTogether(model, true);
+  for (const BodyIndex b : model.present) {
+    const bool is_rigid = model.bodies[b].is_active && model.bodies[b].settings.is_rigid;
+    awake_[b] = is_rigid && moves_[b] && !resting_[b];
     reach_[b] = is_rigid ? allowance_[b] + kRigidWatchDistance : -1.0;
   }
   model.finder->lookAround(states_, reach_, awake_, rigid_near_);
@@ -452,25 +455,57 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
     if (resting_[b]) still_[b] = 0.0;
     resting_[b] = 0;
   }
+  restTogether(model, true);
   if (!model.is_listed) model.listPresent();
 }
 
-/// Freezes a body that a rigid contact holds still for a while, until it is touched or disturbed.
+/// Bodies of a chain rest together or not at all; a moving end that is led lets none rest.
+void SpatialMotion::restTogether(const IslandModel& model, bool begins_anew) noexcept {
+  if (!model.joints) return;
+  for (bool is_new = true; is_new;) {
+    is_new = false;
+    for (const JointEnds& joint : model.joints->joints()) {
+      if (joint.a == kStanding || joint.b == kStanding || !model.isJoinedNow(joint.a, joint.b))
+        continue;
+      const auto isAwake = [&](BodyIndex b) {
+        const ModelBody& body = model.bodies[static_cast<std::size_t>(b)];
+        return body.isDynamic() ? !resting_[static_cast<std::size_t>(b)]
+                                : body.state.v_W != Vec3::Zero() || body.state.w_W != Vec3::Zero();
+      };
+      const auto wake = [&](BodyIndex b) {
+        char& is_resting = resting_[static_cast<std::size_t>(b)];
+        if (!is_resting) return;
+        is_resting = 0;
+        if (begins_anew) still_[static_cast<std::size_t>(b)] = 0.0;
+        is_new = true;
+      };
+      if (isAwake(joint.a)) wake(joint.b);
+      if (isAwake(joint.b)) wake(joint.a);
+    }
+  }
+}
+
+/// Freezes a body that a rigid contact or a joint holds still for a while, until it is touched or
+/// disturbed.
 void SpatialMotion::letRest(const IslandModel& model, double dt) noexcept {
   for (const BodyIndex b : model.present) {
-    if (resting_[b] || joined_[b]) continue;
-    RigidState& state = states_[b];
+    if (resting_[b]) continue;
+    const RigidState& state = states_[b];
     const ModelBody& body = model.bodies[b];
     if (!body.isDynamic()) continue;
     const double speed = state.v_W.norm() + state.w_W.norm() * body.bounding_radius;
     // Moving out of overlap changes the position without a velocity.
     const double way = (state.p_W - body.state.p_W).norm();
-    const bool is_still = rigid_near_[b] && speed < kStillSpeed && way < kStillSpeed * dt;
+    const bool is_held = rigid_near_[b] || joined_[b];
+    const bool is_still = is_held && speed < kStillSpeed && way < kStillSpeed * dt;
     still_[b] = is_still ? still_[b] + dt : 0.0;
-    if (still_[b] < kTimeToRest) continue;
-    resting_[b] = 1;
-    state.v_W.setZero();
-    state.w_W.setZero();
+    resting_[b] = still_[b] >= kTimeToRest;
+  }
+  restTogether(model, false);
+  for (const BodyIndex b : model.present) {
+    if (!resting_[b]) continue;
+    states_[b].v_W.setZero();
+    states_[b].w_W.setZero();
   }
 }
 

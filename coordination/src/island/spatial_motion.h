@@ -83,6 +83,7 @@ class SpatialMotion {
   void advanceTogether(const IslandModel& model, double dt, IslandCounters& counters) noexcept;
   void findJoined(const IslandModel& model) noexcept;
   void lookAround(IslandModel& model) noexcept;
+  void restTogether(const IslandModel& model, bool begins_anew) noexcept;
   void advanceWithRigid(const IslandModel& model, double h, IslandCounters& counters) noexcept;
   void letRest(const IslandModel& model, double dt) noexcept;
 
@@ -96,6 +97,7 @@ class SpatialMotion {
   std::vector<char> resting_;        ///< per body: held by a rigid contact, and frozen
   std::vector<char> at_rest_;        ///< per body: seemed at rest after the last advance
   std::vector<double> still_;        ///< per body: time it has stood still [s]
+  std::vector<char> moves_;          ///< per body: forces, or something outside, may move it
   std::vector<char> awake_;          ///< per body: rigid and not resting
   std::vector<double> reach_;        ///< per body: reach for the ContactFinder [m]
   JointForces joints_;

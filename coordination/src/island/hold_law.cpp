@@ -1,0 +1,61 @@
+#include "island/hold_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem {
+
+void HoldLaw::add(JointHold& next, ContactJacobian& J, double stiffness) noexcept {
+  const int i = count++;
+  hold[i] = &next;
+  setDirection(next.row, next.a, next.b, i, J);
+  u[i] = next.speed() - next.wanted;
+  P0[i] = next.impulse;
+  const double mobility = J.mobility(i);
+  rho[i] = mobility > 0.0 ? stiffness / mobility : 0.0;
+}
+
+void HoldLaw::respond() noexcept {
+  double stiffness[3] = {};
+  for (int i = 0; i < count; ++i) {
+    const double q = P0[i] - rho[i] * u[i];
+    P[i] = std::clamp(q, hold[i]->low, hold[i]->high);
+    if (P[i] == q) stiffness[i] = rho[i];
+  }
+  D = {};
+  D.nn = stiffness[0];
+  D.ss = stiffness[1];
+  D.tt = stiffness[2];
+}
+
+bool HoldLaw::leaveMotorsOut() noexcept {
+  bool has_changed = false;
+  for (int i = 0; i < count; ++i) {
+    if (hold[i]->row.law != JointLaw::kMotor) continue;
+    has_changed |= stiffness(i) != 0.0;
+    (i == 0 ? D.nn : i == 1 ? D.ss : D.tt) = 0.0;
+  }
+  return has_changed;
+}
+
+RigidRow::Local HoldLaw::missing() const noexcept {
+  double change[3] = {};
+  for (int i = 0; i < count; ++i) change[i] = P[i] - hold[i]->held;
+  return {change[0], change[1], change[2]};
+}
+
+double HoldLaw::slip() const noexcept {
+  double most = 0.0;
+  for (int i = 0; i < count; ++i)
+    if (stiffness(i) > 0.0) most = std::max(most, hold[i]->reach * std::abs(u[i]));
+  return most;
+}
+
+void HoldLaw::finish() noexcept {
+  for (int i = 0; i < count; ++i) {
+    hold[i]->apply(P[i] - hold[i]->held);
+    hold[i]->impulse = P[i];
+  }
+}
+
+}  // namespace tandem
