@@ -14,7 +14,7 @@ namespace tandem {
 namespace {
 
 /// A slower body stands still [m/s, rad/s].
-constexpr double kStanding = 1e-9;
+constexpr double kStillBelow = 1e-9;
 /// Smaller differences of time are rounding of a velocity [s].
 constexpr double kSameTime = 1e-6;
 /// Longest duration of one stepSimulation() call [s].
@@ -26,12 +26,14 @@ bool isSamePose(const RigidState& a, const RigidState& b) {
   return a.p_W == b.p_W && a.q_WB.coeffs() == b.q_WB.coeffs();
 }
 
-bool stands(const RigidState& s) { return s.v_W.norm() < kStanding && s.w_W.norm() < kStanding; }
+bool stands(const RigidState& s) {
+  return s.v_W.norm() < kStillBelow && s.w_W.norm() < kStillBelow;
+}
 
 /// Time from one pose to another at the velocities of the latter [s]; 0 for a jump.
 double computeWayTime(const RigidState& from, const RigidState& to) {
-  if (to.v_W.norm() >= kStanding) return (to.p_W - from.p_W).norm() / to.v_W.norm();
-  if (to.w_W.norm() >= kStanding)
+  if (to.v_W.norm() >= kStillBelow) return (to.p_W - from.p_W).norm() / to.v_W.norm();
+  if (to.w_W.norm() >= kStillBelow)
     return computeRotationVector(from.q_WB, to.q_WB).norm() / to.w_W.norm();
   return 0.0;
 }
