@@ -34,6 +34,10 @@ struct JointRow {
   double way = 0.0;
   double speed = 0.0;   ///< a motor's wanted u [m/s or rad/s]; else 0
   double bounce = 0.0;  ///< restitution of a limit
+  /// Of a locked row or a limit: 0 for both makes it rigid. Else its force along the row is
+  /// -(stiffness way + damping u) [N/m, N s/m or N m/rad, N m s/rad]; a limit acts while its way
+  /// is below 0, and never pulls.
+  double stiffness = 0.0, damping = 0.0;
   /// A motor's least and greatest force [N or N m].
   double low = 0.0, high = 0.0;
 };

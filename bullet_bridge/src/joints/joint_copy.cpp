@@ -1,0 +1,187 @@
+#include "joints/joint_copy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "joints/joint_measure.h"
+
+namespace tandem {
+namespace {
+
+constexpr double kTurn = 2.0 * M_PI;
+
+constexpr double kMostForce = 1e12;  // of a motor without bound [N or N m]
+
+/// Kinds of rows of one axis; numbers of rows are 6 kind + axis.
+enum RowKind { kHold = 0, kHighLimit = 1, kDrive = 2, kElastic = 3 };
+
+/// The angle, a turn more or less, that is nearest to its range.
+double moveToRange(double angle, double low, double high) {
+  const double to_low = std::abs(std::remainder(low - angle, kTurn));
+  const double to_high = std::abs(std::remainder(high - angle, kTurn));
+  if (angle < low) return to_low < to_high ? angle : angle + kTurn;
+  if (angle > high) return to_low < to_high ? angle - kTurn : angle;
+  return angle;
+}
+
+/// Writes the rows of a joint at given poses.
+class RowWriter {
+ public:
+  RowWriter(const JointSettings& joint, const RigidState& a, const RigidState& b,
+            std::vector<JointRow>& rows)
+      : joint_(joint), a_(a), b_(b), placed_(joint, a, b), rows_(rows) {}
+
+  void writeAll() {
+    if (joint_.kind == JointKind::kGear) return writeGear();
+    const JointCoordinates coordinates = measureJoint(joint_, placed_);
+    for (std::size_t i = 0; i < 6; ++i)
+      if (coordinates[i].is_there) writeAxis(static_cast<int>(i), coordinates[i], joint_.axes[i]);
+  }
+
+ private:
+  /// Bullet's gear holds speeds only, and its angles drift.
+  void writeGear() {
+    JointRow row;
+    row.number = 3;
+    row.turn_a_W = a_.q_WB * joint_.a.p;
+    row.turn_b_W = joint_.gear_ratio * (b_.q_WB * joint_.b.p);
+    rows_.push_back(row);
+  }
+
+  void writeAxis(int i, const JointCoordinate& coordinate, const JointAxis& axis) {
+    JointRow row = makeRow(coordinate);
+    double q = axis.sense * coordinate.way;
+    if (axis.isLocked()) {
+      writeLock(i, row, coordinate.way - axis.sense * axis.low, axis);
+    } else if (!axis.isFree()) {
+      if (i >= 3 && axis.high < HUGE_VAL) q = moveToRange(q, axis.low, axis.high);
+      writeLimit(6 * kHold + i, axis.sense, row, q - axis.low, axis);
+      writeLimit(6 * kHighLimit + i, -axis.sense, row, axis.high - q, axis);
+    }
+    // Motors and springs act along axes of unit length.
+    if (i >= 3) scaleRow(row, 1.0 / std::max(row.turn_a_W.norm(), 1e-9));
+    if (axis.motor != JointMotor::kNone && !axis.isLocked()) writeMotor(i, row, q, axis);
+    if (axis.has_spring) writeSpring(i, row, q, axis);
+  }
+
+  /// Both ends get a linear row's force at the same point, so no angular momentum is made. That
+  /// of b lets n stay in the frame of a.
+  JointRow makeRow(const JointCoordinate& coordinate) const {
+    JointRow row;
+    row.n_W = coordinate.n_W;
+    row.turn_a_W = coordinate.turn_W + (placed_.p_b - a_.p_W).cross(coordinate.n_W);
+    row.turn_b_W = -coordinate.turn_W - (placed_.p_b - b_.p_W).cross(coordinate.n_W);
+    return row;
+  }
+
+  static void scaleRow(JointRow& row, double factor) {
+    row.n_W *= factor;
+    row.turn_a_W *= factor;
+    row.turn_b_W *= factor;
+  }
+
+  void writeLock(int i, JointRow row, double way, const JointAxis& axis) {
+    row.number = 6 * kHold + i;
+    row.way = i >= 3 ? std::remainder(way, kTurn) : way;
+    if (axis.hold_force < HUGE_VAL) {
+      // A bounded pin pulls as Bullet's does: a part of the way per step of the host.
+      row.law = JointLaw::kMotor;
+      row.speed = -row.way * axis.erp / joint_.host_dt;
+      row.low = -axis.hold_force;
+      row.high = axis.hold_force;
+    } else {
+      soften(row, axis);
+    }
+    rows_.push_back(row);
+  }
+
+  void writeLimit(int number, int sign, JointRow row, double way, const JointAxis& axis) {
+    scaleRow(row, sign);
+    const double approach = -computeSpeed(row);
+    if (way > std::max(JointCopy::kLimitReach, approach * JointCopy::kLimitTime)) return;
+    row.law = JointLaw::kLimit;
+    row.number = number;
+    row.way = way;
+    row.bounce = axis.bounce;
+    soften(row, axis);
+    rows_.push_back(row);
+  }
+
+  void writeMotor(int i, JointRow row, double q, const JointAxis& axis) {
+    row.law = JointLaw::kMotor;
+    row.number = 6 * kDrive + i;
+    row.high = std::clamp(axis.force, 0.0, kMostForce);
+    row.low = -row.high;
+    switch (axis.motor) {
+      case JointMotor::kNone:
+        return;
+      case JointMotor::kSpeed:
+        row.speed = axis.speed;
+        break;
+      case JointMotor::kServo: {
+        double error = axis.target - q;
+        if (i >= 3) error = std::remainder(error, kTurn);
+        const double most = std::abs(axis.speed);
+        row.speed = axis.sense * std::clamp(axis.gain * error, -most, most);
+        break;
+      }
+      case JointMotor::kSpring: {
+        const double force = axis.sense * axis.stiffness * (axis.rest - q);
+        row.speed = axis.gain * force;
+        row.low = -std::abs(force);
+        row.high = std::abs(force);
+        break;
+      }
+      case JointMotor::kTurn:
+        row.speed = -axis.gain * q;
+        row.low = 0.0;
+        break;
+    }
+    rows_.push_back(row);
+  }
+
+  void writeSpring(int i, JointRow row, double q, const JointAxis& axis) {
+    if (axis.stiffness <= 0.0 && axis.damping <= 0.0) return;
+    row.number = 6 * kElastic + i;
+    row.way = axis.sense * (q - axis.rest);
+    row.stiffness = axis.stiffness;
+    row.damping = axis.damping;
+    rows_.push_back(row);
+  }
+
+  [[nodiscard]] double computeSpeed(const JointRow& row) const {
+    return row.n_W.dot(a_.v_W - b_.v_W) + row.turn_a_W.dot(a_.w_W) + row.turn_b_W.dot(b_.w_W);
+  }
+
+  /// Bullet's softness is an impulse per impulse: with a fixed step, a spring and a damper.
+  void soften(JointRow& row, const JointAxis& axis) const {
+    if (axis.cfm <= 0.0) return;
+    const double inverse =
+        row.n_W.squaredNorm() * (joint_.mass_a.inverse_mass + joint_.mass_b.inverse_mass) +
+        computeResponse(joint_.mass_a, a_, row.turn_a_W) +
+        computeResponse(joint_.mass_b, b_, row.turn_b_W);
+    if (inverse <= 0.0) return;
+    row.damping = 1.0 / (inverse * axis.cfm * joint_.host_dt);
+    row.stiffness = axis.erp * row.damping / joint_.host_dt;
+  }
+
+  static double computeResponse(const EndMass& mass, const RigidState& state, const Vec3& turn_W) {
+    const Vec3 turn_B = state.q_WB.conjugate() * turn_W;
+    return turn_B.cwiseAbs2().dot(mass.inverse_inertia_B);
+  }
+
+  const JointSettings& joint_;
+  const RigidState& a_;
+  const RigidState& b_;
+  PlacedJoint placed_;
+  std::vector<JointRow>& rows_;
+};
+
+}  // namespace
+
+void JointCopy::evaluate(const RigidState& a, const RigidState& b,
+                         std::vector<JointRow>& rows) const noexcept {
+  RowWriter(joint_, a, b, rows).writeAll();
+}
+
+}  // namespace tandem

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <type_traits>
+#include <vector>
+
+#include "joints/joint_reading.h"
+
+namespace tandem {
+
+/// Private copy of a joint of the host's: it gives the joint's rows at any poses, and needs neither
+/// the host's joint nor its bodies for that.
+///
+/// It copies what the joint says of itself by Bullet's getters, and measures its coordinates in
+/// double. So float hosts get exact rows too, and nothing hides in the copy between two calls.
+/// Ends are in Bullet's order, A and B. It is a plain value: copying it allocates nothing.
+class JointCopy {
+ public:
+  /// True if the joint is of a type that can be copied; exactly that type, none derived from it.
+  [[nodiscard]] static bool isKnown(const btTypedConstraint& host) noexcept {
+    return isKnownJoint(host);
+  }
+
+  /// Copies a joint of a known type, which it only reads. In the host's thread.
+  JointCopy(btTypedConstraint& host, const HostSolver& solver) noexcept { refresh(host, solver); }
+
+  /// Copies it again, once per host step: motors, limits and targets may be new. In the host's
+  /// thread.
+  void refresh(btTypedConstraint& host, const HostSolver& solver) noexcept {
+    joint_ = readJoint(host, solver);
+  }
+
+  /// Adds the rows at given poses and velocities of A and B, at most kMostJointRows. A limit is
+  /// there while the way to it is below kLimitReach, or is passed within kLimitTime. Real-time
+  /// safe if `rows` has room.
+  void evaluate(const RigidState& a, const RigidState& b,
+                std::vector<JointRow>& rows) const noexcept;
+
+  /// Force or torque of any row beyond which the host's joint breaks [N or N m]; HUGE_VAL: none.
+  [[nodiscard]] double breakingForce() const noexcept {
+    return joint_.breaking_impulse / joint_.host_dt;
+  }
+  [[nodiscard]] bool isEnabled() const noexcept { return joint_.is_enabled; }
+  [[nodiscard]] const JointSettings& settings() const noexcept { return joint_; }
+
+  static constexpr double kLimitReach = 0.01;     ///< [m or rad]
+  static constexpr double kLimitTime = 1 / 60.0;  ///< [s]
+
+ private:
+  JointSettings joint_;
+};
+static_assert(std::is_trivially_destructible_v<JointCopy>);
+
+/// The same row with both ends exchanged.
+[[nodiscard]] inline JointRow exchangeEnds(JointRow row) noexcept {
+  row.n_W = -row.n_W;
+  std::swap(row.turn_a_W, row.turn_b_W);
+  return row;
+}
+
+}  // namespace tandem
