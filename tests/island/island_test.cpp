@@ -306,6 +306,18 @@ TEST(Island, ImpulseAddsMomentum) {
   EXPECT_NEAR(island.state(cube).w_W.y(), 1e-5 / (0.2 * 0.04 * 0.04 / 6.0), 1e-12);
 }
 
+// The square of a rate can be 0 where the rate is not.
+TEST(Island, TurnsAsSlowlyAsNumbersGo) {
+  Island island({});
+  const BodyIndex ball = island.addBody(makeBall(0.1));
+  island.prepare();
+  RigidState state = island.state(ball);
+  state.w_W = Vec3(1e-170, 0.0, 0.0);
+  island.setState(ball, state);
+  island.advance(1e-3);
+  EXPECT_TRUE(island.state(ball).q_WB.coeffs().allFinite());
+}
+
 TEST(Island, RefusesBadValuesByName) {
   const auto message = [](auto action) {
     try {

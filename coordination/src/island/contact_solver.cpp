@@ -14,6 +14,9 @@ constexpr double kStiffness = 1e4;
 constexpr double kSettled = 1e-9, kNearlySettled = 1e-6;
 /// Residual of Newton's iteration that is none [m/s].
 constexpr double kSmallResidual = 1e-10;
+/// Change of a velocity with which iteration is lost [m/s]. Should it come back, speeds would be
+/// off by its rounding.
+constexpr double kLost = 1e4;
 /// A new point that opens slower is taken as closed at first [m/s].
 constexpr double kTogether = 1e-3;
 constexpr int kMaxFactorisations = 20, kMaxSteps = 40;
@@ -97,6 +100,7 @@ bool ContactSolver::settle() noexcept {
       is_factored = true;
     }
     step();
+    if (!(measureLargest(x_) < kLost)) return false;
     const Modes modes = chooseModes();
     const double residual = measureResidual();
     if (residual > kSmallResidual || modes.are_forced) {
@@ -364,12 +368,18 @@ double ContactSolver::measureResidual() noexcept {
     addPush(J_[points_.size() + i], twists_[i].T - twists_[i].held);
   for (std::size_t i = 0; i < hold_laws_.size(); ++i)
     addPush(J_[firstHold() + i], hold_laws_[i].missing());
+  return measureLargest(dx_);
+}
+
+/// Largest change of a body's velocity among `changes` [m/s].
+double ContactSolver::measureLargest(const std::vector<Six>& changes) const noexcept {
   double most = 0.0;
-  for (std::size_t i = 0; i < dx_.size(); ++i) {
+  for (std::size_t i = 0; i < changes.size(); ++i) {
     const RigidMover& mover = *bodies_[i];
-    const PlainVec dv = multiplyEach(mover.root_mass_W, PlainVec(dx_[i].at));
-    const PlainVec dw = mover.rootTurn(PlainVec(dx_[i].at + 3));
-    most = std::max({most, dot(dv, dv), mover.radius_squared * dot(dw, dw)});
+    const PlainVec dv = multiplyEach(mover.root_mass_W, PlainVec(changes[i].at));
+    const PlainVec dw = mover.rootTurn(PlainVec(changes[i].at + 3));
+    const double square = std::max(dot(dv, dv), mover.radius_squared * dot(dw, dw));
+    if (!(square <= most)) most = square;
   }
   return std::sqrt(most);
 }

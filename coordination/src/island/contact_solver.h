@@ -79,6 +79,7 @@ class ContactSolver {
   [[nodiscard]] bool factorise() noexcept;
   void step() noexcept;
   double measureResidual() noexcept;
+  [[nodiscard]] double measureLargest(const std::vector<Six>& changes) const noexcept;
   [[nodiscard]] double measureSlip() const noexcept;
   void addMotions() noexcept;
   void keepAnswer() noexcept;

@@ -307,6 +307,8 @@ void SpatialMotion::turnAlone(const ModelBody& body, double dt, RigidState& stat
   const OscillatorMap map = computeOscillatorMap(0.0, body.settings.angular_damping, dt);
   const Vec3 w_W = body.state.w_W;
   const double speed = w_W.norm();
+  // The square of a tiny one is 0.
+  if (speed == 0.0) return;
   const Quat turn(Eigen::AngleAxisd(map.velocity_to_way * speed, w_W / speed));
   state.q_WB = (turn * body.state.q_WB).normalized();
   state.w_W = map.velocity_to_velocity * w_W;
