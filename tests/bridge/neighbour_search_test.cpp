@@ -161,13 +161,29 @@ TEST_F(NeighbourSearchTest, LeavesOutWhatDoesNotMoveByForces) {
   EXPECT_TRUE(findOnce().empty());
 }
 
-TEST_F(NeighbourSearchTest, LeavesOutBodiesOfJoints) {
-  btRigidBody& box = addAtGap(2e-3);
-  btPoint2PointConstraint joint(box, btVector3(0, 0, 0));
+TEST_F(NeighbourSearchTest, TakesAChainWholeOrNotAtAll) {
+  btRigidBody& near = addAtGap(2e-3);
+  btRigidBody& far = rig.addCube(0.2, kHalf, Vec3(5.0, 0.0, 0.0));
+  btPoint2PointConstraint joint(near, far, btVector3(1, 0, 0), btVector3(-1, 0, 0));
   rig.world.addConstraint(&joint);
+  EXPECT_EQ(findOnce(), (Bodies{&near, &far}));
+  // There is no room for both.
+  NeighbourSearch small(rig.world, 1);
+  EXPECT_TRUE(find(small).empty());
+  // One of them cannot be held.
+  far.forceActivationState(DISABLE_SIMULATION);
   EXPECT_TRUE(findOnce().empty());
+  far.forceActivationState(ACTIVE_TAG);
+  // A joint that is off holds nothing.
+  joint.setEnabled(false);
+  EXPECT_EQ(findOnce(), Bodies{&near});
+  joint.setEnabled(true);
+  // The chain of a body that the island has anyway comes, too.
+  NeighbourSearch search(rig.world, 16);
+  search.exclude(near);
+  EXPECT_EQ(find(search), Bodies{&far});
   rig.world.removeConstraint(&joint);
-  EXPECT_EQ(findOnce(), Bodies{&box});
+  EXPECT_EQ(findOnce(), Bodies{&near});
 }
 
 TEST_F(NeighbourSearchTest, LeavesOutWhatTheIslandHasAnyway) {

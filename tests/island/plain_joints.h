@@ -82,6 +82,16 @@ class PlainJoints final : public JointSource {
       rows.push_back(row);
     }
   }
+  void note(std::size_t joint, const JointRow& row, double impulse, double h,
+            bool is_first) noexcept override {
+    if (is_first) last_force_W = last_torque_W = Vec3::Zero();
+    if (joint != noted) return;
+    last_force_W += impulse / h * row.n_W;
+    last_torque_W += impulse / h * row.turn_a_W;
+  }
+
+  std::size_t noted = 0;  ///< joint of which a's force is kept
+  Vec3 last_force_W = Vec3::Zero(), last_torque_W = Vec3::Zero();
 
  private:
   std::vector<JointEnds> ends_;

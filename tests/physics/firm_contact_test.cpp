@@ -13,6 +13,7 @@
 
 #include "tandem/plugin/site.h"
 
+#include "bridge/bullet_rig.h"
 #include "host/any_host.h"
 #include "support/fakes.h"
 
@@ -20,6 +21,7 @@ namespace tandem {
 namespace {
 
 using test::AnyHost;
+using test::byWidth;
 using test::WorldKind;
 
 /// Ways to step the cube: by Bullet alone, or by a site.
@@ -191,9 +193,8 @@ TEST(FirmContact, ACubeOnALinkDoesNotShake) {
 
 /// Measures of a swinging body.
 struct Swing {
-  double gap = 0.0;    ///< largest one of the joint [m]
-  double most = -1e9;  ///< largest energy, zero at the start [J]
-  double last = 0.0;   ///< energy at the end [J]
+  double gap = 0.0;                  ///< largest one of the joint [m]
+  double least = 1e9, most = -1e9;  ///< energy, zero at the start [J]
 };
 
 template <typename Joint>
@@ -210,36 +211,41 @@ Swing swing(Way way, double rate, const Vec3& start_W, Joint makeJoint) {
     swing.gap =
         std::max(swing.gap, static_cast<double>((cube.getWorldTransform() * pin_B).length()));
     const double v = static_cast<double>(cube.getLinearVelocity().length());
-    swing.last = kMass * (0.5 * v * v + kGravity * (scene.position().z() - start_W.z()));
-    swing.most = std::max(swing.most, swing.last);
+    const double w = static_cast<double>(cube.getAngularVelocity().length());
+    const double inertia = 1.0 / static_cast<double>(cube.getInvInertiaDiagLocal().x());
+    const double energy = kMass * (0.5 * v * v + kGravity * (scene.position().z() - start_W.z())) +
+                          0.5 * inertia * w * w;
+    swing.least = std::min(swing.least, energy);
+    swing.most = std::max(swing.most, energy);
   });
   return swing;
 }
 
+// Bullet alone loses a tenth of it in ten seconds, and opens the joint by up to 1 mm.
 template <typename Joint>
-void expectAsInBullet(const Vec3& start_W, Joint makeJoint) {
+void expectFirm(const Vec3& start_W, Joint makeJoint) {
+  constexpr double kUnit = kMass * kGravity * 0.1;
   for (const double rate : {60.0, 240.0, 1000.0}) {
     SCOPED_TRACE(rate);
-    const Swing bare = swing(Way::kBare, rate, start_W, makeJoint);
     for (const Way way : {Way::kHostStep, Way::kCaller}) {
       const Swing shared = swing(way, rate, start_W, makeJoint);
-      EXPECT_LT(shared.gap, 1.1 * bare.gap + 1e-6);
-      EXPECT_LT(shared.most, 1e-3);
-      EXPECT_NEAR(shared.last, bare.last, 0.02);
+      EXPECT_LT(shared.gap, byWidth(1e-9, 1e-6));
+      EXPECT_LT(shared.most, byWidth(1e-7, 1e-4) * kUnit);
+      EXPECT_GT(shared.least, -byWidth(1e-7, 1e-4) * kUnit);
     }
   }
 }
 
-TEST(FirmContact, APendulumSwingsAsInBullet) {
+TEST(FirmContact, APendulumKeepsItsEnergy) {
   const Vec3 start_W(0.1, 0.0, 0.0);
-  expectAsInBullet(start_W, [&](btRigidBody& cube) {
+  expectFirm(start_W, [&](btRigidBody& cube) {
     return std::make_unique<btPoint2PointConstraint>(cube, toBullet(Vec3(-start_W)));
   });
 }
 
-TEST(FirmContact, ADoorSwingsAsInBullet) {
+TEST(FirmContact, ADoorKeepsItsEnergy) {
   const Vec3 start_W(0.1, 0.0, 0.05);
-  expectAsInBullet(start_W, [&](btRigidBody& cube) {
+  expectFirm(start_W, [&](btRigidBody& cube) {
     return std::make_unique<btHingeConstraint>(cube, toBullet(Vec3(-start_W)), btVector3(0, 1, 0));
   });
 }

@@ -20,6 +20,8 @@ struct HostSolver {
 struct JointFrame {
   Vec3 p = Vec3::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+
+  [[nodiscard]] bool operator==(const JointFrame&) const noexcept = default;
 };
 
 enum class JointMotor : std::uint8_t {
@@ -53,6 +55,7 @@ struct JointAxis {
   [[nodiscard]] bool isLocked() const noexcept { return low == high; }
   [[nodiscard]] bool isFree() const noexcept { return low > high; }
   void lock() noexcept { low = high = 0.0; }
+  [[nodiscard]] bool operator==(const JointAxis&) const noexcept = default;
 };
 
 enum class JointKind : std::uint8_t { kPoint, kHinge, kSlider, kConeTwist, kSixDof, kGear };
@@ -72,12 +75,16 @@ struct SwingSettings {
   SwingKind kind = SwingKind::kFree;
   double span1 = 0.0, span2 = 0.0;                       ///< half angles of the cone [rad]
   Eigen::Matrix3d target = Eigen::Matrix3d::Identity();  ///< of frame a in frame b
+
+  [[nodiscard]] bool operator==(const SwingSettings&) const noexcept = default;
 };
 
 /// Mass of an end, as in the host; 0 if it does not move.
 struct EndMass {
   double inverse_mass = 0.0;
   Vec3 inverse_inertia_B = Vec3::Zero();
+
+  [[nodiscard]] bool operator==(const EndMass&) const noexcept = default;
 };
 
 /// A host's joint, read out. Plain values, without any of Bullet's objects.
@@ -95,6 +102,8 @@ struct JointSettings {
   double host_dt = 1.0 / 60.0;         ///< [s]
   double breaking_impulse = HUGE_VAL;  ///< of a row in one step of the host [N s or N m s]
   bool is_enabled = true;
+
+  [[nodiscard]] bool operator==(const JointSettings&) const noexcept = default;
 };
 
 }  // namespace tandem

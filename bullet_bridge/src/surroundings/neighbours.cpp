@@ -72,14 +72,15 @@ bool contains(const std::vector<Body*>& bodies, const btRigidBody* body) {
 }  // namespace
 
 NeighbourSearch::NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity)
-    : host_(host), capacity_(capacity) {}
+    : host_(host), capacity_(capacity), joints_(host) {}
 
 const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<NeighbourSeed>& seeds,
                                                        double horizon) {
   held_.swap(found_);
   found_.clear();
-  listJointed(host_, jointed_);
+  joints_.look([&](const btRigidBody& body) { return isExcluded(body) || mayBeHeld(body); });
   wave_ = seeds;
+  takeChainsOfExcluded();
   while (!wave_.empty() && found_.size() < capacity_) {
     candidates_.clear();
     for (const NeighbourSeed& seed : wave_) findAround(seed, horizon);
@@ -125,7 +126,7 @@ bool NeighbourSearch::isStranger(const btCollisionObject& object) const {
   if (object.isStaticObject() || !object.hasContactResponse()) return false;
   const btRigidBody* body = btRigidBody::upcast(&object);
   if (body == nullptr) return object.getInternalType() == btCollisionObject::CO_FEATHERSTONE_LINK;
-  return !contains(found_, body) && !std::binary_search(excluded_.begin(), excluded_.end(), body);
+  return !contains(found_, body) && !isExcluded(*body);
 }
 
 bool NeighbourSearch::isStrangerNear(const btRigidBody& body, double horizon) const {
@@ -154,11 +155,41 @@ void NeighbourSearch::takeNearest() {
   });
   for (const Candidate& candidate : candidates_) {
     if (found_.size() == capacity_) return;
-    if (contains(found_, candidate.body)) continue;
-    found_.push_back(candidate.body);
-    // A kinematic body passes no push on.
-    if (!candidate.body->isKinematicObject()) wave_.push_back(makeSeed(*candidate.body));
+    if (contains(found_, candidate.body) || !hasRoomFor(*candidate.body)) continue;
+    take(*candidate.body);
+    joints_.visitChainOf(*candidate.body, [&](btRigidBody& body) {
+      if (!contains(found_, &body) && !isExcluded(body)) take(body);
+    });
   }
+}
+
+void NeighbourSearch::take(btRigidBody& body) {
+  found_.push_back(&body);
+  // A kinematic body passes no push on.
+  if (!body.isKinematicObject()) wave_.push_back(makeSeed(body));
+}
+
+/// The island holds their bodies whatever is near: they need their joints.
+void NeighbourSearch::takeChainsOfExcluded() {
+  for (const btRigidBody* excluded : excluded_) {
+    if (!joints_.mayHoldChainOf(*excluded) || !hasRoomFor(*excluded)) continue;
+    joints_.visitChainOf(*excluded, [&](btRigidBody& body) {
+      if (!contains(found_, &body) && !isExcluded(body)) take(body);
+    });
+  }
+}
+
+/// True if the rest of its chain fits, too.
+bool NeighbourSearch::hasRoomFor(const btRigidBody& body) const {
+  std::size_t count = isExcluded(body) || joints_.isJointed(body) ? 0 : 1;
+  joints_.visitChainOf(body, [&](const btRigidBody& mate) {
+    if (!contains(found_, &mate) && !isExcluded(mate)) ++count;
+  });
+  return found_.size() + count <= capacity_;
+}
+
+bool NeighbourSearch::isExcluded(const btRigidBody& body) const {
+  return std::binary_search(excluded_.begin(), excluded_.end(), &body);
 }
 
 bool NeighbourSearch::isAnythingDriven() const {
@@ -169,13 +200,16 @@ bool NeighbourSearch::isAnythingDriven() const {
 }
 
 bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
+  if (!body.hasContactResponse() || isExcluded(body)) return false;
+  if (body.isKinematicObject())
+    return body.getCollisionShape()->getShapeType() != STATIC_PLANE_PROXYTYPE;
+  return mayBeHeld(body) && (!joints_.isJointed(body) || joints_.mayHoldChainOf(body));
+}
+
+/// True if the island could hold a moving body, but for its joints.
+bool NeighbourSearch::mayBeHeld(const btRigidBody& body) const {
   const btCollisionShape& shape = *body.getCollisionShape();
-  if (!body.hasContactResponse() || std::binary_search(excluded_.begin(), excluded_.end(), &body))
-    return false;
-  if (body.isKinematicObject()) return shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
-  return isMovedByForces(body) && hasPlainContact(body) &&
-         !std::binary_search(jointed_.begin(), jointed_.end(), &body) &&
-         (shape.isConvex() || shape.isCompound());
+  return isMovedByForces(body) && hasPlainContact(body) && (shape.isConvex() || shape.isCompound());
 }
 
 }  // namespace tandem

@@ -8,6 +8,7 @@
 #include "tandem/coordination/types.h"
 
 #include "coordination/src/island/collision_filter.h"
+#include "joints/joint_graph.h"
 
 class btCollisionObject;
 class btDiscreteDynamicsWorld;
@@ -35,10 +36,11 @@ struct NeighbourSeed {
 /// nearest first, up to the capacity. Further bodies stay the host's and push back by its own
 /// contact.
 ///
-/// Kinematic bodies of any shape but a plane are taken too; the chain ends at them. Excluded are
-/// static bodies, bodies with joints, and dynamic bodies of shapes neither convex nor compound. So
-/// are bodies without contact response or with simulation disabled. For the thread that steps the
-/// host's world.
+/// Bodies in joints come with all of their chain, or not at all (JointGraph); so do the chains of
+/// excluded bodies. Kinematic bodies of any shape but a plane are taken too; the chain ends at them.
+/// Left out are static bodies, and dynamic bodies of shapes neither convex nor compound. So are
+/// bodies without contact response or with simulation disabled. For the thread that steps the host's
+/// world.
 class NeighbourSearch {
  public:
   /// `host` must outlive this object.
@@ -77,12 +79,18 @@ class NeighbourSearch {
   void visitNear(const NeighbourSeed& seed, double horizon, Take take) const;
   void findAround(const NeighbourSeed& seed, double horizon);
   void takeNearest();
+  void take(btRigidBody& body);
+  void takeChainsOfExcluded();
+  [[nodiscard]] bool hasRoomFor(const btRigidBody& body) const;
+  [[nodiscard]] bool isExcluded(const btRigidBody& body) const;
+  [[nodiscard]] bool mayBeHeld(const btRigidBody& body) const;
   [[nodiscard]] bool mayBeNeighbour(const btRigidBody& body) const;
   [[nodiscard]] bool isStranger(const btCollisionObject& object) const;
 
   btDiscreteDynamicsWorld& host_;
   std::size_t capacity_;
-  std::vector<const btRigidBody*> excluded_, jointed_;
+  JointGraph joints_;
+  std::vector<const btRigidBody*> excluded_;
   std::vector<btRigidBody*> held_, found_;
   std::vector<NeighbourSeed> wave_;
   std::vector<Candidate> candidates_;

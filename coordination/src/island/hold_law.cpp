@@ -20,7 +20,7 @@ void HoldLaw::respond() noexcept {
   for (int i = 0; i < count; ++i) {
     const double q = P0[i] - rho[i] * u[i];
     P[i] = std::clamp(q, hold[i]->low, hold[i]->high);
-    if (P[i] == q) stiffness[i] = rho[i];
+    if (P[i] == q && hold[i]->low < hold[i]->high) stiffness[i] = rho[i];
   }
   D = {};
   D.nn = stiffness[0];

@@ -180,6 +180,15 @@ void JointForces::gather(double moment) noexcept {
       const JointRow& row = now_[i];
       double& force = force_[place(joint.index, row)];
       force = 0.0;
+      const double mobility = mobilityOf(joint, row);
+      if (mobility == 0.0) continue;
+      if (isSoft(row, mobility)) {
+        const auto v_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.v_W; };
+        const auto w_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.w_W; };
+        force = computeSpringForce(row, along(row, joint.a, joint.b, v_W, w_W));
+        push(joint, row, force);
+        continue;
+      }
       const JointMode mode = memory_.mode(joint.index, row);
       if (mode == JointMode::kLow) push(joint, row, force = row.low);
       if (mode == JointMode::kHigh) push(joint, row, force = row.high);
@@ -189,6 +198,16 @@ void JointForces::gather(double moment) noexcept {
       addRow(joint, row, is_same ? &later_[i] : nullptr, moment);
     }
   }
+}
+
+double JointForces::mobilityOf(const Joint& joint, const JointRow& row) const noexcept {
+  const auto of = [&](BodyIndex body, const Vec3& turn_W) {
+    const int block = blockOf(body);
+    if (block < 0) return 0.0;
+    return computeMobility(movers_[static_cast<std::size_t>(block)], PlainVec(row.n_W),
+                           PlainVec(turn_W));
+  };
+  return of(joint.a, row.turn_a_W) + of(joint.b, row.turn_b_W);
 }
 
 void JointForces::push(const Joint& joint, const JointRow& row, double force) noexcept {
@@ -267,7 +286,6 @@ bool JointForces::factorise() noexcept {
         *entry++ = sum;
       }
       entry[-1] *= 1.0 + kCompliance;
-      if (entry[-1] == 0.0) entry[-1] = 1.0;
     }
   }
   return matrix_.factorise();

@@ -78,6 +78,7 @@ class JointForces {
   void orderJoints() noexcept;
   [[nodiscard]] double chooseMoment() const noexcept;
   void gather(double moment) noexcept;
+  [[nodiscard]] double mobilityOf(const Joint& joint, const JointRow& row) const noexcept;
   void push(const Joint& joint, const JointRow& row, double force) noexcept;
   void addRow(const Joint& joint, const JointRow& now, const JointRow* later,
               double moment) noexcept;

@@ -1,16 +1,39 @@
 #include "island/joint_hold.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tandem {
+
+bool isSoft(const JointRow& row, double mobility) noexcept {
+  constexpr double kFastest = 2e4;  // [1/s]
+  if (row.law == JointLaw::kMotor || (row.stiffness == 0.0 && row.damping == 0.0)) return false;
+  return row.stiffness * mobility < kFastest * kFastest && row.damping * mobility < kFastest;
+}
+
+double computeSpringForce(const JointRow& row, double speed) noexcept {
+  if (row.law == JointLaw::kLimit && row.way >= 0.0) return 0.0;
+  const double force = -(row.stiffness * row.way + row.damping * speed);
+  return row.law == JointLaw::kLimit ? std::max(0.0, force) : force;
+}
+
+double computeMobility(const RigidMover& mover, const PlainVec& n, const PlainVec& turn) noexcept {
+  constexpr double kRounding = 1e-12;
+  const double mobility =
+      dot(n, multiplyEach(mover.inverse_mass_W, n)) + dot(turn, mover.turnBy(turn));
+  const double free =
+      dot(n, n) * mover.inverse_mass +
+      dot(turn, turn) * (dot(mover.root_x, mover.root_x) + dot(mover.root_y, mover.root_y) +
+                         dot(mover.root_z, mover.root_z));
+  return mobility > kRounding * free ? mobility : 0.0;
+}
 
 void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {
   mode = mode_before;
   const bool is_angular = row.n_W == Vec3::Zero();
   const auto look = [&](const RigidMover* mover, const Vec3& turn_W) {
     if (!mover) return;
-    const PlainVec n(row.n_W), turn(turn_W);
-    inverse += dot(n, multiplyEach(mover->inverse_mass_W, n)) + dot(turn, mover->turnBy(turn));
+    inverse += computeMobility(*mover, PlainVec(row.n_W), PlainVec(turn_W));
     if (is_angular && mover->inverse_mass > 0.0) reach = std::sqrt(mover->radius_squared);
   };
   look(a, row.turn_a_W);
@@ -19,9 +42,12 @@ void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {
   low = least = is_motor ? h * row.low : row.law == JointLaw::kLimit ? 0.0 : -HUGE_VAL;
   high = most = is_motor ? h * row.high : HUGE_VAL;
   held = impulse = h * force;
+  is_soft = isSoft(row, inverse);
+  if (is_soft) low = high = least = most = held;
 }
 
 JointMode JointHold::findMode() const noexcept {
+  if (is_soft) return JointMode::kIdle;
   switch (row.law) {
     case JointLaw::kLocked:
       return JointMode::kHolds;
@@ -37,8 +63,8 @@ JointMode JointHold::findMode() const noexcept {
 void JointHold::startBlow() noexcept {
   held = impulse = 0.0;
   wanted = 0.0;
-  if (row.law == JointLaw::kMotor) low = high = 0.0;
-  if (row.law != JointLaw::kLimit) return;
+  if (row.law == JointLaw::kMotor || is_soft) low = high = 0.0;
+  if (row.law != JointLaw::kLimit || is_soft) return;
   low = 0.0;
   high = is_impact || steady > 0.0 ? HUGE_VAL : 0.0;
   if (is_impact) wanted = std::max(0.0, -row.bounce * speed());

@@ -27,7 +27,10 @@ struct JointHold {
   double low = 0.0, high = 0.0;    ///< bounds of the impulse
   double least = 0.0, most = 0.0;  ///< the same, of the step without impacts
   JointMode mode = JointMode::kHolds;
+  bool is_soft = false;  ///< smooth motion has done all
 
+  [[nodiscard]] bool isLimit() const noexcept { return row.law == JointLaw::kLimit && !is_soft; }
+  [[nodiscard]] bool isLocked() const noexcept { return row.law == JointLaw::kLocked && !is_soft; }
   [[nodiscard]] double speed() const noexcept {
     double u = 0.0;
     if (a) u += dot(PlainVec(row.n_W), a->v) + dot(PlainVec(row.turn_a_W), a->w);
@@ -78,6 +81,18 @@ struct JointHold {
   void startBlow() noexcept;
   void endBlow() noexcept;
 };
+
+/// True if a spring and a damper hold the row, whose mobility is given [1/kg]. One that is faster
+/// than anybody feels, or than integration follows, counts as rigid: it yields 25 nm under its
+/// load.
+[[nodiscard]] bool isSoft(const JointRow& row, double mobility) noexcept;
+/// Force of a soft row that goes at `speed`.
+[[nodiscard]] double computeSpringForce(const JointRow& row, double speed) noexcept;
+
+/// Speed along a row per impulse by one end; 0 if that is rounding beside what the end could have,
+/// had it no linear and angular factors.
+[[nodiscard]] double computeMobility(const RigidMover& mover, const PlainVec& n,
+                                     const PlainVec& turn) noexcept;
 
 /// Writes the velocity along a joint's row into direction `i` of `J`, in units in which each end
 /// has mass and inertia 1. An end without a block row is null; J.a stands for the first that is

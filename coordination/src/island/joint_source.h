@@ -47,7 +47,7 @@ struct JointRow {
 inline constexpr int kMostJointRows = 24;
 
 /// Most joints of an island.
-inline constexpr std::size_t kMaxJoints = 256;
+inline constexpr std::size_t kMaxJoints = 128;
 
 /// A joint between two bodies of the island, or of one and a fixed place.
 struct JointEnds {
@@ -73,6 +73,11 @@ class JointSource {
   /// The state of a fixed end is unused. Limits that are far may be missing.
   virtual void evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                         std::vector<JointRow>& rows) noexcept = 0;
+
+  /// A step of `h` [s] is done, in which a row gave a the impulse `impulse` along it [N s, N m s].
+  /// All rows of a joint come one after the other, the first of them with `is_first`.
+  virtual void note(std::size_t joint, const JointRow& row, double impulse, double h,
+                    bool is_first) noexcept = 0;
 };
 
 }  // namespace tandem

@@ -33,8 +33,8 @@ constexpr int kMaxImpactTries = 8;
 constexpr int kMaxTimesLearned = 2;
 /// Error of position that a change of force may make in a step [m].
 constexpr double kAllowedError = 3e-8;
-/// Rows of a joint.
-constexpr auto kMostHolds = static_cast<std::size_t>(kMostJointRows);
+/// Rows of a joint, on average.
+constexpr std::size_t kMostHolds = 8;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity, std::
   gaps_.reserve(contact_capacity);
   ways_.reserve(max_joints * kMostHolds);
   holds_.reserve(max_joints * kMostHolds);
-  if (max_joints > 0) joint_rows_.reserve(kMostHolds);
+  if (max_joints > 0) joint_rows_.reserve(static_cast<std::size_t>(kMostJointRows));
 }
 
 void RigidStep::forget() noexcept {
@@ -218,8 +218,7 @@ double RigidStep::findImpacts(double h) noexcept {
   for (JointHold& hold : holds_) {
     const double u = hold.reach * hold.speed(), way = hold.reach * hold.row.way;
     const double at_start = hold.reach * hold.at_start;
-    if (hold.row.law != JointLaw::kLimit || hold.mode != JointMode::kIdle || u > -kImpactSpeed)
-      continue;
+    if (!hold.isLimit() || hold.mode != JointMode::kIdle || u > -kImpactSpeed) continue;
     if (at_start < kImpactOverlap && hold.reach * hold.opening > -kImpactSpeed) continue;
     hold.is_impact = way <= kSlop;
     if (at_start < -2.0 * kImpactOverlap) continue;
@@ -250,7 +249,7 @@ void RigidStep::aim(double h) noexcept {
   }
   for (JointHold& hold : holds_) {
     hold.wanted = hold.row.speed;
-    if (hold.row.law != JointLaw::kLimit) continue;
+    if (!hold.isLimit()) continue;
     if (hold.is_impact) hold.low = hold.high = 0.0;
     if (hold.mode == JointMode::kHolds || hold.reach * hold.row.way < kRounding) continue;
     hold.wanted = std::min(0.0, hold.speed() - hold.row.way / (0.5 * h));

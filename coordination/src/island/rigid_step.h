@@ -62,6 +62,12 @@ class RigidStep {
   /// After a correct() that is not done: whether the same length is to be tried again.
   [[nodiscard]] bool isDone() const noexcept { return is_done_; }
 
+  /// Calls `visit(hold)` for each row of a joint in the last step.
+  template <typename Visit>
+  void visitHolds(Visit visit) const {
+    for (const JointHold& hold : holds_) visit(hold);
+  }
+
   /// All positions were shifted. Real-time safe.
   void shiftOrigin(const Vec3& offset_W) noexcept { memory_.shiftOrigin(offset_W); }
   /// Forgets the last step: the next one does not follow it.

@@ -22,9 +22,9 @@ void RigidStep::answerBlows(const IslandModel& model, States& states) noexcept {
   double fastest = 0.0;
   for (JointHold& hold : holds_) {
     const double u = hold.reach * hold.speed();
-    hold.is_impact = hold.row.law == JointLaw::kLimit && hold.reach * hold.row.way <= kReached;
+    hold.is_impact = hold.isLimit() && hold.reach * hold.row.way <= kReached;
     hold.startBlow();
-    if (hold.row.law == JointLaw::kLocked) fastest = std::max(fastest, std::abs(u));
+    if (hold.isLocked()) fastest = std::max(fastest, std::abs(u));
     if (hold.is_impact) fastest = std::max(fastest, -u);
   }
   if (fastest < kBlow) return;
@@ -53,6 +53,7 @@ void RigidStep::setUpJoints(const IslandModel& model, const States& before, cons
     joint_rows_.clear();
     model.joints->evaluate(joint.index, stateOf(joint.a), stateOf(joint.b), joint_rows_);
     for (const JointRow& row : joint_rows_) {
+      if (holds_.size() == holds_.capacity()) return;
       holds_.emplace_back();
       JointHold& hold = holds_.back();
       hold.joint = joint.index;

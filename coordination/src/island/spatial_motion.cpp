@@ -405,6 +405,12 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
     rigid_step_.visitPoints([&](const RigidContact& contact, const Vec3& impulse_W) {
       tally_.count(contact, impulse_W);
     });
+    const JointHold* before = nullptr;
+    rigid_step_.visitHolds([&](const JointHold& hold) {
+      const bool is_first = !before || before->joint != hold.joint;
+      model.joints->note(hold.joint, hold.row, hold.steady + hold.blow, h, is_first);
+      before = &hold;
+    });
   }
   if (tries_left <= 0 || !rigid_step_.hasWorkLeft()) ++counters.rigid_bounded;
 }

@@ -15,8 +15,9 @@ void HandOffStep::before(double dt) noexcept {
   if (isWaiting()) return;
   if (hasNoTicks()) return leaveAlone(dt);
   is_alone_ = false;
-  const bool looks_quiet =
-      dt == site_.clock.step() && site_.rest.looksQuiet() && !site_.surroundings.mayBodiesBeBack();
+  const bool looks_quiet = dt == site_.clock.step() && site_.rest.looksQuiet() &&
+                           !site_.surroundings.mayBodiesBeBack() &&
+                           !site_.surroundings.joints().hasNews();
   if (!looks_quiet) {
     if (!findChanges()) {
       site_.rest.disturb();
@@ -31,9 +32,11 @@ void HandOffStep::before(double dt) noexcept {
   giveBack();
   handOff(dt);
   site_.press.show(dt);
+  site_.surroundings.joints().switchOff();
 }
 
 void HandOffStep::after(double dt) noexcept {
+  site_.surroundings.joints().switchOn();
   site_.press.takeOut();
   if (isWaiting()) return wait(dt);
   if (is_alone_) return site_.desk.run([&] { site_.clock.endStep(dt); });

@@ -11,6 +11,7 @@ namespace tandem {
 
 HandOffStep::HandOffStep(SiteParts& parts) : IslandStep(parts) {
   site_.island.setContactFinder(&site_.surroundings.contactFinder());
+  if (!site_.settings.guide) site_.island.setJointSource(&site_.surroundings.joints());
   if (!site_.settings.guide) site_.surroundings.addSlots(site_.settings.max_neighbours);
 }
 
@@ -107,6 +108,7 @@ void HandOffStep::passHostChanges(double dt) noexcept {
   });
   site_.forces.pass(dt, site_.ticksInHostStep());
   site_.surroundings.followDamping();
+  if (site_.surroundings.joints().refresh(dt)) site_.island.wake();
 }
 
 /// Moves the island's body along when the host repositions its body. Kept states for coming host
@@ -149,6 +151,7 @@ void HandOffStep::findEnds() noexcept {
 /// The way out: the island takes solver impulses, neighbours and obstacles.
 void HandOffStep::goOut(double dt) noexcept {
   site_.clock.endStep(dt);
+  if (site_.surroundings.joints().tell(dt)) site_.island.wake();
   site_.surroundings.takeContacts();
   site_.bodies.forEach([&](SiteBody& body) { receive(body, dt); });
   takePuts();

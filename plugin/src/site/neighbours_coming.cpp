@@ -34,6 +34,7 @@ void Surroundings::takeContacts() noexcept {
 }
 
 void Surroundings::takeLeaving() noexcept {
+  if (joints_.dropGone()) island_.wake();
   if (leaving_.empty() && !has_more_) return;
   takeObstacles();
   for (Neighbour* neighbour : leaving_) takeOut(*neighbour);
@@ -44,9 +45,16 @@ void Surroundings::take() noexcept {
   takeObstacles();
   for (Neighbour* neighbour : leaving_) takeOut(*neighbour);
   takeNewcomers();
+  takeJoints();
   spring_speed_ = island_.isAsleep() ? 0.0 : computeSpeedInSprings();
   catchUp();
   peers_.noteSearched();
+}
+
+void Surroundings::takeJoints() noexcept {
+  if (!joints_.take()) return;
+  static_cast<void>(joints_.refresh(clock_.step()));
+  island_.wake();
 }
 
 void Surroundings::takeObstacles() noexcept {
@@ -59,6 +67,7 @@ void Surroundings::takeObstacles() noexcept {
 void Surroundings::takeOut(Neighbour& neighbour) noexcept {
   const BodyIndex index = neighbour.body.index;
   std::erase(newcomers_, index);
+  joints_.drop(index);
   if (neighbour.body.is_held) {
     hand_.energy().countNeighbour(neighbour.settings, island_.state(index), -1.0);
     neighbour.owed = forces_.computeOwed(neighbour.body);

@@ -81,6 +81,7 @@ void ObjectWatch::takeLeaving() noexcept {
     const RigidState last = island_.state(body.index);
     hand_.energy().countNeighbour(island_.body(body.index), last, -1.0);
     object.owed = forces_.computeOwed(body);
+    surroundings_.joints().drop(body.index);
     island_.clear(body.index);
     island_.setState(body.index, last);
     body.is_held = object.awaits_put = false;

@@ -47,7 +47,8 @@ Surroundings::Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& s
       log_(log),
       obstacles_(world),
       away_(world),
-      search_(world, static_cast<std::size_t>(settings.max_neighbours)) {}
+      search_(world, static_cast<std::size_t>(settings.max_neighbours)),
+      joints_(world) {}
 
 void Surroundings::addSlots(int count) {
   neighbours_.resize(static_cast<std::size_t>(count));
@@ -81,6 +82,7 @@ void Surroundings::findMissing() {
     neighbour.body.step.forgetReaction();
     leave(neighbour);
   }
+  joints_.findGone();
 }
 
 void Surroundings::look(double dt, double step_end, double age, bool everywhere) {
@@ -88,6 +90,7 @@ void Surroundings::look(double dt, double step_end, double age, bool everywhere)
   if (!everywhere) everywhere = isTurnOfFullLook();
   horizon_ = computeHorizon(dt) + age;
   lookForNeighbours(horizon_, step_end, everywhere);
+  if (settings_.injection == Injection::kHandoff) lookForJoints();
   // Springs stretched at the last look may move a body farther than its speed does.
   const double way = kSafety * spring_speed_ * horizon_;
   way_by_springs_ = way > kStandingMargin ? way : 0.0;
@@ -200,6 +203,20 @@ void Surroundings::lookForNeighbours(double horizon, double step_end, bool every
                                    [](const Neighbour& neighbour) { return !neighbour.rigid; });
     if (slot != neighbours_.end()) promote(*rigid, *slot, step_end);
   }
+}
+
+void Surroundings::lookForJoints() {
+  joints_.look([&](const btRigidBody& rigid) { return findHeld(rigid); });
+}
+
+/// The island's body of a btRigidBody, if the island holds it after the next take().
+std::optional<BodyIndex> Surroundings::findHeld(const btRigidBody& rigid) const noexcept {
+  for (const SharedObject& object : bodies_.objects)
+    if (object.rigid == &rigid && (object.body.is_held || object.is_new) && !object.body.is_leaving)
+      return object.body.index;
+  for (const Neighbour& neighbour : neighbours_)
+    if (neighbour.rigid == &rigid && !neighbour.body.is_leaving) return neighbour.body.index;
+  return std::nullopt;
 }
 
 /// Fills a slot; the island gets the body in takeNewcomers().

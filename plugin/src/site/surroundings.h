@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "bullet_bridge/src/bodies/away_bodies.h"
+#include "bullet_bridge/src/joints/host_joints.h"
 #include "bullet_bridge/src/surroundings/neighbours.h"
 #include "bullet_bridge/src/surroundings/obstacles.h"
 #include "site/host_forces.h"
@@ -37,6 +39,7 @@ class Surroundings {
   /// @name Set-up.
   /// @{
   [[nodiscard]] ContactFinder& contactFinder() noexcept { return obstacles_; }
+  [[nodiscard]] HostJoints& joints() noexcept { return joints_; }
   /// Adds slots for neighbours to the island.
   void addSlots(int count);
   void addSphere(BodyIndex index, double radius) { obstacles_.addSphere(index, radius); }
@@ -111,6 +114,7 @@ class Surroundings {
   /// The host's world ends: takeObstacles() then removes all obstacles.
   void forgetWorld() {
     obstacles_.forgetWorld();
+    joints_.forgetWorld();
     away_.clear();
   }
   /// Gives a body of the host back what is its own, as soon as it is in the world.
@@ -156,6 +160,9 @@ class Surroundings {
   [[nodiscard]] NeighbourSeed makeHandSeed(const RigidState& state, double radius) const;
   [[nodiscard]] std::size_t countHapticBodies() const noexcept;
   void lookForNeighbours(double horizon, double step_end, bool everywhere);
+  void lookForJoints();
+  [[nodiscard]] std::optional<BodyIndex> findHeld(const btRigidBody& rigid) const noexcept;
+  void takeJoints() noexcept;
   void collectSeeds(bool everywhere);
   [[nodiscard]] bool isTurnOfFullLook() noexcept;
   void promote(btRigidBody& rigid, Neighbour& neighbour, double step_end);
@@ -181,6 +188,7 @@ class Surroundings {
   Obstacles obstacles_;
   AwayBodies away_;
   NeighbourSearch search_;
+  HostJoints joints_;
   std::vector<Neighbour> neighbours_;  ///< one per slot of the island
   Mirror mirror_;
   std::vector<NeighbourSeed> seeds_;

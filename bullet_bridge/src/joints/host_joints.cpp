@@ -1,0 +1,199 @@
+#include "joints/host_joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "tandem/bullet_bridge/convert.h"
+
+#include "world/world_access.h"
+
+namespace tandem {
+namespace {
+
+HostSolver readSolver(btDiscreteDynamicsWorld& host, double dt) noexcept {
+  const btContactSolverInfo& info = host.getSolverInfo();
+  return {dt, static_cast<double>(info.m_erp), info.m_numIterations};
+}
+
+bool isFixed(const btRigidBody& body) noexcept {
+  return body.getInvMass() == 0 && !body.isKinematicObject();
+}
+
+}  // namespace
+
+void HostJoints::look(const Find& find) {
+  next_.clear();
+  looked_at_ = host_.getNumConstraints();
+  for (int i = 0; i < host_.getNumConstraints() && next_.size() < kMaxJoints; ++i) {
+    btTypedConstraint& host = *host_.getConstraint(i);
+    if (!host.isEnabled() || !JointCopy::isKnown(host)) continue;
+    const btRigidBody &a = host.getRigidBodyA(), &b = host.getRigidBodyB();
+    const auto in_a = isFixed(a) ? kStanding : find(a), in_b = isFixed(b) ? kStanding : find(b);
+    if (!in_a || !in_b || (*in_a == kStanding && *in_b == kStanding)) continue;
+    next_.push_back({&host, &a, &b, {*in_a, *in_b, &host}, nullptr});
+  }
+  has_next_ = !isAsWanted();
+  if (!has_next_) return next_.clear();
+  for (Joint& joint : next_)
+    joint.copy = std::make_unique<JointCopy>(*joint.host, readSolver(host_, HostSolver().dt));
+  // The thread that ticks allocates nothing.
+  ends_.reserve(kMaxJoints);
+  acting_.reserve(kMaxJoints);
+}
+
+/// True if the island has the joints that look() has found.
+bool HostJoints::isAsWanted() const noexcept {
+  return std::equal(joints_.begin(), joints_.end(), next_.begin(), next_.end(),
+                    [](const Joint& has, const Joint& wanted) {
+                      return has.host == wanted.host && has.a == wanted.a && has.b == wanted.b &&
+                             has.ends.a == wanted.ends.a && has.ends.b == wanted.ends.b &&
+                             !has.is_gone;
+                    });
+}
+
+void HostJoints::findGone() noexcept {
+  int place = 0;
+  const int count = host_.getNumConstraints();
+  for (Joint& joint : joints_) {
+    // Compares addresses first: it may have been deleted. The order hardly ever changes.
+    int looked = 0;
+    while (looked < count && host_.getConstraint(place % count) != joint.host) ++place, ++looked;
+    joint.is_gone = looked == count || !joint.host->isEnabled() ||
+                    &joint.host->getRigidBodyA() != joint.a ||
+                    &joint.host->getRigidBodyB() != joint.b;
+  }
+}
+
+bool HostJoints::hasNews() noexcept {
+  findGone();
+  if (looked_at_ != host_.getNumConstraints()) return true;
+  return std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
+    if (joint.is_gone) return true;
+    const JointSettings& known = joint.copy->settings();
+    return !(JointCopy(*joint.host, readSolver(host_, known.host_dt)).settings() == known);
+  });
+}
+
+void HostJoints::switchOff() noexcept {
+  for (Joint& joint : joints_) {
+    if (joint.is_gone) continue;
+    joint.host->setEnabled(false);
+    joint.is_off = true;
+  }
+}
+
+void HostJoints::switchOn() noexcept {
+  for (Joint& joint : joints_) {
+    if (!joint.is_off) continue;
+    joint.is_off = false;
+    joint.host->setEnabled(true);
+  }
+}
+
+void HostJoints::forgetWorld() noexcept {
+  for (Joint& joint : joints_) joint.is_gone = true;
+  next_.clear();
+  has_next_ = false;
+}
+
+bool HostJoints::take() noexcept {
+  if (!has_next_) return false;
+  has_next_ = false;
+  joints_.swap(next_);
+  listActing();
+  return true;
+}
+
+bool HostJoints::refresh(double dt) noexcept {
+  const HostSolver solver = readSolver(host_, dt);
+  bool has_changed = false;
+  for (Joint& joint : joints_) {
+    if (joint.is_gone) continue;
+    JointSettings before = joint.copy->settings();
+    joint.copy->refresh(*joint.host, solver);
+    before.host_dt = joint.copy->settings().host_dt;
+    has_changed |= !(before == joint.copy->settings());
+    if (joint.ends.a == kStanding) joint.fixed_a = readState(*joint.a);
+    if (joint.ends.b == kStanding) joint.fixed_b = readState(*joint.b);
+  }
+  return has_changed;
+}
+
+void HostJoints::note(std::size_t joint, const JointRow& row, double impulse, double h,
+                      bool is_first) noexcept {
+  Given& given = joints_[acting_[joint]].given;
+  if (is_first) given.time += h;
+  given.impulse[row.number] += impulse;
+  given.last = row.number;
+  given.linear_W += impulse * row.n_W;
+  given.angular_a_W += impulse * row.turn_a_W;
+  given.angular_b_W += impulse * row.turn_b_W;
+}
+
+bool HostJoints::tell(double dt) noexcept {
+  bool is_any_broken = false;
+  for (Joint& joint : joints_) {
+    if (joint.is_gone) continue;
+    // A joint at rest goes on with its last forces.
+    if (joint.given.time > 0.0) joint.told = joint.given;
+    joint.given = {};
+    const Given& given = joint.told;
+    if (!(given.time > 0.0)) continue;
+    const double scale = dt / given.time;  // ticks do not end with the host's steps
+    joint.host->internalSetAppliedImpulse(static_cast<btScalar>(scale * given.impulse[given.last]));
+    if (btJointFeedback* feedback = joint.host->getJointFeedback()) {
+      const double rate = 1.0 / given.time;
+      feedback->m_appliedForceBodyA = toBullet(Vec3(rate * given.linear_W));
+      feedback->m_appliedTorqueBodyA = toBullet(Vec3(rate * given.angular_a_W));
+      feedback->m_appliedForceBodyB = toBullet(Vec3(-rate * given.linear_W));
+      feedback->m_appliedTorqueBodyB = toBullet(Vec3(rate * given.angular_b_W));
+    }
+    const double most = static_cast<double>(joint.host->getBreakingImpulseThreshold());
+    for (const double impulse : given.impulse) joint.is_gone |= scale * std::abs(impulse) >= most;
+    if (!joint.is_gone) continue;
+    joint.host->setEnabled(false);
+    is_any_broken = true;
+  }
+  if (is_any_broken) static_cast<void>(dropGone());
+  return is_any_broken;
+}
+
+bool HostJoints::dropGone() noexcept {
+  const auto isGone = [&](std::size_t place) { return joints_[place].is_gone; };
+  if (std::none_of(acting_.begin(), acting_.end(), isGone)) return false;
+  listActing();
+  return true;
+}
+
+void HostJoints::drop(BodyIndex body) noexcept {
+  for (Joint& joint : joints_) joint.is_gone |= joint.ends.a == body || joint.ends.b == body;
+  static_cast<void>(dropGone());
+}
+
+void HostJoints::listActing() noexcept {
+  ends_.clear();
+  acting_.clear();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (joints_[i].is_gone) continue;
+    ends_.push_back(joints_[i].ends);
+    acting_.push_back(i);
+  }
+}
+
+double HostJoints::rounding() const noexcept {
+  return static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+}
+
+void HostJoints::evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
+                          std::vector<JointRow>& rows) noexcept {
+  const Joint& wanted = joints_[acting_[joint]];
+  wanted.copy->evaluate(wanted.ends.a == kStanding ? wanted.fixed_a : a,
+                        wanted.ends.b == kStanding ? wanted.fixed_b : b, rows);
+}
+
+}  // namespace tandem
