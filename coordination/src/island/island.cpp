@@ -78,6 +78,29 @@ void Island::setCouplerShare(CouplerIndex coupler, double share) noexcept {
   impl_->refit(c.follower, false);
 }
 
+void Island::setGrip(GripIndex grip, const IslandGrip* hold) noexcept {
+  Impl& impl = *impl_;
+  ModelGrip& g = impl.model.grips[grip];
+  const bool was_on = g.is_on;
+  if (!hold && !was_on) return;
+  const BodyIndex before = g.hold.body;
+  const bool is_same_body = hold && was_on && hold->body == before;
+  if (was_on && !is_same_body) {
+    // Depths of other contacts are kept; that of the two is new.
+    noteJump(impl.model, g.hand, impl.states);
+    impl.disturb(before);
+  }
+  impl.model.is_listed =
+      impl.model.is_listed && is_same_body && (hold->share > 0.0) == (g.hold.share > 0.0);
+  g.is_on = hold != nullptr;
+  if (hold) {
+    g.hold = *hold;
+    impl.disturb(hold->body);
+  }
+  impl.disturb(g.hand);
+  if (!is_same_body) impl.spatial->regrip(impl.model);
+}
+
 void Island::setContactShare(BodyIndex body, double share) noexcept {
   TANDEM_ASSERT(impl_->prepared && share >= 0.0 && share <= 1.0);
   ModelBody& b = impl_->model.bodies[body];
@@ -296,6 +319,14 @@ double Island::computeOverlap(BodyIndex body) const noexcept {
   if (impl.slot) return impl.slot->computeOverlap(impl.model, body);
   for (std::size_t b = 0; b < impl.states.size(); ++b) impl.states[b] = impl.model.bodies[b].state;
   return tandem::computeOverlap(impl.model, impl.states, body);
+}
+
+GripPull Island::computeGripPull(GripIndex grip) const noexcept {
+  const ModelGrip& g = impl_->model.grips[grip];
+  const auto& present = impl_->model.present_grips;
+  if (!impl_->model.is_listed) impl_->model.listPresent();
+  if (std::find(present.begin(), present.end(), grip) == present.end()) return {};
+  return impl_->computePull(g);
 }
 
 double Island::deepestTouch() const noexcept { return impl_->model.faces.deepest(); }

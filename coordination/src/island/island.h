@@ -20,6 +20,9 @@ namespace tandem {
 /// Index of a coupler in its island, in the order in which couplers were added.
 using CouplerIndex = int;
 
+/// Index of a grip in its island, in the order in which grips were added.
+using GripIndex = int;
+
 /// Kind of motion of a body in the island.
 enum class Motion {
   kDynamic,     ///< moved by forces
@@ -56,6 +59,33 @@ struct IslandBody {
 struct CouplerSettings {
   CouplerGains linear;
   CouplerGains angular;
+};
+
+/// A spring-damper of six degrees of freedom between a hand and a place G on a body F. The hand is
+/// a body whose frame stays parallel to W.
+///
+///   f = K (p_hand + offset - p_G) + B (v_hand - v_G) + lift      at G, and -f on the hand
+///   t = K_r theta - B_r w_F                                      on F
+///
+/// theta is the rotation vector from F to `q_WF`. The norms of f and t have limits. Hand and body
+/// do not touch each other meanwhile.
+struct IslandGrip {
+  BodyIndex body = 0;            ///< F
+  Vec3 p_FG = Vec3::Zero();      ///< G from the centre of mass, in F [m]
+  Vec3 offset_W = Vec3::Zero();  ///< of G from the hand, with no force [m]
+  Quat q_WF = Quat::Identity();  ///< orientation that the torque leads to
+  Vec3 lift_W = Vec3::Zero();    ///< [N]
+  CouplerSettings gains;         ///< K, B and K_r, B_r
+  double max_force = 0.0;        ///< [N]
+  double max_torque = 0.0;       ///< [N m]
+  double share = 1.0;            ///< of force, torque and their limits; 0: only keeps them apart
+};
+
+/// Force on the place of a grip and torque on its body, in W.
+struct GripPull {
+  Vec3 f_W = Vec3::Zero();  ///< [N]
+  Vec3 t_W = Vec3::Zero();  ///< [N m]
+  bool is_limited = false;  ///< the force is at its limit
 };
 
 /// Whether an obstacle was in the list before.
@@ -130,6 +160,9 @@ class Island {
   CouplerIndex addCoupler(BodyIndex follower, const CouplerSettings& settings);
   /// Unilateral contact of a sphere body with any other body: eqs (7), (8), (11), (12).
   void addContact(BodyIndex sphere, BodyIndex other, const CouplerGains& gains);
+  /// Adds room for a grip of a body that stands for a hand. It holds nothing at first. Not in a
+  /// guided island.
+  GripIndex addGrip(BodyIndex hand);
   /// Adds room for a body that comes and goes while the island runs, such as a neighbour of the
   /// host's world. The slot is inactive until filled. Spheres with `feels_obstacles` touch it like
   /// an obstacle (IslandSettings::obstacle_contact), and it receives the reaction force and torque.
@@ -169,6 +202,9 @@ class Island {
   /// Scales a coupler's original gains, linear and angular, by a share in 0 to 1, until set again.
   /// A share of 1 changes nothing, to the bit.
   void setCouplerShare(CouplerIndex coupler, double share) noexcept;
+  /// Holds a body, or changes how it is held; null lets go. Once let go, hand and body may touch
+  /// again: a deep contact is let in gently.
+  void setGrip(GripIndex grip, const IslandGrip* hold) noexcept;
   /// Scales the gains of all smooth contacts of a body. In a contact of two bodies both shares
   /// multiply.
   void setContactShare(BodyIndex body, double share) noexcept;
@@ -255,7 +291,9 @@ class Island {
   /// False for an empty slot.
   [[nodiscard]] bool isActive(BodyIndex body) const noexcept;
 
-  /// Sum of the contact forces on a body at this instant, in W [N].
+  /// Force and torque of a grip on its body at this instant; none if it holds nothing.
+  [[nodiscard]] GripPull computeGripPull(GripIndex grip) const noexcept;
+  /// Sum of the contact forces on a body at this instant, in W [N]. Grips count as contact.
   [[nodiscard]] Vec3 computeContactForce(BodyIndex body) const noexcept;
   /// Deepest overlap of a body in its smooth contacts, as if it were no ghost [m]; 0 if none. Other
   /// ghosts do not count. Real-time safe.

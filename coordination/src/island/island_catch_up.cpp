@@ -50,11 +50,13 @@ void IslandCatchUp::run(IslandModel& model, SpatialMotion& motion, IslandCounter
   motion.takeBack(model, slots);
 }
 
-/// Removes couplers and smooth contacts: their effect on the other bodies is in the known path.
+/// Removes couplers, grips and smooth contacts: their effect on the other bodies is in the known
+/// path.
 void IslandCatchUp::setAside(IslandModel& model, const std::vector<BodyIndex>& slots) noexcept {
   slots_.assign(slots.begin(), slots.end());
   couplers_.clear();
   contacts_.clear();
+  grips_.clear();
   swapPast(model);
   model.joins_slots_only = true;
   obstacles_ = std::exchange(model.obstacles, nullptr);
@@ -69,6 +71,7 @@ void IslandCatchUp::takeBack(IslandModel& model) noexcept {
 void IslandCatchUp::swapPast(IslandModel& model) noexcept {
   model.couplers.swap(couplers_);
   model.contacts.swap(contacts_);
+  model.grips.swap(grips_);
   model.slots.swap(slots_);
   std::swap(model.faces, faces_);
   model.is_listed = false;

@@ -32,6 +32,7 @@ class IslandCatchUp {
   std::vector<ModelBody> bodies_;
   std::vector<ModelCoupler> couplers_;
   std::vector<IslandContact> contacts_;
+  std::vector<ModelGrip> grips_;
   std::vector<BodyIndex> slots_;
   TouchedFaces faces_;
   const std::vector<Obstacle>* obstacles_ = nullptr;

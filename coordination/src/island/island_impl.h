@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/turn.h"
+#include "island/grip_law.h"
 #include "island/island.h"
 #include "island/island_catch_up.h"
 #include "island/island_model.h"
@@ -81,6 +83,7 @@ struct Island::Impl {
     for (const BodyIndex b : model.present) {
       const ModelBody& body = model.bodies[b];
       if (!body.isDynamic() || body.is_slot || body.settings.feels_obstacles) continue;
+      if (model.isGripped(b)) continue;
       if (!spatial->isAtRest(b)) continue;
       // Contact forces are left out: letSleep() refuses if a contact is near.
       if (spatial->isResting(b) || isSettled(model, b, addUp(b, {}))) spatial->letSleep(model, b);
@@ -122,6 +125,31 @@ struct Island::Impl {
       else
         add(touch);
     });
+    for (const int g : model.present_grips) addPull(model.grips[g]);
+  }
+
+  /// Pull of a grip at this instant.
+  [[nodiscard]] GripPull computePull(const ModelGrip& grip) const noexcept {
+    const RigidState& hand = model.bodies[grip.hand].state;
+    const RigidState& body = model.bodies[grip.hold.body].state;
+    const Vec3 arm_W = body.q_WB * grip.hold.p_FG;
+    PlainVec turn;
+    if (model.bodies[grip.hold.body].rotates())
+      turn = computeTurn(body.q_WB.coeffs().data(), grip.hold.q_WF.coeffs().data());
+    const GripLaw::Pull pull = GripLaw(grip.hold).compute(
+        PlainVec(Vec3(hand.p_W - body.p_W - arm_W)),
+        PlainVec(Vec3(hand.v_W - body.v_W - body.w_W.cross(arm_W))), turn, PlainVec(body.w_W));
+    return {pull.f.toVec3(), pull.t.toVec3(), pull.is_limited};
+  }
+
+  void addPull(const ModelGrip& grip) noexcept {
+    const GripPull pull = computePull(grip);
+    const BodyIndex b = grip.hold.body;
+    wrenches[grip.hand].f_W -= pull.f_W;
+    wrenches[b].f_W += pull.f_W;
+    if (!model.bodies[b].rotates()) return;
+    const Vec3 arm_W = model.bodies[b].state.q_WB * grip.hold.p_FG;
+    wrenches[b].t_W += arm_W.cross(pull.f_W) + pull.t_W;
   }
 
   [[nodiscard]] Wrench contactWrench(BodyIndex body) noexcept {

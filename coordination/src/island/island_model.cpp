@@ -74,12 +74,14 @@ void IslandModel::reserveLists() {
   present.reserve(bodies.size());
   present_contacts.reserve(contacts.size());
   present_couplers.reserve(couplers.size());
+  present_grips.reserve(grips.size());
 }
 
 void IslandModel::listPresent() noexcept {
   present.clear();
   present_contacts.clear();
   present_couplers.clear();
+  present_grips.clear();
   asleep_count = 0;
   for (BodyIndex b = 0; b < static_cast<BodyIndex>(bodies.size()); ++b) {
     if (bodies[b].isPresent()) present.push_back(b);
@@ -87,10 +89,15 @@ void IslandModel::listPresent() noexcept {
   }
   const auto meets = [&](BodyIndex b) { return bodies[b].isPresent() && !bodies[b].is_ghost; };
   for (const IslandContact& contact : contacts)
-    if (meets(contact.sphere) && meets(contact.other) && letsMeet(contact.sphere, contact.other))
+    if (meets(contact.sphere) && meets(contact.other) && letsMeet(contact.sphere, contact.other) &&
+        !areJoined(contact.sphere, contact.other))
       present_contacts.push_back(contact);
   for (std::size_t c = 0; c < couplers.size(); ++c)
     if (bodies[couplers[c].follower].isPresent()) present_couplers.push_back(static_cast<int>(c));
+  for (std::size_t g = 0; g < grips.size(); ++g)
+    if (grips[g].is_on && grips[g].hold.share > 0.0 && meets(grips[g].hand) &&
+        meets(grips[g].hold.body))
+      present_grips.push_back(static_cast<int>(g));
   is_listed = true;
 }
 

@@ -87,6 +87,13 @@ struct ModelCoupler {
   CouplerSettings now = settings;  ///< gains times the share
 };
 
+/// Room for a grip of one hand.
+struct ModelGrip {
+  BodyIndex hand = 0;
+  bool is_on = false;
+  IslandGrip hold;
+};
+
 [[nodiscard]] inline CouplerGains computeShare(const CouplerGains& gains, double share) noexcept {
   return {share * gains.stiffness, share * gains.damping};
 }
@@ -98,6 +105,7 @@ struct IslandModel {
   std::vector<ModelBody> bodies;
   std::vector<ModelCoupler> couplers;
   std::vector<IslandContact> contacts;
+  std::vector<ModelGrip> grips;
   std::vector<BodyIndex> slots;
   const std::vector<Obstacle>* obstacles = nullptr;
   ContactFinder* finder = nullptr;
@@ -118,9 +126,23 @@ struct IslandModel {
     return bodies[a].settings.filter.meets(bodies[b].settings.filter);
   }
 
+  /// True if some grip holds the body.
+  [[nodiscard]] bool isGripped(BodyIndex body) const noexcept {
+    return std::any_of(grips.begin(), grips.end(),
+                       [&](const ModelGrip& grip) { return grip.is_on && grip.hold.body == body; });
+  }
+  /// True if one of the two holds the other: they do not touch.
+  [[nodiscard]] bool areJoined(BodyIndex a, BodyIndex b) const noexcept {
+    return std::any_of(grips.begin(), grips.end(), [&](const ModelGrip& grip) {
+      return grip.is_on &&
+             ((grip.hand == a && grip.hold.body == b) || (grip.hand == b && grip.hold.body == a));
+    });
+  }
+
   std::vector<BodyIndex> present;               ///< active and awake bodies, in order
   std::vector<IslandContact> present_contacts;  ///< contacts between two present bodies
   std::vector<int> present_couplers;            ///< couplers of present bodies
+  std::vector<int> present_grips;               ///< grips that pull, between two present bodies
   int asleep_count = 0;
   bool is_listed = false;  ///< the lists are up to date
 

@@ -78,6 +78,17 @@ BodyIndex Island::addSlot() {
   return bodyCount() - 1;
 }
 
+GripIndex Island::addGrip(BodyIndex hand) {
+  TANDEM_ASSERT(hand >= 0 && hand < bodyCount());
+  if (impl_->model.settings.guide)
+    throw std::invalid_argument("a guided island has no grips; leave the guide off");
+  ModelGrip grip;
+  grip.hand = hand;
+  impl_->model.grips.push_back(grip);
+  impl_->prepared = false;
+  return static_cast<GripIndex>(impl_->model.grips.size()) - 1;
+}
+
 CouplerIndex Island::addCoupler(BodyIndex follower, const CouplerSettings& settings) {
   TANDEM_ASSERT(follower >= 0 && follower < bodyCount());
   checkGains("coupler", settings.linear);

@@ -20,6 +20,7 @@ SmoothForces::SmoothForces(const IslandModel& model, std::size_t max_touches, Jo
   springs_.reserve(model.couplers.size());
   driven_.reserve(n);
   contacts_.reserve(max_touches);
+  pulls_.reserve(model.grips.size());
   frames_.reserve(n + max_touches);
   frame_of_.resize(n);
 }
@@ -28,6 +29,7 @@ void SmoothForces::choose(const IslandModel& model, const std::vector<char>& tog
                           const std::vector<char>& alone,
                           const std::vector<Touch>& touches) noexcept {
   movers_.clear(), springs_.clear(), driven_.clear(), contacts_.clear(), frames_.clear();
+  pulls_.clear();
   size_ = 0;
   std::fill(frame_of_.begin(), frame_of_.end(), -1);
   for (const BodyIndex b : model.present) {
@@ -39,6 +41,7 @@ void SmoothForces::choose(const IslandModel& model, const std::vector<char>& tog
     if (frame < movers_.size()) movers_[frame].needs_rotation = movers_[frame].turns;
   }
   for (const Touch& touch : touches) addContact(model, touch);
+  for (const int g : model.present_grips) addPull(model, model.grips[g]);
 }
 
 void SmoothForces::addMover(const IslandModel& model, BodyIndex b, bool is_alone) noexcept {
@@ -149,6 +152,28 @@ void SmoothForces::addContact(const IslandModel& model, const Touch& touch) noex
   contacts_.push_back(contact);
 }
 
+/// Bodies that forces do not move need no pull.
+void SmoothForces::addPull(const IslandModel& model, const ModelGrip& grip) noexcept {
+  const BodyIndex b = grip.hold.body;
+  if (frame_of_[grip.hand] < 0 && frame_of_[b] < 0) return;
+  Pull& pull = pulls_.emplace_back();
+  pull.hand = findFrame(model, grip.hand);
+  pull.body = findFrame(model, b);
+  pull.law = GripLaw(grip.hold);
+  const ModelBody &hand = model.bodies[grip.hand], &body = model.bodies[b];
+  const double arm = grip.hold.p_FG.norm();
+  const double turning = body.inverse_inertia_B.maxCoeff();
+  pull.law.limitDamping(
+      limitDamping(pull.law.damping(), hand.inverse_mass + body.inverse_mass + turning * arm * arm),
+      limitDamping(pull.law.turnDamping(), turning));
+  const Quat& q = grip.hold.q_WF;
+  std::copy_n(q.coeffs().data(), 4, pull.target);
+  if (pull.body >= static_cast<int>(movers_.size())) return;
+  Mover& mover = movers_[static_cast<std::size_t>(pull.body)];
+  pull.turns = mover.turns;
+  mover.needs_rotation = mover.turns;
+}
+
 void SmoothForces::hold(const std::vector<Wrench>& held) noexcept {
   for (Mover& mover : movers_) {
     mover.f_held_W = PlainVec(held[mover.body].f_W);
@@ -204,6 +229,7 @@ void SmoothForces::evaluate(double t, const double* y, double* k, Look look) noe
   }
   for (Contact& contact : contacts_)
     if (contact.pushes || look != Look::kPushing) push(contact, look);
+  for (Pull& one : pulls_) pull(one, y, look);
   computeRates(y, k);
   if (!joints_.isEmpty()) join(t, y, k);
 }
@@ -213,8 +239,9 @@ void SmoothForces::acceptFaces() noexcept {
 }
 
 bool SmoothForces::hasTurnedOver() const noexcept {
-  return std::any_of(springs_.begin(), springs_.end(),
-                     [](const TurnSpring& spring) { return spring.side != spring.side_now; });
+  const auto hasTurned = [](const auto& spring) { return spring.side != spring.side_now; };
+  return std::any_of(springs_.begin(), springs_.end(), hasTurned) ||
+         std::any_of(pulls_.begin(), pulls_.end(), hasTurned);
 }
 
 void SmoothForces::placeFrames(double t, const double* y) noexcept {
@@ -301,6 +328,25 @@ void SmoothForces::push(Contact& contact, Look look) noexcept {
   sphere.f_W = sphere.f_W + f;
   other.f_W = other.f_W - f;
   other.t_W = other.t_W - cross(arm, f);
+}
+
+void SmoothForces::pull(Pull& pull, const double* y, Look look) noexcept {
+  Frame &hand = frames_[pull.hand], &body = frames_[pull.body];
+  PlainVec turn;
+  if (pull.turns) {
+    const double* q = y + movers_[pull.body].offset + kQ;
+    if (look != Look::kPushing) {
+      pull.side_now = computeTurnSide(q, pull.target) < 0.0 ? -1.0 : 1.0;
+      if (look == Look::kDecide) pull.side = pull.side_now;
+    }
+    turn = computeTurn(q, pull.target, pull.side);
+  }
+  const PlainVec arm = body.R_WB.toWorld(pull.law.place());
+  const GripLaw::Pull found =
+      pull.law.compute(hand.p - body.p - arm, hand.v - body.v - cross(body.w, arm), turn, body.w);
+  body.f_W = body.f_W + found.f;
+  body.t_W = body.t_W + cross(arm, found.f) + found.t;
+  hand.f_W = hand.f_W - found.f;
 }
 
 void SmoothForces::computeRates(const double* y, double* k) const noexcept {

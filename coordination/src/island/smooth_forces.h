@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/separation.h"
+#include "island/grip_law.h"
 #include "island/island_model.h"
 #include "island/joint_forces.h"
 #include "island/touch.h"
@@ -125,10 +126,21 @@ class SmoothForces {
     double side_now = 1.0;  ///< shorter direction at the last measured state
   };
 
+  /// A grip of a hand (IslandGrip).
+  struct Pull {
+    int hand = 0, body = 0;  ///< frames
+    GripLaw law;
+    double target[4];
+    bool turns = false;
+    double side = 1.0, side_now = 1.0;  ///< as in TurnSpring
+  };
+
   void addMover(const IslandModel& model, BodyIndex body, bool is_alone) noexcept;
   void tieCouplers(const IslandModel& model) noexcept;
   [[nodiscard]] int findFrame(const IslandModel& model, BodyIndex body) noexcept;
   void addContact(const IslandModel& model, const Touch& touch) noexcept;
+  void addPull(const IslandModel& model, const ModelGrip& grip) noexcept;
+  void pull(Pull& pull, const double* y, Look look) noexcept;
   [[nodiscard]] double limitDamping(double damping, double mobility) const noexcept;
   void placeFrames(double t, const double* y) noexcept;
   [[nodiscard]] static Separation separate(const Contact& contact, const PlainVec& c_B,
@@ -146,6 +158,7 @@ class SmoothForces {
   std::vector<TurnSpring> springs_;
   std::vector<Driven> driven_;
   std::vector<Contact> contacts_;
+  std::vector<Pull> pulls_;
   std::vector<Frame> frames_;
   std::vector<int> frame_of_;  ///< by body; -1: none
 };

@@ -62,6 +62,15 @@ void SmoothMotion::chooseLimits(const IslandModel& model) noexcept {
   for (const IslandContact& contact : model.contacts)
     limit(contact.gains.stiffness, contact.gains.damping,
           model.bodies[contact.sphere].mobility + model.bodies[contact.other].mobility);
+  for (const ModelGrip& grip : model.grips) {
+    if (!grip.is_on) continue;
+    const ModelBody& body = model.bodies[grip.hold.body];
+    const CouplerSettings& gains = grip.hold.gains;
+    const double arm = grip.hold.p_FG.norm(), turning = body.inverse_inertia_B.maxCoeff();
+    limit(gains.linear.stiffness, gains.linear.damping,
+          model.bodies[grip.hand].inverse_mass + body.inverse_mass + turning * arm * arm);
+    limit(gains.angular.stiffness, gains.angular.damping, turning);
+  }
   const CouplerGains& obstacle = model.settings.obstacle_contact;
   for (BodyIndex b = 0; b < static_cast<BodyIndex>(model.bodies.size()); ++b) {
     const ModelBody& body = model.bodies[b];

@@ -194,6 +194,8 @@ void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& co
   for (const BodyIndex b : model.present)
     alone_[b] = model.bodies[b].isDynamic() && !rigid_near_[b] && !resting_[b] && !joined_[b];
   for (const Touch& touch : touches_) alone_[touch.sphere] = alone_[touch.other] = 0;
+  for (const int g : model.present_grips)
+    alone_[model.grips[g].hand] = alone_[model.grips[g].hold.body] = 0;
 
   for (const BodyIndex b : model.present) {
     const ModelBody& body = model.bodies[b];
@@ -438,6 +440,7 @@ void SpatialMotion::lookAround(IslandModel& model) noexcept {
   if (!model.finder) return;
   for (const Touch& touch : touches_)
     for (const BodyIndex b : {touch.sphere, touch.other}) resting_[b] = 0;
+  for (const int g : model.present_grips) resting_[model.grips[g].hold.body] = 0;
   for (const BodyIndex b : model.present) {
     ModelBody& body = model.bodies[b];
     const bool is_rigid = body.is_active && body.settings.is_rigid;

@@ -35,6 +35,9 @@ class SpatialMotion {
   /// Updates for changed coupler gains of a body, or a changed damping. Real-time safe.
   void refit(const IslandModel& model, BodyIndex b, bool is_damping) noexcept;
 
+  /// A hand took hold of a body, or let go. Real-time safe.
+  void regrip(const IslandModel& model) noexcept { smooth_.chooseLimits(model); }
+
   /// Moves the bodies by `dt` [s]. Returns true if all seem at rest now. Real-time safe.
   bool advance(IslandModel& model, double dt, IslandCounters& counters) noexcept;
 

@@ -94,7 +94,7 @@ double computeOverlap(const IslandModel& model, const States& states, BodyIndex 
   for (const IslandContact& contact : model.contacts) {
     if (contact.sphere != body && contact.other != body) continue;
     const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;
-    if (is_there(partner) && model.letsMeet(body, partner))
+    if (is_there(partner) && model.letsMeet(body, partner) && !model.areJoined(body, partner))
       look(contact.sphere, contact.other, nullptr);
   }
   if (!model.bodies[body].settings.feels_obstacles) return -gap;
