@@ -195,7 +195,9 @@ TEST(Grip, IsNotForAGuidedIsland) {
   IslandSettings settings;
   settings.guide = Vec3::UnitX();
   Island island(settings);
-  const BodyIndex hand = island.addBody(IslandBody{.motion = Motion::kPrescribed});
+  IslandBody body;
+  body.motion = Motion::kPrescribed;
+  const BodyIndex hand = island.addBody(body);
   EXPECT_THROW(island.addGrip(hand), std::invalid_argument);
 }
 

@@ -78,7 +78,8 @@ struct PartsRig {
   LocalHand hand{device, settings, island, true};
   HostForces forces{island, timeline, clock, bodies, hand.energy()};
   Peers peers{settings, island, bodies, hand.energy(), log};
-  PacketSender sender{settings, island, timeline, bodies, hand, peers, log};
+  Grips grips{settings, island, bodies, hand, peers, log, true};
+  PacketSender sender{settings, island, timeline, bodies, hand, peers, grips, log};
 };
 
 /// A strategy that moves nothing. Every place is free.

@@ -10,9 +10,9 @@ namespace tandem {
 /// The law of an IslandGrip, for the forces of an integration step and those of an instant.
 class GripLaw {
  public:
-  /// Force on the place and torque on the body, in W.
+  /// Force of the hand on the place, torque on the body, and load on the place, in W.
   struct Pull {
-    PlainVec f, t;
+    PlainVec f, t, load;
     bool is_limited = false;
   };
 
@@ -21,6 +21,7 @@ class GripLaw {
       : place_(hold.p_FG),
         offset_(hold.offset_W),
         lift_(hold.lift_W),
+        load_(hold.load_W),
         gains_(hold.gains),
         max_force_(hold.max_force),
         max_torque_(hold.max_torque),
@@ -46,10 +47,12 @@ class GripLaw {
     limit(pull.t, max_torque_);
     pull.f = share_ * pull.f;
     pull.t = share_ * pull.t;
+    pull.load = share_ * load_;
     return pull;
   }
 
  private:
+  /// True if it had to be shortened.
   static bool limit(PlainVec& pull, double most) noexcept {
     const double square = dot(pull, pull);
     if (!(square > most * most)) return false;
@@ -57,7 +60,7 @@ class GripLaw {
     return true;
   }
 
-  PlainVec place_, offset_, lift_;
+  PlainVec place_, offset_, lift_, load_;
   CouplerSettings gains_;
   double max_force_ = 0.0, max_torque_ = 0.0, share_ = 1.0;
 };

@@ -74,18 +74,20 @@ struct IslandGrip {
   Vec3 p_FG = Vec3::Zero();      ///< G from the centre of mass, in F [m]
   Vec3 offset_W = Vec3::Zero();  ///< of G from the hand, with no force [m]
   Quat q_WF = Quat::Identity();  ///< orientation that the torque leads to
-  Vec3 lift_W = Vec3::Zero();    ///< [N]
+  Vec3 lift_W = Vec3::Zero();    ///< part of f [N]
+  Vec3 load_W = Vec3::Zero();    ///< at G, too, but of no hand here [N]
   CouplerSettings gains;         ///< K, B and K_r, B_r
   double max_force = 0.0;        ///< [N]
   double max_torque = 0.0;       ///< [N m]
-  double share = 1.0;            ///< of force, torque and their limits; 0: only keeps them apart
+  double share = 1.0;            ///< of all forces and their limits; 0: only keeps them apart
 };
 
 /// Force on the place of a grip and torque on its body, in W.
 struct GripPull {
-  Vec3 f_W = Vec3::Zero();  ///< [N]
-  Vec3 t_W = Vec3::Zero();  ///< [N m]
-  bool is_limited = false;  ///< the force is at its limit
+  Vec3 f_W = Vec3::Zero();     ///< [N]
+  Vec3 t_W = Vec3::Zero();     ///< [N m]
+  Vec3 load_W = Vec3::Zero();  ///< IslandGrip::load_W [N]
+  bool is_limited = false;     ///< the force is at its limit
 };
 
 /// Whether an obstacle was in the list before.

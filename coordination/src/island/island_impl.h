@@ -139,17 +139,18 @@ struct Island::Impl {
     const GripLaw::Pull pull = GripLaw(grip.hold).compute(
         PlainVec(Vec3(hand.p_W - body.p_W - arm_W)),
         PlainVec(Vec3(hand.v_W - body.v_W - body.w_W.cross(arm_W))), turn, PlainVec(body.w_W));
-    return {pull.f.toVec3(), pull.t.toVec3(), pull.is_limited};
+    return {pull.f.toVec3(), pull.t.toVec3(), pull.load.toVec3(), pull.is_limited};
   }
 
   void addPull(const ModelGrip& grip) noexcept {
     const GripPull pull = computePull(grip);
     const BodyIndex b = grip.hold.body;
     wrenches[grip.hand].f_W -= pull.f_W;
-    wrenches[b].f_W += pull.f_W;
+    const Vec3 f_W = pull.f_W + pull.load_W;
+    wrenches[b].f_W += f_W;
     if (!model.bodies[b].rotates()) return;
     const Vec3 arm_W = model.bodies[b].state.q_WB * grip.hold.p_FG;
-    wrenches[b].t_W += arm_W.cross(pull.f_W) + pull.t_W;
+    wrenches[b].t_W += arm_W.cross(f_W) + pull.t_W;
   }
 
   [[nodiscard]] Wrench contactWrench(BodyIndex body) noexcept {

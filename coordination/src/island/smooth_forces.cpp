@@ -344,8 +344,9 @@ void SmoothForces::pull(Pull& pull, const double* y, Look look) noexcept {
   const PlainVec arm = body.R_WB.toWorld(pull.law.place());
   const GripLaw::Pull found =
       pull.law.compute(hand.p - body.p - arm, hand.v - body.v - cross(body.w, arm), turn, body.w);
-  body.f_W = body.f_W + found.f;
-  body.t_W = body.t_W + cross(arm, found.f) + found.t;
+  const PlainVec f = found.f + found.load;
+  body.f_W = body.f_W + f;
+  body.t_W = body.t_W + cross(arm, f) + found.t;
   hand.f_W = hand.f_W - found.f;
 }
 

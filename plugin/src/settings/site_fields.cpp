@@ -71,6 +71,26 @@ std::vector<SiteField> makeFields() {
                                                 kShared),
       field<&S::proxy, &ProxySettings::radius>("proxy.radius", "m", "of proxies", kPositive,
                                                kShared),
+      field<&S::grip, &GripSettings::stiffness>("grip.stiffness", "N/m",
+                                                "K of the spring between a hand and what it holds",
+                                                kPositive, kShared),
+      field<&S::grip, &GripSettings::damping_ratio>(
+          "grip.damping_ratio", "", "of that spring with hand and object", kNotNegative, kShared),
+      field<&S::grip, &GripSettings::radius>(
+          "grip.radius", "m", "the torque's spring has K times its square", kNotNegative, kShared),
+      field<&S::grip, &GripSettings::max_force>("grip.max_force", "N",
+                                                "at which a grip breaks; times the radius: torque",
+                                                kPositive, kShared),
+      field<&S::grip, &GripSettings::lift_time>(
+          "grip.lift_time", "s", "within which a hand takes over a weight; 0: objects sag",
+          kNotNegative, kShared),
+      field<&S::grip, &GripSettings::blend_time>("grip.blend_time", "s",
+                                                 "within which an object comes to the hand",
+                                                 kNotNegative, kShared),
+      field<&S::grip, &GripSettings::break_time>(
+          "grip.break_time", "s", "at the limit, after which the grip breaks", kNotNegative, kOwn),
+      field<&S::grip, &GripSettings::fade_time>(
+          "grip.fade_time", "s", "of the force after a release", kNotNegative, kShared),
       field<&S::hip_radius>("hip_radius", "m", "of the local haptic interface point", kPositive,
                             kOwn),
       field<&S::hand_group>("hand_group", "", "collision group of the hand and of proxies", kBits,

@@ -42,6 +42,9 @@ class EnergyPort {
   void noteWorldForce() noexcept { world_pushes_ = true; }
   /// Adds the work of the world's forces over the tick that has just run.
   void countWorld(const Island& island, const Timeline& timeline) noexcept;
+  /// Adds the work of a lift by a hand that is elsewhere, or of the weight that this hand lifts
+  /// elsewhere. All sites together count nothing.
+  void countLift(double work) noexcept { observer_.addWorld(work); }
   void countImpulse(const RigidState& before, const RigidState& after,
                     const Momentum& impulse) noexcept;
   /// A neighbour enters the island with its kinetic energy (`sign` 1) or takes it away (-1).

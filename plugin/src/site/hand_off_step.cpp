@@ -38,6 +38,7 @@ void HandOffStep::makeUp(double now, double most) noexcept {
     timeline.startTick(start);
     site_.peers.takeInUntil(start, start);
     site_.peers.followLinks(start, timeline.period(), *this);
+    site_.grips.follow(start, timeline.period());
     timeline.keepStart();
     advance(start, std::min(start + timeline.period(), now));
     ++site_.log.counters.ticks_made_up;

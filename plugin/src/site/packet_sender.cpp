@@ -21,13 +21,14 @@ constexpr int kIdleNotices = 5;
 
 PacketSender::PacketSender(const SiteSettings& settings, const Island& island,
                            const Timeline& timeline, const Bodies& bodies, LocalHand& hand,
-                           Peers& peers, SiteLog& log) noexcept
+                           Peers& peers, const Grips& grips, SiteLog& log) noexcept
     : settings_(settings),
       island_(island),
       timeline_(timeline),
       bodies_(bodies),
       hand_(hand),
       peers_(peers),
+      grips_(grips),
       log_(log),
       idle_stride_(std::max<std::uint64_t>(
           static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1)) {}
@@ -56,7 +57,7 @@ void PacketSender::skipTo(double until) noexcept {
 }
 
 void PacketSender::lookForIdleness(double now) noexcept {
-  const bool rests = hand_.contact() == Vec3::Zero() && isStill();
+  const bool rests = hand_.contact() == Vec3::Zero() && isStill() && !grips_.isBusy();
   if (!rests || !timeline_.hasBegun()) busy_until_ = now;
   const bool was_idle = is_idle_;
   is_idle_ = settings_.thins_when_idle && now - busy_until_ >= kIdleAfter - kSameTime;
@@ -99,6 +100,7 @@ void PacketSender::send(double time) noexcept {
   packet.time = time;
   const SessionFrame& frame = peers_.frame();
   packet.user = sent_user_ = limitUser(frame.toSession(hand_.pointAt(time, timeline_.tickStart())));
+  packet.grip = grips_.state(time);
   peers_.sayEpochs();
   const auto state = [&](std::size_t i) -> const RigidState& {
     return island_.state(bodies_.objects[i].body.index);

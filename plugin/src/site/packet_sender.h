@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "site/bodies.h"
+#include "site/grips.h"
 #include "site/local_hand.h"
 #include "site/packet_turns.h"
 #include "site/peers.h"
@@ -16,7 +17,8 @@ namespace tandem {
 class PacketSender {
  public:
   PacketSender(const SiteSettings& settings, const Island& island, const Timeline& timeline,
-               const Bodies& bodies, LocalHand& hand, Peers& peers, SiteLog& log) noexcept;
+               const Bodies& bodies, LocalHand& hand, Peers& peers, const Grips& grips,
+               SiteLog& log) noexcept;
 
   /// After set-up. Allocates.
   void setObjectCount(std::size_t count);
@@ -48,6 +50,7 @@ class PacketSender {
   const Bodies& bodies_;
   LocalHand& hand_;
   Peers& peers_;
+  const Grips& grips_;
   SiteLog& log_;
   std::uint64_t packets_due_ = 0, sequence_ = 0;
   std::uint64_t idle_stride_;  ///< one packet in this many is sent while rare

@@ -16,6 +16,9 @@ std::vector<ObjectId> Site::share(const std::vector<NamedBody>& bodies) {
 void Site::share(ObjectId id, btRigidBody& body) { impl_->share(id, body); }
 void Site::unshare(ObjectId id) { impl_->unshare(id); }
 void Site::shiftOrigin(const Vec3& offset_W) { impl_->shiftOrigin(offset_W); }
+void Site::grab(ObjectId object, const std::optional<Vec3>& at_B) { impl_->grab(object, at_B); }
+void Site::release() noexcept { impl_->release(); }
+std::optional<Grip> Site::grip() const noexcept { return impl_->grips.grip(); }
 void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
   impl_->connect(remote, link, start_W);
 }

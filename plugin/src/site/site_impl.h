@@ -27,7 +27,10 @@ struct Site::Impl final : HostStepListener, SiteParts {
   /// A haptic thread ticks from now on.
   void beginLive();
 
-  // At any time between two host steps: site_origin.cpp
+  // At any time between two host steps: site_grip.cpp
+  void grab(ObjectId id, const std::optional<Vec3>& at_B);
+  void release() noexcept;
+  // site_origin.cpp
   void shiftOrigin(const Vec3& offset_W);
 
   // The tick: site_tick.cpp

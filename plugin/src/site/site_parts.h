@@ -2,6 +2,7 @@
 
 #include "bullet_bridge/src/world/host_world.h"
 #include "live/island_desk.h"
+#include "site/grips.h"
 #include "site/object_watch.h"
 #include "site/packet_sender.h"
 #include "site/press.h"
@@ -56,6 +57,7 @@ struct SiteParts {
   LocalHand hand;
   HostForces forces;
   Peers peers;
+  Grips grips;
   PacketSender sender;
   Surroundings surroundings;
   Press press;

@@ -118,6 +118,7 @@ void Site::Impl::connect(PeerId id, Link& link, const Vec3& start_W) {
   Peer peer = peers.make(id, link, start_W);
   if (peer.user.body) host_step->addProxy(peer, start_W);
   host_step->leaveNeighbours();
+  grips.addPeer(peer);
   peers.add(std::move(peer));
   tieObjects();
   finishSetUp();

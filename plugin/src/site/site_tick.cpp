@@ -17,6 +17,7 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
   // Packets.
   peers.takeInUntil(now, now);
   peers.followLinks(now, timeline.period(), *host_step);
+  grips.follow(now, timeline.period());
 
   // The force of a tick is computed from its start.
   hand.render(host_step->computeContactForce(), peers, log.hasFault());

@@ -9,7 +9,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Shared objects in one packet. With eight, the longest datagram has 1044 bytes, below one MTU.
+/// Shared objects in one packet. With eight, the longest datagram has 1112 bytes, below one MTU.
 inline constexpr int kMaxObjectsPerPacket = 8;
 
 /// Shared objects of a site. If they exceed one packet, they take turns.
@@ -60,6 +60,16 @@ struct EnergyReport {
                           ///< receiver granted to it [J]
 };
 
+/// An object that the sender's user holds in a grip. It is told as state in every packet, so a lost
+/// packet loses no grab and no release.
+struct GripState {
+  std::uint16_t epoch = 0;         ///< counts grabs and releases, modulo 2^16
+  std::optional<ObjectId> object;  ///< empty: the hand holds nothing, and the rest means nothing
+  Vec3 p_BG = Vec3::Zero();        ///< place on the object, from its centre of mass, in B [m]
+  Quat q_BG = Quat::Identity();    ///< orientation of the hand, whose frame is W's without wrist
+  double age = 0.0;                ///< time from the last grab or release to the packet's [s]
+};
+
 /// State that a peer sends to the others `network.rate` times a second: kinematics, never forces.
 /// Each receiver computes its own forces with its own gains. The latest state wins, separately for
 /// the user and each object; nothing is sent again. If the objects exceed one packet, those that
@@ -71,6 +81,7 @@ struct StatePacket {
   PointState user;             ///< the sender's haptic interface point
   bool is_idle = false;        ///< nothing moves at the sender: packets come at kIdlePacketPeriod
   std::optional<EnergyReport> energy;  ///< empty: the sender keeps no account
+  std::optional<GripState> grip;       ///< empty: the user has held nothing yet
   std::uint32_t object_count = 0;
   std::array<ObjectState, kMaxObjectsPerPacket> objects;
 };

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ struct SiteCounters {
   std::uint64_t objects_reset = 0;       ///< times that the host put a shared object elsewhere
   std::uint64_t peers_restarted = 0;     ///< times that a peer counted its packets from 0 again
   std::uint64_t resets_followed = 0;     ///< times that a peer's host did so
+  std::uint64_t grips_broken = 0;        ///< times that the local hand's grip was pulled too hard
 };
 
 /// A body with the name by which all peers know its object.
@@ -71,6 +73,15 @@ struct NamedBody {
   std::string name;  ///< 1 to 57 characters of A-Z a-z 0-9 . _ -
   btRigidBody* body = nullptr;
   double damping = 0.0;  ///< of this copy [N s/m]
+};
+
+/// An object in the local user's hand, at the latest tick.
+struct Grip {
+  ObjectId object = 0;
+  Vec3 p_BG = Vec3::Zero();      ///< place that the hand holds, from the centre of mass, in B [m]
+  Vec3 force_W = Vec3::Zero();   ///< on the object; the hand gets -force before its limits [N]
+  Vec3 torque_W = Vec3::Zero();  ///< on the object, besides that of the force [N m]
+  bool is_fading = false;        ///< the hand has let go
 };
 
 /// Items for a mesh's configuration, by which peers compare the names of their objects before they
@@ -155,6 +166,31 @@ class Site {
   /// with a HapticLoop. Throws std::invalid_argument for an offset that is not finite, and
   /// tandem::Error with a native model.
   void shiftOrigin(const Vec3& offset_W);
+
+  /// Lets the hand hold a shared object by its place `at_B`, from the centre of mass in the
+  /// object's frame [m]; without one, where the hand is. A spring-damper (SiteSettings::grip) keeps
+  /// the place at the hand and the object's orientation as it is now: a device of three degrees of
+  /// freedom has none of its own. The object comes to a hand that is elsewhere within 0.1 s. Its
+  /// weight passes to the hand, so that it does not sag. Hand and object do not touch meanwhile.
+  ///
+  /// The force on the object is minus that on the hand in each tick, before the device's limits.
+  /// The limit belongs to the grip: pulled at it for 0.1 s, the grip breaks. It ends as well when
+  /// the object is unshared, left to Bullet or put elsewhere. At the peers the user's proxy takes
+  /// the same hold of their copy. Recordings do not hold grips.
+  ///
+  /// At any time between two steps of the host, also with a HapticLoop; waits for it as
+  /// betweenTicks() does. Throws tandem::Error if the object is not shared or left to Bullet, if
+  /// the hand holds another one, and with a guide, a native model or impulse injection. Throws
+  /// std::invalid_argument for a place that is not finite or beyond 1000 m.
+  void grab(ObjectId object, const std::optional<Vec3>& at_B = std::nullopt);
+
+  /// Lets go of what the hand holds; the force fades within 50 ms. Does nothing without a grip. May
+  /// be called as grab() may.
+  void release() noexcept;
+
+  /// What the hand holds; empty without a grip, and once one has faded. For the thread that ticks,
+  /// or in betweenTicks().
+  [[nodiscard]] std::optional<Grip> grip() const noexcept;
 
   /// Connects a remote user whose device starts at `start_W`. The scheme chooses the user's
   /// stand-in.

@@ -35,6 +35,24 @@ enum class TickSource {
   kCaller,    ///< the owner of the site: virtual time with several sites, or a haptic thread
 };
 
+/// A grip: a spring-damper of six degrees of freedom between a hand and a place on a shared object.
+///
+///   f = K (p_hand - p_grip) + B (v_hand - v_grip) + lift      on the object, -f on the hand
+///   t = K r^2 theta - B_r w                                   towards the orientation of the grab
+///
+/// The limit belongs to the grip: the device's own limits clip only what is felt.
+struct GripSettings {
+  double stiffness = 2000.0;  ///< K [N/m]; higher holds closer, above about 3000 a device rattles
+  double damping_ratio =
+      1.0;                  ///< of B with hand and copy, of B_r with the copy; higher swings less
+  double radius = 0.03;     ///< r of the torque's spring [m]; larger turns less
+  double max_force = 40.0;  ///< [N]; times r: limit of the torque [N m]
+  double lift_time = 0.25;  ///< within which the hand takes over a weight [s]; 0: objects sag
+  double blend_time = 0.1;  ///< within which an object comes to the hand that grabs it [s]
+  double break_time = 0.1;  ///< at the force's limit, after which the grip breaks [s]
+  double fade_time = 0.05;  ///< of the force after a release or break [s]
+};
+
 /// Settings of a site. Site's constructor checks them.
 struct SiteSettings {
   PeerId self{1};
@@ -68,6 +86,7 @@ struct SiteSettings {
   /// Most moving host bodies that the island holds at a time, nearest first. 0: all stay in Bullet.
   int max_neighbours = 16;
   double host_stall = 0.0;  ///< longest expected silence of the host [s]; widens the search
+  GripSettings grip;        ///< Site::grab()
   /// Reaction to a silent remote peer. With a native contact model gains change once per host step.
   /// Rigid contact has no gain; it ends when the proxy is lost.
   LinkLossSettings link_loss;
