@@ -42,6 +42,13 @@ void requireSame(const StateMessage& a, const StateMessage& b) {
   require(a.packet.object_count == b.packet.object_count);
   require(a.packet.time == b.packet.time && a.packet.sequence == b.packet.sequence);
   require(a.packet.user.p_W == b.packet.user.p_W && a.packet.user.v_W == b.packet.user.v_W);
+  require(a.packet.grip.has_value() == b.packet.grip.has_value());
+  if (a.packet.grip) {
+    const GripState &left = *a.packet.grip, &right = *b.packet.grip;
+    require(left.epoch == right.epoch && left.object == right.object && left.age == right.age);
+    require(left.p_BG == right.p_BG);
+    require(computeDistance(left.q_BG, right.q_BG) <= rounding);
+  }
   for (std::size_t i = 0; i < a.packet.object_count; ++i) {
     const ObjectState& left = a.packet.objects[i];
     const ObjectState& right = b.packet.objects[i];

@@ -66,6 +66,27 @@ TEST(Mesh, StatesThatMayNotBeSentAreCounted) {
   EXPECT_EQ(sites.status(1, 2).states_sent, before.states_sent + 1);
 }
 
+// Both sides of a handshake know that the other understands grips.
+TEST(Mesh, GripsArrive) {
+  VirtualSites sites(2);
+  ASSERT_TRUE(sites.goLive(1.0));
+  for (const std::uint32_t id : {1u, 2u}) {
+    StatePacket packet;
+    packet.sender = PeerId{id};
+    packet.sequence = 1'000'000;
+    packet.time = sites.clock();
+    packet.grip.emplace().object = 2;
+    sites.at(static_cast<int>(id)).mesh->link(PeerId{3 - id}).send(packet, sites.clock());
+  }
+  sites.run(0.5);
+  for (const int id : {1, 2}) {
+    int grips = 0;
+    for (const Arrival& arrival : sites.at(id).given[static_cast<std::size_t>(3 - id)])
+      grips += arrival.packet.grip && arrival.packet.grip->object == 2u;
+    EXPECT_EQ(grips, 1) << "at site " << id;
+  }
+}
+
 TEST(Mesh, JitterBecomesConstantDelay) {
   VirtualSites sites(2, {0.05, 0.02, 0.0, 0.0, 0.0}, 8);
   ASSERT_TRUE(sites.goLive(2.0));

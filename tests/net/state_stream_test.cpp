@@ -7,12 +7,21 @@
 namespace tandem::net {
 namespace {
 
+GripState makeGrip(std::uint16_t epoch, std::optional<ObjectId> object) {
+  GripState grip;
+  grip.epoch = epoch;
+  grip.object = object;
+  return grip;
+}
+
 /// States from one stream to another. The test decides when keys are renewed.
 struct Way {
   StateStream receiver{PlayoutSettings{}, WireProfile::kFloat64, 7};
   StateStream sender{PlayoutSettings{}, WireProfile::kFloat64, 7};
   double now = 1.0;
   std::uint64_t datagram = 0;
+  std::uint8_t minor = kMinorVersion;
+  std::optional<GripState> grip;
 
   void send(std::uint64_t sequence, std::optional<double> granted) {
     EXPECT_EQ(receive(make(sequence, granted), datagram++), Refusal::kNone);
@@ -23,8 +32,9 @@ struct Way {
     packet.sequence = sequence;
     packet.time = now;
     if (granted) packet.energy = {*granted, -0.5};
+    packet.grip = grip;
     std::vector<std::uint8_t> bytes(2048);
-    bytes.resize(sender.write(packet, now, {bytes.data(), bytes.size()}));
+    bytes.resize(sender.write(packet, minor, now, {bytes.data(), bytes.size()}));
     now += 0.01;
     return bytes;
   }
@@ -52,6 +62,32 @@ TEST(StateStream, EnergyArrivesOrThatThereIsNone) {
   EXPECT_EQ(got[0].energy->holdings, -0.5);
   EXPECT_EQ(got[1].energy->granted, 1.5);
   EXPECT_FALSE(got[2].energy);
+}
+
+TEST(StateStream, GripArrives) {
+  Way way;
+  way.grip = GripState{7, 3, Vec3(0.1, -0.2, 0.3), Quat(0.6, 0.0, -0.8, 0.0), 0.25};
+  way.send(0, std::nullopt);
+  way.grip = makeGrip(8, std::nullopt);
+  way.send(1, std::nullopt);
+  const std::vector<StatePacket> got = way.take();
+  ASSERT_EQ(got.size(), 2u);
+  ASSERT_TRUE(got[0].grip && got[1].grip);
+  EXPECT_EQ(got[0].grip->object, 3u);
+  EXPECT_EQ(got[0].grip->p_BG, Vec3(0.1, -0.2, 0.3));
+  EXPECT_EQ(got[0].grip->age, 0.25);
+  EXPECT_EQ(got[1].grip->epoch, 8u);
+  EXPECT_FALSE(got[1].grip->object);
+}
+
+// A peer of minor version 0 would refuse the whole state.
+TEST(StateStream, AnOlderPeerHearsOfNoGrip) {
+  Way way;
+  way.grip = makeGrip(7, 3);
+  way.minor = kGripMinor - 1;
+  EXPECT_EQ(way.make(0, std::nullopt).size(), computeStateSize(WireProfile::kFloat64, 0));
+  way.minor = kGripMinor;
+  EXPECT_EQ(way.make(1, std::nullopt).size(), computeStateSize(WireProfile::kFloat64, 0, true));
 }
 
 // The restarted peer's grants begin at zero. The receiver goes on from those before.

@@ -2,7 +2,7 @@
 
 import struct
 
-from datagrams import BLOCK, BLOCK_FIELDS, CLEAR_SIZES, DEVICE_FIELDS, HEADER, NUMBERS, OBJECT_FIELDS, ROUTE
+from datagrams import BLOCK, BLOCK_FIELDS, CLEAR_SIZES, DEVICE_FIELDS, GRIP_FIELDS, HEADER, NUMBERS, OBJECT_FIELDS, ROUTE
 
 
 def config_hash_of(items):
@@ -30,6 +30,9 @@ def write_state(f):
         return b"".join(struct.pack(f"<{count}{real}", *f[prefix + name]) for name, count in layout)
 
     content = BLOCK.pack(*(f[name] for name in BLOCK_FIELDS)) + reals("device.", DEVICE_FIELDS)
+    if f["flags"] & 16:
+        content += struct.pack("<HHI", f["grip.epoch"], f["grip.object"], f["grip.age_us"])
+        content += reals("grip.", GRIP_FIELDS)
     for i in range(f["object_count"]):
         head = struct.pack("<HBBI", f[f"object.{i}.id"], f[f"object.{i}.epoch_author"], 0, f[f"object.{i}.epoch"])
         content += head + reals(f"object.{i}.", OBJECT_FIELDS)

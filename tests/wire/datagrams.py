@@ -18,6 +18,7 @@ BLOCK_FIELDS = ("send_time_us", "state_time_us", "state_sequence", "echo_send_ti
                 "ack_bits", "granted", "holdings", "flags", "profile", "object_count", "config_hash")
 MOTION = {"position": 1e3, "velocity": 1e2, "angular_velocity": 1e3}  # bounds of each component
 DEVICE_FIELDS = (("position", 3), ("velocity", 3))
+GRIP_FIELDS = (("position", 3), ("orientation", 4))
 OBJECT_FIELDS = (("position", 3), ("orientation", 4), ("velocity", 3), ("angular_velocity", 3))
 
 KEY = re.compile(rb"[A-Za-z0-9._-]{1,64}")
@@ -91,6 +92,10 @@ def read_reals(payload, offset, real, layout):
     return fields, offset
 
 
+def require_unit(orientation):
+    require(abs(sum(x * x for x in orientation) - 1.0) < 1e-3, "orientation")
+
+
 def read_state(payload):
     """Section 6, in the order of its gate."""
     require(len(payload) >= BLOCK.size, "too_short")
@@ -98,13 +103,21 @@ def read_state(payload):
     require(block["profile"] <= 1, "profile")
     require(block["object_count"] <= 8, "object_count")
     real, width = ("f", 4) if block["profile"] == 0 else ("d", 8)
-    size = BLOCK.size + 6 * width + block["object_count"] * (8 + 13 * width)
+    has_grip = block["flags"] & 16 != 0
+    size = BLOCK.size + 6 * width + has_grip * (8 + 7 * width) + block["object_count"] * (8 + 13 * width)
     require(len(payload) == size, "wrong_size")
-    require(block["flags"] & ~15 == 0, "flags")
+    require(block["flags"] & ~31 == 0, "flags")
     require(all(0 <= block[name] <= MAX_TIME for name in BLOCK_FIELDS if "_time_us" in name), "time")
     require(all(abs(block[name]) <= 1e9 for name in ("granted", "holdings")), "energy")  # false for a NaN, too
     device, offset = read_reals(payload, BLOCK.size, real, DEVICE_FIELDS)
     block.update({f"device.{name}": value for name, value in device.items()})
+    if has_grip:
+        epoch, number, age = struct.unpack_from("<HHI", payload, offset)
+        require(number <= 255 or number == 65535, "object_id")
+        grip, offset = read_reals(payload, offset + 8, real, GRIP_FIELDS)
+        require_unit(grip["orientation"])
+        block.update({"grip.epoch": epoch, "grip.object": number, "grip.age_us": age})
+        block.update({f"grip.{name}": value for name, value in grip.items()})
     ids = set()
     for i in range(block["object_count"]):
         number, author, zero, epoch = struct.unpack_from("<HBBI", payload, offset)
@@ -114,8 +127,7 @@ def read_state(payload):
         require(author <= 8 and (author == 0) == (epoch == 0), "object_epoch")
         ids.add(number)
         state, offset = read_reals(payload, offset + 8, real, OBJECT_FIELDS)
-        w, x, y, z = state["orientation"]
-        require(abs(w * w + x * x + y * y + z * z - 1.0) < 1e-3, "orientation")
+        require_unit(state["orientation"])
         block.update({f"object.{i}.id": number, f"object.{i}.epoch_author": author, f"object.{i}.epoch": epoch})
         block.update({f"object.{i}.{name}": value for name, value in state.items()})
     return block

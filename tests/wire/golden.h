@@ -78,7 +78,7 @@ inline StateMessage makeState(WireProfile profile) {
   message.echo_hold_us = 7812;
   message.ack_bits = 0xfffffffd;
   message.energy = {0.375, -0.0125};
-  message.flags = profile == WireProfile::kFloat32 ? kStateFlags : 0;
+  message.flags = profile == WireProfile::kFloat32 ? kStateFlags & ~kStateGrip : 0;
   message.profile = profile;
   message.config_hash = 0xdeadbeef;
   message.packet.user = {Vec3(0.1, -0.05, 1000.0), Vec3(-100.0, 0.7, 5e-324)};
@@ -87,6 +87,28 @@ inline StateMessage makeState(WireProfile profile) {
                                {Vec3(0.126, -0.0, 0.25), Quat(0.6, 0.0, -0.8, 0.0),
                                 Vec3(0.1, -0.2, 0.3), Vec3(-1.5, 0.001, 12.25)},
                                {1, kInitiator}};
+  return message;
+}
+
+/// Values of state_grip.bin.
+inline StateMessage makeGripState() {
+  StateMessage message = makeState(WireProfile::kFloat64);
+  message.flags = kStateAccount | kStateGrip;
+  message.packet.user = {Vec3(0.125, -0.5, 1000.0), Vec3(-100.0, 0.75, 0.0)};
+  message.packet.grip =
+      GripState{65535, 3, Vec3(0.25, -0.0, -1000.0), Quat(0.6, 0.0, 0.0, 0.8), 0.250001};
+  return message;
+}
+
+/// Values of state_grip_released.bin.
+inline StateMessage makeReleasedState() {
+  StateMessage message = makeGripState();
+  message.flags = kStateGrip;
+  message.profile = WireProfile::kFloat32;
+  message.packet.object_count = 0;
+  message.packet.grip = GripState{};
+  message.packet.grip->epoch = 2;
+  message.packet.grip->age = 4294.967295;
   return message;
 }
 

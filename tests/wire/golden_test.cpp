@@ -136,6 +136,14 @@ void expectState(const Bytes& golden, const ClearHeader& expected_header,
   EXPECT_EQ(packet.time, expected.packet.time);
   expectSame(packet.user.p_W, expected.packet.user.p_W);
   expectSame(packet.user.v_W, expected.packet.user.v_W);
+  ASSERT_EQ(packet.grip.has_value(), expected.packet.grip.has_value());
+  if (packet.grip) {
+    EXPECT_EQ(packet.grip->epoch, expected.packet.grip->epoch);
+    EXPECT_EQ(packet.grip->object, expected.packet.grip->object);
+    EXPECT_EQ(packet.grip->age, expected.packet.grip->age);
+    expectSame(packet.grip->p_BG, expected.packet.grip->p_BG);
+    expectSame(packet.grip->q_BG.coeffs(), expected.packet.grip->q_BG.coeffs());
+  }
   ASSERT_EQ(packet.object_count, expected.packet.object_count);
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     const ObjectState& object = packet.objects[i];
@@ -187,6 +195,18 @@ TEST(WireGolden, StateOfADeviceOnly) {
   const ClearHeader header = makeHeader(MessageType::kState, 0);
   EXPECT_EQ(collectState(header, message), readGolden("state_device_only.bin"));
   expectState(readGolden("state_device_only.bin"), header, message);
+}
+
+TEST(WireGolden, StateWithAGrip) {
+  const ClearHeader header = makeHeader(MessageType::kState, (std::uint64_t{1} << 32) + 44);
+  EXPECT_EQ(collectState(header, makeGripState()), readGolden("state_grip.bin"));
+  expectState(readGolden("state_grip.bin"), header, makeGripState());
+}
+
+TEST(WireGolden, StateAfterARelease) {
+  const ClearHeader header = makeHeader(MessageType::kState, (std::uint64_t{1} << 32) + 45);
+  EXPECT_EQ(collectState(header, makeReleasedState()), readGolden("state_grip_released.bin"));
+  expectState(readGolden("state_grip_released.bin"), header, makeReleasedState());
 }
 
 TEST(WireGolden, StateAtEveryBound) {

@@ -34,7 +34,9 @@ TEST(WireState, SizesAreThoseOfTheStandard) {
   EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 0), 88U);
   EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1), 148U);
   EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 224U);
-  EXPECT_EQ(kMaxStateSize, 1008U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1, true), 184U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 0, true), 176U);
+  EXPECT_EQ(kMaxStateSize, 1072U);
   EXPECT_LE(kMaxStateSize, kMaxPayloadSize);
 }
 
@@ -67,6 +69,10 @@ std::vector<double*> listReals(StatePacket& packet) {
   };
   add(packet.user.p_W);
   add(packet.user.v_W);
+  if (packet.grip) {
+    add(packet.grip->p_BG);
+    add(packet.grip->q_BG.coeffs());
+  }
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     RigidState& state = packet.objects[i].state;
     add(state.p_W);
@@ -78,7 +84,9 @@ std::vector<double*> listReals(StatePacket& packet) {
 }
 
 /// True if the real at this place of the list belongs to a quaternion.
-bool isOfOrientation(std::size_t index) {
+bool isOfOrientation(std::size_t index, bool has_grip) {
+  if (has_grip && index >= 6 && index < 13) return index >= 9;
+  if (has_grip && index >= 13) index -= 7;
   return index >= 6 && (index - 6) % 13 >= 3 && (index - 6) % 13 < 7;
 }
 
@@ -109,6 +117,14 @@ StateMessage drawState(std::mt19937_64& random, WireProfile profile) {
   message.flags = static_cast<std::uint16_t>(random() & kStateFlags);
   message.config_hash = static_cast<std::uint32_t>(random());
   message.packet.user = {drawVector(1e3), drawVector(1e2)};
+  if ((message.flags & kStateGrip) != 0) {
+    GripState& grip = message.packet.grip.emplace();
+    grip.epoch = static_cast<std::uint16_t>(random());
+    if (random() % 4 != 0) grip.object = static_cast<ObjectId>(random() % kMaxSharedObjects);
+    grip.age = static_cast<double>(random() >> 32) / 1e6;
+    grip.p_BG = drawVector(1e3);
+    grip.q_BG = Quat(draw(1.0), draw(1.0), draw(1.0), 0.5).normalized();
+  }
   message.packet.object_count = static_cast<std::uint32_t>(random() % (kMaxObjectsPerPacket + 1));
   const auto first = static_cast<ObjectId>(random());
   for (ObjectId i = 0; i < message.packet.object_count; ++i) {
@@ -142,11 +158,18 @@ TEST_P(WireStateProfiles, WhatGoesInComesOut) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", case " + std::to_string(i));
     StateMessage sent = drawState(random, GetParam());
     const Bytes bytes = encode(sent);
-    ASSERT_EQ(bytes.size(), computeStateSize(sent.profile, sent.packet.object_count));
+    const bool has_grip = sent.packet.grip.has_value();
+    ASSERT_EQ(bytes.size(), computeStateSize(sent.profile, sent.packet.object_count, has_grip));
     auto got = decode(bytes);
     ASSERT_TRUE(got) << name(got.refusal());
     ASSERT_TRUE(isSane(got->packet));
     expectEqualBlocks(*got, sent);
+    ASSERT_EQ(got->packet.grip.has_value(), has_grip);
+    if (has_grip) {
+      EXPECT_EQ(got->packet.grip->epoch, sent.packet.grip->epoch);
+      EXPECT_EQ(got->packet.grip->object, sent.packet.grip->object);
+      EXPECT_EQ(got->packet.grip->age, sent.packet.grip->age);
+    }
     ASSERT_EQ(got->packet.object_count, sent.packet.object_count);
     for (std::size_t k = 0; k < sent.packet.object_count; ++k)
       EXPECT_EQ(got->packet.objects[k].id, sent.packet.objects[k].id);
@@ -154,13 +177,15 @@ TEST_P(WireStateProfiles, WhatGoesInComesOut) {
       for (double* real : listReals(sent.packet)) *real = static_cast<float>(*real);
       for (std::size_t k = 0; k < sent.packet.object_count; ++k)
         sent.packet.objects[k].state.q_WB.normalize();
+      if (has_grip) sent.packet.grip->q_BG.normalize();
     }
     const auto expected = listReals(sent.packet);
     const auto reals = listReals(got->packet);
     for (std::size_t k = 0; k < reals.size(); ++k) {
       // Compares exactly, except float's orientations. Those off by less than 1e-14 stay as they
       // are.
-      const bool divided = GetParam() == WireProfile::kFloat32 && isOfOrientation(k);
+      const bool divided =
+          GetParam() == WireProfile::kFloat32 && isOfOrientation(k, sent.packet.grip.has_value());
       ASSERT_NEAR(*reals[k], *expected[k], divided ? 1e-14 : 0.0) << "number " << k;
     }
     if (::testing::Test::HasFailure()) return;
@@ -252,7 +277,9 @@ TEST(WireState, SenderKeepsToTheGate) {
       [](StateMessage& m) { m.energy.holdings = std::nan(""); },
       [](StateMessage& m) { m.energy.granted = 1.1e9; },
       [](StateMessage& m) { m.energy.holdings = -1.1e9; },
-      [](StateMessage& m) { m.flags = 16; },
+      [](StateMessage& m) { m.flags = 32; },
+      [](StateMessage& m) { m.flags |= kStateGrip; },
+      [](StateMessage& m) { m.packet.grip.emplace(); },
       [](StateMessage& m) { m.profile = WireProfile{2}; },
       [](StateMessage& m) { m.packet.object_count = kMaxObjectsPerPacket + 1; },
       [](StateMessage& m) { m.packet.objects[0].id = kMaxSharedObjects; },
@@ -266,6 +293,35 @@ TEST(WireState, SenderKeepsToTheGate) {
     faults[i](message);
     EXPECT_TRUE(encode(message).empty()) << "fault " << i;
   }
+}
+
+TEST(WireState, SenderKeepsAGripToTheGate) {
+  const std::vector<std::function<void(GripState&)>> faults = {
+      [](GripState& g) { g.object = kMaxSharedObjects; },
+      [](GripState& g) { g.p_BG.y() = std::nan(""); },
+      [](GripState& g) { g.p_BG.z() = -1001.0; },
+      [](GripState& g) { g.q_BG.x() = kInfinity; },
+      [](GripState& g) { g.q_BG.coeffs() *= 1.001; },
+      [](GripState& g) { g.q_BG.coeffs().setZero(); },
+      [](GripState& g) { g.age = -1e-6; },
+      [](GripState& g) { g.age = std::nan(""); },
+      [](GripState& g) { g.age = kInfinity; },
+  };
+  EXPECT_FALSE(encode(test::makeGripState()).empty());
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    StateMessage message = test::makeGripState();
+    faults[i](*message.packet.grip);
+    EXPECT_TRUE(encode(message).empty()) << "fault " << i;
+  }
+}
+
+// A long hold tells the largest age.
+TEST(WireState, AgesEndAtTheirLargest) {
+  StateMessage message = test::makeGripState();
+  message.packet.grip->age = 1e5;
+  const auto got = decode(encode(message));
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->packet.grip->age, 4294.967295);
 }
 
 TEST(WireState, WritesNothingWithoutRoom) {

@@ -13,6 +13,11 @@ bool isSane(const ObjectState& object) noexcept {
   return isFinite(object.state) && std::abs(object.state.q_WB.norm() - 1.0) <= kUnitTolerance;
 }
 
+bool isSane(const GripState& grip) noexcept {
+  return grip.p_BG.allFinite() && std::abs(grip.q_BG.norm() - 1.0) <= kUnitTolerance &&
+         std::isfinite(grip.age) && grip.age >= 0.0;
+}
+
 }  // namespace
 
 bool isSane(const StatePacket& packet) noexcept {
@@ -21,6 +26,7 @@ bool isSane(const StatePacket& packet) noexcept {
   if (packet.energy &&
       !(std::isfinite(packet.energy->granted) && std::isfinite(packet.energy->holdings)))
     return false;
+  if (packet.grip && !isSane(*packet.grip)) return false;
   const auto* const first = packet.objects.data();
   return std::all_of(first, first + packet.object_count,
                      [](const ObjectState& object) { return isSane(object); });

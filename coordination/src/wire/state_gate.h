@@ -50,14 +50,20 @@ class StateGate {
   }
 
   [[nodiscard]] WireRefusal check(const RigidState& state) const noexcept {
-    constexpr double kUnitTolerance = 1e-3;
     if (!isFinite(state)) return WireRefusal::kNotFinite;
     if (const auto fault = checkMotion(state.p_W, state.v_W); fault != WireRefusal::kNone)
       return fault;
     if (!isWithin(state.w_W, limits_.angular_velocity)) return WireRefusal::kAngularVelocity;
-    if (!(std::abs(computeSquaredLength(state.q_WB) - 1.0) < kUnitTolerance))
-      return WireRefusal::kOrientation;
-    return WireRefusal::kNone;
+    return checkTurn(state.q_WB);
+  }
+
+  /// A grip that holds nothing has a pose within bounds, too.
+  [[nodiscard]] WireRefusal check(const GripState& grip) const noexcept {
+    if (grip.object && *grip.object >= kMaxSharedObjects) return WireRefusal::kObjectId;
+    if (!grip.p_BG.allFinite() || !grip.q_BG.coeffs().allFinite()) return WireRefusal::kNotFinite;
+    if (!(grip.age >= 0.0)) return WireRefusal::kTime;
+    if (!isWithin(grip.p_BG, limits_.position)) return WireRefusal::kPosition;
+    return checkTurn(grip.q_BG);
   }
 
   [[nodiscard]] WireRefusal check(const ObjectEpoch& epoch) const noexcept {
@@ -85,6 +91,8 @@ class StateGate {
         fault != WireRefusal::kNone)
       return fault;
     if (const auto fault = check(packet.user); fault != WireRefusal::kNone) return fault;
+    if (packet.grip)
+      if (const auto fault = check(*packet.grip); fault != WireRefusal::kNone) return fault;
     ObjectIds seen;
     for (std::size_t i = 0; i < packet.object_count; ++i) {
       const ObjectState& object = packet.objects[i];
@@ -98,6 +106,12 @@ class StateGate {
  private:
   static bool isWithin(const Vec3& vector, double bound) noexcept {
     return vector.cwiseAbs().maxCoeff() <= bound;
+  }
+
+  [[nodiscard]] static WireRefusal checkTurn(const Quat& rotation) noexcept {
+    constexpr double kUnitTolerance = 1e-3;
+    const bool is_unit = std::abs(computeSquaredLength(rotation) - 1.0) < kUnitTolerance;
+    return is_unit ? WireRefusal::kNone : WireRefusal::kOrientation;
   }
 
   [[nodiscard]] WireRefusal checkMotion(const Vec3& position, const Vec3& velocity) const noexcept {

@@ -17,6 +17,9 @@ using SessionTermsBytes = std::array<std::uint8_t, 8>;
 using AssociatedData = std::array<std::uint8_t, 32>;
 using SealNonce = std::array<std::uint8_t, 12>;
 
+/// Highest minor version that is spoken here.
+inline constexpr std::uint8_t kMinorVersion = 1;
+
 /// Terms that each side sends inside its Noise message.
 struct SessionTerms {
   std::uint32_t session = 0;    ///< session id under which the sender wants to be addressed; not 0

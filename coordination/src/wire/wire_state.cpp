@@ -1,5 +1,6 @@
 #include "wire/wire_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "wire/byte_reader.h"
@@ -8,10 +9,19 @@
 
 //   0 send_time_us i64 | state_time_us i64 | state_sequence u64 | echo_send_time_us i64
 //  32 echo_hold_us u32 | ack_bits u32 | granted f64 | holdings f64
-//  56 flags u16 | profile u8 | objects u8 | config_hash u32 | DEVICE {p, v} | OBJECT {id u16,
-//  epoch_author u8, zero u8, epoch u32, p, q, v, w} ...
+//  56 flags u16 | profile u8 | objects u8 | config_hash u32 | DEVICE {p, v} | GRIP {epoch
+//  u16, object u16, age_us u32, p, q} with the flag | OBJECT {id u16, epoch_author u8, zero u8,
+//  epoch u32, p, q, v, w} ...
 namespace tandem {
 namespace {
+
+/// Object of a grip that holds none.
+constexpr std::uint16_t kNoObject = 0xffff;
+
+/// Whole microseconds; the most that fits stands for more.
+std::uint32_t toAge(double seconds) noexcept {
+  return static_cast<std::uint32_t>(std::min(std::round(seconds * 1e6), 4294967295.0));
+}
 
 /// Writes numbers in a profile's width. Values that passed the gate round to finite floats.
 template <class Real>
@@ -22,6 +32,15 @@ class RecordWriter {
   void write(const PointState& state) noexcept {
     write(state.p_W);
     write(state.v_W);
+  }
+
+  void write(const GripState& grip) noexcept {
+    writer_.write(grip.epoch);
+    writer_.write(static_cast<std::uint16_t>(grip.object.value_or(kNoObject)));
+    writer_.write(toAge(grip.age));
+    write(grip.p_BG);
+    write(grip.q_BG.w());
+    write(Vec3(grip.q_BG.vec()));
   }
 
   void write(const ObjectState& object) noexcept {
@@ -59,12 +78,14 @@ class RecordReader {
     read(state.v_W);
   }
 
+  void read(GripState& grip) noexcept {
+    read(grip.p_BG);
+    read(grip.q_BG);
+  }
+
   void read(RigidState& state) noexcept {
     read(state.p_W);
-    read(state.q_WB.w());
-    read(state.q_WB.x());
-    read(state.q_WB.y());
-    read(state.q_WB.z());
+    read(state.q_WB);
     read(state.v_W);
     read(state.w_W);
   }
@@ -76,6 +97,13 @@ class RecordReader {
     } else {
       number = reader_.readDouble();
     }
+  }
+
+  void read(Quat& rotation) noexcept {
+    read(rotation.w());
+    read(rotation.x());
+    read(rotation.y());
+    read(rotation.z());
   }
 
   void read(Vec3& vector) noexcept {
@@ -91,6 +119,7 @@ template <class Real>
 void writeRecords(const StatePacket& packet, wire::ByteWriter& writer) noexcept {
   RecordWriter<Real> records(writer);
   records.write(packet.user);
+  if (packet.grip) records.write(*packet.grip);
   for (std::size_t i = 0; i < packet.object_count; ++i) records.write(packet.objects[i]);
 }
 
@@ -102,6 +131,15 @@ WireRefusal readRecords(wire::ByteReader& reader, const wire::StateGate& gate,
   wire::ObjectIds seen;
   records.read(packet.user);
   if (const auto fault = gate.check(packet.user); fault != WireRefusal::kNone) return fault;
+  if (packet.grip) {
+    GripState& grip = *packet.grip;
+    grip.epoch = reader.read<std::uint16_t>();
+    if (const auto object = reader.read<std::uint16_t>(); object != kNoObject) grip.object = object;
+    grip.age = static_cast<double>(reader.read<std::uint32_t>()) / 1e6;
+    records.read(grip);
+    if (const auto fault = gate.check(grip); fault != WireRefusal::kNone) return fault;
+    wire::makeUnit(grip.q_BG);
+  }
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     ObjectState& object = packet.objects[i];
     object.id = reader.read<std::uint16_t>();
@@ -139,7 +177,9 @@ WireRefusal readState(ByteView payload, const WireLimits& limits, StateMessage& 
   if (profile > static_cast<std::uint8_t>(WireProfile::kFloat64)) return WireRefusal::kProfile;
   message.profile = static_cast<WireProfile>(profile);
   if (packet.object_count > packet.objects.size()) return WireRefusal::kObjectCount;
-  if (payload.size != computeStateSize(message.profile, packet.object_count))
+  const bool has_grip = (message.flags & kStateGrip) != 0;
+  if (has_grip) packet.grip.emplace();
+  if (payload.size != computeStateSize(message.profile, packet.object_count, has_grip))
     return WireRefusal::kWrongSize;
   const wire::StateGate gate(limits);
   if (const auto fault = gate.checkBlock(message, state_time_us); fault != WireRefusal::kNone)
@@ -161,7 +201,9 @@ std::size_t encodeState(const StateMessage& message, ByteSpan out,
   const StatePacket& packet = message.packet;
   const wire::StateGate gate(limits);
   if (gate.check(message) != WireRefusal::kNone || !isSane(packet)) return 0;
-  if (out.size < computeStateSize(message.profile, packet.object_count)) return 0;
+  const bool has_grip = packet.grip.has_value();
+  if (has_grip != ((message.flags & kStateGrip) != 0)) return 0;
+  if (out.size < computeStateSize(message.profile, packet.object_count, has_grip)) return 0;
 
   wire::ByteWriter writer(out);
   writer.write(message.send_time_us);

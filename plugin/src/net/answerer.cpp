@@ -53,13 +53,14 @@ std::optional<SessionKeys> Answerer::answer(const OpenMessage& message, double n
   accept_.route = {pair_.self, pair_.peer, message.route.nonce};
   accept_.session = terms->session;
   accept_.key_epoch = terms->key_epoch;
-  const SessionTermsBytes answer_terms = writeSessionTerms({mine, terms->key_epoch, 0});
+  const SessionTermsBytes answer_terms =
+      writeSessionTerms({mine, terms->key_epoch, std::min(terms->minor, kMinorVersion)});
   if (!noise.writeMessage(answer_terms, accept_.noise)) return std::nullopt;
   auto keys = noise.split();
   if (!keys) return std::nullopt;
   answered_[answers_++ % kRemembered] = {message.route.nonce, message.noise};
   has_newest_ = true;
-  return SessionKeys(pair_, std::move(*keys), mine, terms->session, terms->key_epoch, now);
+  return SessionKeys(pair_, std::move(*keys), mine, *terms, now);
 }
 
 }  // namespace tandem::net

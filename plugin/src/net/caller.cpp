@@ -72,7 +72,7 @@ Outcome Caller::writeOpen(const CookieBytes& cookie) noexcept {
   try {
     const NoisePrologue prologue = writeNoisePrologue(pair_.self, pair_.peer, cookie);
     session_ = drawNumber<std::uint32_t>();
-    const SessionTermsBytes terms = writeSessionTerms({session_, epoch_, 0});
+    const SessionTermsBytes terms = writeSessionTerms({session_, epoch_, kMinorVersion});
     noise_.emplace(key_, prologue);
     open_.route = {pair_.self, pair_.peer, nonce_};
     open_.key_epoch = epoch_;
@@ -112,7 +112,7 @@ std::optional<SessionKeys> Caller::onAccept(ByteView datagram, double now,
     took_ = std::min(now - opened_at_, kMostTook);
     stop();
     refused_.reset();
-    return SessionKeys(pair_, std::move(*keys), session_, terms->session, epoch_, now);
+    return SessionKeys(pair_, std::move(*keys), session_, *terms, now);
   } catch (const std::exception&) {
     outcome = Refusal::kTooMany;
     return std::nullopt;

@@ -292,7 +292,7 @@ Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> seque
 void PeerSession::send(const StatePacket& packet, double now, Outlet& outlet) noexcept {
   if (!keys_ || bye_reason_) return;
   Room room;
-  const std::size_t size = stream_.write(packet, now, room.payload());
+  const std::size_t size = stream_.write(packet, keys_->minor(), now, room.payload());
   const bool is_sent = size > 0 && sendSealed(MessageType::kState, size, room.datagram(), outlet);
   ++(is_sent ? states_sent_ : states_unsent_);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "coordination/src/wire/replay_window.h"
@@ -23,20 +24,24 @@ struct Pair {
 /// of received datagrams. Real-time safe except for construction.
 class SessionKeys {
  public:
+  /// `theirs` are the peer's terms.
   SessionKeys(const Pair& pair, secure::TransportKeys keys, std::uint32_t mine,
-              std::uint32_t theirs, std::uint16_t epoch, double now) noexcept
+              const SessionTerms& theirs, double now) noexcept
       : pair_(pair),
-        sealer_(std::move(keys.send), computeNonceSalt(pair.self, epoch)),
-        opener_(std::move(keys.receive), computeNonceSalt(pair.peer, epoch)),
+        sealer_(std::move(keys.send), computeNonceSalt(pair.self, theirs.key_epoch)),
+        opener_(std::move(keys.receive), computeNonceSalt(pair.peer, theirs.key_epoch)),
         policy_(now),
         mine_(mine),
-        theirs_(theirs),
-        epoch_(epoch) {}
+        theirs_(theirs.session),
+        epoch_(theirs.key_epoch),
+        minor_(std::min(theirs.minor, kMinorVersion)) {}
 
   [[nodiscard]] bool isFor(const ClearHeader& header) const noexcept {
     return header.session == mine_ && header.key_epoch == epoch_ && header.sender == pair_.peer;
   }
   [[nodiscard]] std::uint16_t epoch() const noexcept { return epoch_; }
+  /// Highest minor version that both speak.
+  [[nodiscard]] std::uint8_t minor() const noexcept { return minor_; }
   [[nodiscard]] secure::KeyAge age(double now) const noexcept {
     return policy_.age(now, sealer_.nextSequence());
   }
@@ -57,6 +62,7 @@ class SessionKeys {
   ReplayWindow window_;
   std::uint32_t mine_, theirs_;
   std::uint16_t epoch_;
+  std::uint8_t minor_;
 };
 
 }  // namespace tandem::net

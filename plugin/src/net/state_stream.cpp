@@ -15,9 +15,12 @@ double toSeconds(std::int64_t microseconds) noexcept {
 
 }  // namespace
 
-std::size_t StateStream::write(const StatePacket& packet, double now, ByteSpan payload) noexcept {
+std::size_t StateStream::write(const StatePacket& packet, std::uint8_t minor, double now,
+                               ByteSpan payload) noexcept {
   StateMessage message;
   message.packet = packet;
+  if (minor < kGripMinor) message.packet.grip.reset();
+  if (message.packet.grip) message.flags |= kStateGrip;
   // The time stamp identifies the datagram, so it increases whatever the clock does.
   message.send_time_us = std::max(toMicroseconds(now), last_sent_us_ + 1);
   last_sent_us_ = message.send_time_us;

@@ -19,7 +19,9 @@ class StateStream {
       : playout_(playout), profile_(profile), config_hash_(config_hash) {}
 
   /// Writes the payload of the next STATE. Returns its size, 0 if the state cannot be encoded.
-  [[nodiscard]] std::size_t write(const StatePacket& packet, double now, ByteSpan payload) noexcept;
+  /// A peer of an older `minor` version hears of no grip.
+  [[nodiscard]] std::size_t write(const StatePacket& packet, std::uint8_t minor, double now,
+                                  ByteSpan payload) noexcept;
 
   /// Notes any opened datagram, for acknowledgements and loss.
   void note(std::uint64_t sequence, double now) noexcept;

@@ -9,7 +9,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Shared objects in one packet. With eight, the longest datagram has 1112 bytes, below one MTU.
+/// Shared objects in one packet. With eight, the longest datagram has 1108 bytes, below one MTU.
 inline constexpr int kMaxObjectsPerPacket = 8;
 
 /// Shared objects of a site. If they exceed one packet, they take turns.
@@ -86,9 +86,9 @@ struct StatePacket {
   std::array<ObjectState, kMaxObjectsPerPacket> objects;
 };
 
-/// False if a value is not finite, a quaternion is not unit within 1e-6, or there are
-/// more objects than fit. Entries from `object_count` on are not part of the packet. A receiver
-/// drops and counts a packet that is not sane.
+/// False if a value is not finite, a quaternion is not unit within 1e-6, an age is below 0, or
+/// there are more objects than fit. Entries from `object_count` on are not part of the packet. A
+/// receiver drops and counts a packet that is not sane.
 [[nodiscard]] bool isSane(const StatePacket& packet) noexcept;
 
 /// A packet and its time of arrival.
