@@ -55,6 +55,15 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
     read.objects[i] = {packet.object_ids[i],
                        fromPacket(packet.objects[i]),
                        {packet.object_epochs[i], PeerId{packet.object_epoch_authors[i]}}};
+  if (packet.has_grip) {
+    GripState& grip = read.grip.emplace();
+    const double *p = packet.grip_position, *q = packet.grip_orientation;
+    grip.epoch = static_cast<std::uint16_t>(packet.grip_epoch);
+    if (packet.grip_object != TANDEM_NO_OBJECT) grip.object = packet.grip_object;
+    grip.p_BG = {p[0], p[1], p[2]};
+    grip.q_BG = Quat(q[3], q[0], q[1], q[2]);
+    grip.age = packet.grip_age;
+  }
   return read;
 }
 
@@ -75,6 +84,13 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
     written.object_epochs[i] = packet.objects[i].epoch.count;
     written.object_epoch_authors[i] = static_cast<std::uint32_t>(packet.objects[i].epoch.author);
   }
+  if (!packet.grip) return written;
+  written.has_grip = 1;
+  written.grip_epoch = packet.grip->epoch;
+  written.grip_object = packet.grip->object.value_or(TANDEM_NO_OBJECT);
+  writeVec3(packet.grip->p_BG, written.grip_position);
+  for (int i = 0; i < 4; ++i) written.grip_orientation[i] = packet.grip->q_BG.coeffs()[i];
+  written.grip_age = packet.grip->age;
   return written;
 }
 

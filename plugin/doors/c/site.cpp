@@ -80,6 +80,16 @@ void SiteEnd::shiftOrigin(const Vec3& offset_W) {
   site_.shiftOrigin(offset_W);
 }
 
+void SiteEnd::grab(std::uint32_t object, const std::optional<Vec3>& at_B) {
+  checkObject(object);
+  site_.grab(object, at_B);
+}
+
+void SiteEnd::release() {
+  (void)world_.bullet();
+  site_.release();
+}
+
 void SiteEnd::shareAgain(std::uint32_t object, TandemBody body) {
   checkObject(object);
   WorldBody& known = findShareable(world_, body, shared_[object]);

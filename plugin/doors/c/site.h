@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ class SiteEnd {
   void shareAgain(std::uint32_t object, TandemBody body);
   [[nodiscard]] TandemObjectState objectState(std::uint32_t object) const;
   void shiftOrigin(const Vec3& offset_W);
+  void grab(std::uint32_t object, const std::optional<Vec3>& at_B);
+  void release();
   TandemBody connect(std::uint32_t peer, TandemLink& link, const Vec3& start_W);
   std::uint32_t tick(double now);
   void startLoop(int priority);

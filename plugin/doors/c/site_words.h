@@ -66,6 +66,14 @@ inline constexpr SiteWord kSiteWords[] = {
     word<&TandemSiteSettings::passivity>("passivity", "passivity.enabled", true),
     word<&TandemSiteSettings::max_slew>("max_slew"),
     word<&TandemSiteSettings::fault_slew>("fault_slew"),
+    word<&TandemSiteSettings::grip_stiffness>("grip_stiffness", "grip.stiffness"),
+    word<&TandemSiteSettings::grip_damping_ratio>("grip_damping_ratio", "grip.damping_ratio"),
+    word<&TandemSiteSettings::grip_radius>("grip_radius", "grip.radius"),
+    word<&TandemSiteSettings::grip_max_force>("grip_max_force", "grip.max_force"),
+    word<&TandemSiteSettings::grip_lift_time>("grip_lift_time", "grip.lift_time"),
+    word<&TandemSiteSettings::grip_blend_time>("grip_blend_time", "grip.blend_time"),
+    word<&TandemSiteSettings::grip_break_time>("grip_break_time", "grip.break_time"),
+    word<&TandemSiteSettings::grip_fade_time>("grip_fade_time", "grip.fade_time"),
 };
 
 }  // namespace tandem::c_door

@@ -37,6 +37,19 @@ static_assert(TANDEM_LINK_REJOINING == static_cast<int>(LinkState::kRejoining));
   return reading;
 }
 
+[[nodiscard]] TandemGrip readGrip(const Site& site) noexcept {
+  TandemGrip read{};
+  read.object = TANDEM_NO_OBJECT;
+  const std::optional<Grip> grip = site.grip();
+  if (!grip) return read;
+  read.object = grip->object;
+  read.is_fading = grip->is_fading;
+  writeVec3(grip->p_BG, read.at);
+  writeVec3(grip->force_W, read.force);
+  writeVec3(grip->torque_W, read.torque);
+  return read;
+}
+
 /// State of a remote without proxy: NAN.
 [[nodiscard]] TandemState makeNoState() noexcept {
   TandemState state;
@@ -107,6 +120,25 @@ TandemResult tandem_site_share_again(TandemSite* site, uint32_t object, TandemBo
 
 TandemResult tandem_site_shift_origin(TandemSite* site, const double offset[3]) {
   return guarded([&] { open(site).shiftOrigin(readVec3("offset", offset)); });
+}
+
+TandemResult tandem_site_grab(TandemSite* site, uint32_t object, const double at[3]) {
+  return guarded([&] {
+    SiteEnd& of = open(site);
+    of.grab(object, at ? std::optional(readVec3("at", at)) : std::nullopt);
+  });
+}
+
+TandemResult tandem_site_release(TandemSite* site) {
+  return guarded([&] { open(site).release(); });
+}
+
+TandemResult tandem_site_read_grip(TandemSite* site, TandemGrip* grip) {
+  return guarded([&] {
+    Site& of = open(site).site();
+    auto& out = checkPointer(grip, "grip");
+    of.betweenTicks([&] { out = readGrip(of); });
+  });
 }
 
 TandemResult tandem_site_object_state(const TandemSite* site, uint32_t object,

@@ -29,6 +29,9 @@ const Commands::Entry Commands::kTable[] = {
     {"link", &Commands::link, false},
     {"share", &Commands::share, true},
     {"unshare", &Commands::unshare, false},
+    {"grab", &Commands::grab, false},
+    {"release", &Commands::release, false},
+    {"grip", &Commands::grip, false},
     {"obstacle", &Commands::obstacle, true},
     {"connect", &Commands::connect, false},
     {"proxy", &Commands::proxy, false},
@@ -129,6 +132,28 @@ void Commands::unshare(Words& words, Reply&) {
   const int object = words.integer("object");
   words.finish();
   session_.unshare(object);
+}
+
+void Commands::grab(Words& words, Reply&) {
+  const int object = words.integer("object");
+  double at[3]{};
+  const bool has_place = words.numbersIfThere("at", at, 3);
+  words.finish();
+  session_.grab(object, has_place ? at : nullptr);
+}
+
+void Commands::release(Words& words, Reply&) {
+  words.finish();
+  session_.release();
+}
+
+void Commands::grip(Words& words, Reply& reply) {
+  words.finish();
+  const TandemGrip grip = session_.grip();
+  if (grip.object == TANDEM_NO_OBJECT) return;
+  reply.put(static_cast<double>(grip.object));
+  reply.put(grip.is_fading != 0 ? 1.0 : 0.0);
+  for (const double* vector : {grip.at, grip.force, grip.torque}) reply.put(vector, 3);
 }
 
 void Commands::obstacle(Words& words, Reply&) {

@@ -50,6 +50,9 @@ class Commands {
   void link(Words&, Reply&);
   void share(Words&, Reply&);
   void unshare(Words& words, Reply& reply);
+  void grab(Words&, Reply&);
+  void release(Words&, Reply&);
+  void grip(Words&, Reply&);
   void obstacle(Words&, Reply&);
   void connect(Words&, Reply&);
   void proxy(Words&, Reply&);

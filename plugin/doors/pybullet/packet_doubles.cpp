@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kHead = 13;
 constexpr std::size_t kPerObject = 16;
+constexpr std::size_t kGrip = 10;
 
 /// Checks that `value` is a whole number in [0, most].
 double toWhole(double value, double most, const char* what) {
@@ -47,6 +48,13 @@ std::vector<double> toDoubles(const TandemPacket& packet) {
     doubles.push_back(static_cast<double>(packet.object_epochs[i]));
     doubles.push_back(static_cast<double>(packet.object_epoch_authors[i]));
   }
+  if (packet.has_grip == 0) return doubles;
+  const bool holds = packet.grip_object != TANDEM_NO_OBJECT;
+  doubles.push_back(static_cast<double>(packet.grip_epoch));
+  doubles.push_back(holds ? static_cast<double>(packet.grip_object) : -1.0);
+  append(packet.grip_position, 3);
+  append(packet.grip_orientation, 4);
+  doubles.push_back(packet.grip_age);
   return doubles;
 }
 
@@ -65,7 +73,9 @@ TandemPacket toPacket(const std::vector<double>& doubles) {
   packet.energy_holdings = *at++;
   packet.object_count = static_cast<std::size_t>(
       toWhole(*at++, TANDEM_MAX_OBJECTS_PER_PACKET, "the number of objects"));
-  if (doubles.size() != kHead + kPerObject * packet.object_count) {
+  const std::size_t without_grip = kHead + kPerObject * packet.object_count;
+  packet.has_grip = doubles.size() == without_grip + kGrip ? 1 : 0;
+  if (packet.has_grip == 0 && doubles.size() != without_grip) {
     throw Refusal(kBadCommand, "push: " + std::to_string(doubles.size()) +
                                    " doubles are not what its number of objects needs");
   }
@@ -81,6 +91,14 @@ TandemPacket toPacket(const std::vector<double>& doubles) {
         static_cast<std::uint32_t>(toWhole(at[15], kMostId, "an epoch's author"));
     at += kPerObject;
   }
+  if (packet.has_grip == 0) return packet;
+  packet.grip_epoch = static_cast<std::uint32_t>(toWhole(at[0], 65535.0, "a grip's epoch"));
+  packet.grip_object = at[1] == -1.0
+                           ? TANDEM_NO_OBJECT
+                           : static_cast<std::uint32_t>(toWhole(at[1], kMostId, "a grip's object"));
+  std::copy_n(at + 2, 3, packet.grip_position);
+  std::copy_n(at + 5, 4, packet.grip_orientation);
+  packet.grip_age = at[9];
   return packet;
 }
 

@@ -70,6 +70,10 @@ class Session {
   /// Gives a shared object back to PyBullet; the others stay shared. Does nothing if it has no
   /// body.
   void unshare(int object);
+  /// The hand holds a shared body; `at`: by this place, or null.
+  void grab(int object, const double* at);
+  void release();
+  [[nodiscard]] TandemGrip grip();
   /// Adds a static body that shared objects, proxies and the hand can touch.
   void addObstacle(int body, const Piece* shape);
   int connect(std::uint32_t peer, int link, const double start[3]);

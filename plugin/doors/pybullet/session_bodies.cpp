@@ -139,6 +139,23 @@ void Session::unshare(int object) {
   lost_.erase(std::remove(lost_.begin(), lost_.end(), object), lost_.end());
 }
 
+void Session::grab(int object, const double* at) {
+  requireSite();
+  check(tandem_site_grab(site_.get(), static_cast<std::uint32_t>(object), at));
+}
+
+void Session::release() {
+  requireSite();
+  check(tandem_site_release(site_.get()));
+}
+
+TandemGrip Session::grip() {
+  requireSite();
+  TandemGrip grip{};
+  check(tandem_site_read_grip(site_.get(), &grip));
+  return grip;
+}
+
 /// Place of an object's body in `moving_`, or past its end.
 std::size_t Session::findObject(int object) const {
   const auto is_it = [object](const Moving& one) { return one.object == object; };

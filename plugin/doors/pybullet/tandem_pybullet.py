@@ -26,8 +26,8 @@ from collections import namedtuple
 
 import pybullet
 
-__all__ = ["Device", "Link", "LINK_STATES", "Packet", "Peer", "PeerStatus", "PHASES", "Reading",
-           "SimulatedDevice", "Site", "State", "STATUS_BITS", "TandemError", "create_key",
+__all__ = ["Device", "Grip", "Hold", "Link", "LINK_STATES", "Packet", "Peer", "PeerStatus",
+           "PHASES", "Reading", "SimulatedDevice", "Site", "State", "STATUS_BITS", "TandemError", "create_key",
            "find_plugin"]
 
 _POSTFIX = "_tandem"
@@ -47,9 +47,18 @@ Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash 
 
 #: A state that manual links carry between sites; `objects`: (id, State, epoch) each, an epoch being its
 #: number and its author; both are 0 until a site puts the object elsewhere. The energies [J] are the sender's
-#: part of its ledger with the receiver; NaN: it keeps no account.
+#: part of its ledger with the receiver; NaN: it keeps no account. `grip`: a Hold, or None before the
+#: sender's user has held anything.
 Packet = namedtuple("Packet", "sender is_idle sequence time position velocity energy_granted "
-                              "energy_holdings objects")
+                              "energy_holdings objects grip", defaults=(None,))
+
+#: What a packet's sender holds. `epoch` counts grabs and releases; `object` is None while nothing is held;
+#: `position` and `orientation` of the hand in the object's frame; `age` of the last change [s].
+Hold = namedtuple("Hold", "epoch object position orientation age")
+
+#: What the hand holds. `at`: place on the object in its frame [m]; `force` on the object [N], the hand gets
+#: the opposite; `torque` on the object besides [N m].
+Grip = namedtuple("Grip", "object is_fading at force torque")
 
 #: A remote of a mesh. `address`: "host:port", or None if the peer calls us, which needs a lower number
 #: than ours. `key`: a file.
@@ -105,6 +114,9 @@ class Link:
             for part in state:
                 numbers.extend(part)
             numbers.extend(epoch)
+        if packet.grip is not None:
+            epoch, number, position, orientation, age = packet.grip
+            numbers += [epoch, -1 if number is None else number, *position, *orientation, age]
         self._site._send_doubles("push", numbers, link=self.number)
 
     def pop(self):
@@ -113,12 +125,16 @@ class Link:
         if not numbers:
             return None
         sender, is_idle, sequence, time = numbers[:4]
-        objects = []
-        for at in range(13, len(numbers), 16):
+        objects, grip, end = [], None, 13 + 16 * int(numbers[12])
+        if len(numbers) > end:
+            epoch, number = int(numbers[end]), int(numbers[end + 1])
+            grip = Hold(epoch, None if number < 0 else number, tuple(numbers[end + 2:end + 5]),
+                        tuple(numbers[end + 5:end + 9]), numbers[end + 9])
+        for at in range(13, end, 16):
             epoch = (int(numbers[at + 14]), int(numbers[at + 15]))
             objects.append((int(numbers[at]), _state_of(numbers[at + 1:at + 14]), epoch))
         return Packet(int(sender), bool(is_idle), int(sequence), time, tuple(numbers[4:7]),
-                      tuple(numbers[7:10]), numbers[10], numbers[11], objects)
+                      tuple(numbers[7:10]), numbers[10], numbers[11], objects, grip)
 
 
 class Site:
@@ -178,6 +194,22 @@ class Site:
         """Gives a shared object back to PyBullet, with its own mass and its velocity. The others stay
         shared; share(body, object=...) shares a body for it again. Between any two steps."""
         self._command("unshare", object=object)
+
+    def grab(self, object, at=None):
+        """Lets the hand hold a shared object by its place `at`, from the centre of mass in the object's
+        frame [m]; None: where the hand is. Its weight passes to the hand. Between any two steps."""
+        self._command("grab", object=object, **({} if at is None else {"at": at}))
+
+    def release(self):
+        """Lets go of what the hand holds; the force fades within 50 ms."""
+        self._command("release")
+
+    def grip(self):
+        """What the hand holds, as a Grip, or None."""
+        numbers = self._ask("grip")
+        if not numbers:
+            return None
+        return Grip(int(numbers[0]), bool(numbers[1]), *(tuple(numbers[i:i + 3]) for i in (2, 5, 8)))
 
     def obstacle(self, body, shape=None):
         """Makes a static body an obstacle: shared bodies, proxies and the hand touch it in Tandem, and

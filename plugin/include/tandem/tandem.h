@@ -303,6 +303,7 @@ TandemResult tandem_link_create_simulated(const TandemNetwork* network, TandemLi
 
 /* A state as sent to the other sites. It holds no forces. */
 #define TANDEM_MAX_OBJECTS_PER_PACKET 8
+#define TANDEM_NO_OBJECT UINT32_MAX
 typedef struct TandemPacket {
   uint32_t sender;
   int is_idle;        /* nothing moves there: packets come at 16 Hz */
@@ -318,6 +319,13 @@ typedef struct TandemPacket {
   /* Epoch of each object, and the site that began it: both are 0 until a site puts it elsewhere. */
   uint32_t object_epochs[TANDEM_MAX_OBJECTS_PER_PACKET];
   uint32_t object_epoch_authors[TANDEM_MAX_OBJECTS_PER_PACKET];
+  /* What the sender's user holds: tandem_site_grab(). */
+  int has_grip;               /* 0: nothing yet, and the rest means nothing */
+  uint32_t grip_epoch;        /* counts grabs and releases, modulo 65536 */
+  uint32_t grip_object;       /* TANDEM_NO_OBJECT: nothing now */
+  double grip_position[3];    /* on the object, from its centre of mass, in its frame [m] */
+  double grip_orientation[4]; /* x, y, z, w of the hand in the object's frame */
+  double grip_age;            /* from the last grab or release to `time` [s] */
 } TandemPacket;
 
 /* Creates a link whose packets the caller carries. It holds up to 256 packets each way; more are
@@ -439,6 +447,15 @@ typedef struct TandemSiteSettings {
   int passivity;      /* keeps an energy account */
   double max_slew;    /* limit of the device force's rise [N/s] */
   double fault_slew;  /* rate at which the force fades after a fault [N/s] */
+  /* The hand's grip: tandem_site_grab(). */
+  double grip_stiffness;     /* K [N/m] */
+  double grip_damping_ratio; /* of the spring with hand and object */
+  double grip_radius;        /* r [m]: the torque's spring has K r^2 */
+  double grip_max_force;     /* [N]; times r: of the torque [N m] */
+  double grip_lift_time;     /* within which the hand takes over a weight [s]; 0: objects sag */
+  double grip_blend_time;    /* within which an object comes to the hand [s] */
+  double grip_break_time;    /* at the force's limit, after which the grip breaks [s] */
+  double grip_fade_time;     /* of the force after a release [s] */
 } TandemSiteSettings;
 
 /* Gains, masses and rates of the paper's Experiment I. [any] */
@@ -486,6 +503,30 @@ typedef enum TandemObjectState {
    missing, with the remedy. [host] */
 TandemResult tandem_site_object_state(const TandemSite* site, uint32_t object,
                                       TandemObjectState* state);
+
+/* Lets the hand hold a shared object by its place `at`, from the centre of mass in the object's
+   frame [m]; null: where the hand is. A spring and damper keep the place at the hand, and the
+   object as it is turned now. Its weight passes to the hand. At the peers the user's proxy takes
+   the same hold of their copy. A grip that is pulled at its limit for grip_break_time breaks; it
+   ends as well when the object is unshared, left or put elsewhere. Fails for an object that is not
+   held by the island, while the hand holds another one, and with a guide. Between two steps, also
+   with a loop. [host] */
+TandemResult tandem_site_grab(TandemSite* site, uint32_t object, const double at[3]);
+
+/* Lets go: the force fades within grip_fade_time. Does nothing without a grip. [host] */
+TandemResult tandem_site_release(TandemSite* site);
+
+/* What the hand holds. */
+typedef struct TandemGrip {
+  uint32_t object;  /* TANDEM_NO_OBJECT: nothing, and the rest is 0 */
+  int is_fading;    /* the hand has let go */
+  double at[3];     /* place on the object, from the centre of mass, in its frame [m] */
+  double force[3];  /* on the object, in W; the hand gets the opposite, before its limits [N] */
+  double torque[3]; /* on the object, besides that of the force [N m] */
+} TandemGrip;
+
+/* Reads the grip as of the latest tick. [host]; with a loop it waits for the end of a tick. */
+TandemResult tandem_site_read_grip(TandemSite* site, TandemGrip* grip);
 
 /* Connects a remote user whose hand starts at `start`. `proxy` receives the body that stands for
    the user, which a host with another engine mirrors; TANDEM_NO_BODY if the scheme has none. It

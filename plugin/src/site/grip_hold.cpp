@@ -41,12 +41,21 @@ Quat turnBy(const Vec3& turn_W, const Quat& q_WB) noexcept {
 
 }  // namespace
 
-void GripHold::begin(const GripState& state, const SharedObject& object) noexcept {
+void GripHold::begin(const SharedObject& object, const std::optional<Vec3>& at_B) noexcept {
+  GripState state;
+  state.object = object.id;
+  state.p_BG = at_B.value_or(Vec3::Zero());
+  begin(state, object);
+  finds_turn_ = true;
+  finds_place_ = !at_B;
+}
+
+void GripHold::begin(const GripState& told, const SharedObject& object) noexcept {
   if (isOn() && hold_.body != object.body.index) drop();
   if (!isOn()) lift_ = 0.0;
   phase_ = Phase::kHolding;
-  state_ = state;
-  is_found_ = false;
+  state_ = told;
+  is_found_ = finds_turn_ = finds_place_ = false;
   at_limit_ = 0.0;
 }
 
@@ -98,6 +107,8 @@ void GripHold::find(const SharedObject& object) noexcept {
   const GripSettings& grip = settings_->grip;
   const RigidState& body = island_->state(object.body.index);
   is_found_ = true;
+  if (finds_turn_) state_.q_BG = body.q_WB.conjugate();
+  if (finds_place_) state_.p_BG = body.q_WB.conjugate() * (island_->state(hand_).p_W - body.p_W);
   hold_.body = object.body.index;
   hold_.p_FG = state_.p_BG;
   hold_.gains = computeGains(*settings_, object.settings, state_.p_BG);

@@ -31,14 +31,17 @@ class GripHold {
   [[nodiscard]] bool isOn() const noexcept { return phase_ != Phase::kNone; }
   /// True until it is let go.
   [[nodiscard]] bool isHolding() const noexcept { return phase_ == Phase::kHolding; }
-  /// As it was begun.
+  /// What is held, and how; `epoch` and `age` are those told.
   [[nodiscard]] const GripState& state() const noexcept { return state_; }
   [[nodiscard]] double share() const noexcept { return hold_.share; }
   [[nodiscard]] GripPull computePull() const noexcept { return island_->computeGripPull(index_); }
 
-  /// Takes hold of an object; from the next follow() on it pulls. `state.age` [s] shortens the
-  /// time in which the object comes to the hand.
-  void begin(const GripState& state, const SharedObject& object) noexcept;
+  /// Takes hold of an object as told; from the next follow() on it pulls. `told.age` [s] shortens
+  /// the time in which the object comes to the hand.
+  void begin(const GripState& told, const SharedObject& object) noexcept;
+  /// Takes hold of an object by its place `at_B`, or where the hand is then, and as it is turned
+  /// then.
+  void begin(const SharedObject& object, const std::optional<Vec3>& at_B) noexcept;
   /// Lets go: the pull fades.
   void letGo() noexcept;
   /// Lets go at once.
@@ -68,7 +71,9 @@ class GripHold {
   GripIndex index_;
   BodyIndex hand_;
   Phase phase_ = Phase::kNone;
-  bool is_found_ = false;  ///< where the object was at the beginning is known
+  bool is_found_ = false;     ///< where the object was at the beginning is known
+  bool finds_turn_ = false;   ///< it stays turned as it is found
+  bool finds_place_ = false;  ///< it is held where the hand is found
   GripState state_;
   IslandGrip hold_;
   Vec3 found_W_ = Vec3::Zero();                ///< offset at the beginning [m]

@@ -17,12 +17,7 @@ void Grips::addPeer(const Peer& peer) {
 }
 
 void Grips::grab(const SharedObject& object, const std::optional<Vec3>& at_B) noexcept {
-  const RigidState& body = island_.state(object.body.index);
-  GripState state;
-  state.object = object.id;
-  state.p_BG = at_B.value_or(body.q_WB.conjugate() * (island_.state(hand_.hip()).p_W - body.p_W));
-  state.q_BG = body.q_WB.conjugate();
-  local_->begin(state, object);
+  local_->begin(object, at_B);
   local_epoch_ = object.epoch;
   noteChange();
 }

@@ -1,0 +1,104 @@
+// A hand that holds a shared body, through the C door.
+
+#include <string>
+
+#include "c_door/c_door_rig.h"
+
+namespace tandem {
+namespace {
+
+using namespace test;
+
+constexpr double kStep = 1.0 / 60.0;
+constexpr double kWeight = 9.81;  // [N/kg]
+
+/// A hand that lifts a cube of 0.2 kg off nothing: it falls unless it is held.
+struct HeldCube : FreeDoorCube {
+  HeldCube() : FreeDoorCube(makeWorld()) {
+    const double gravity[3] = {0.0, 0.0, -kWeight};
+    ok(tandem_world_set_gravity(world, gravity));
+    hold(Vec3(0.0, 0.0, 0.03));
+  }
+  void hold(const Vec3& p_W) {
+    const double place[3] = {p_W.x(), p_W.y(), p_W.z()}, speed[3] = {0.0, 0.0, 0.0};
+    ok(tandem_device_move(device, place, speed));
+  }
+  void steps(int count, const Vec3& p_W) {
+    for (int i = 0; i < count; ++i) {
+      hold(p_W);
+      ok(tandem_world_step(world, kStep, 0, 0.0));
+    }
+  }
+  [[nodiscard]] TandemGrip grip() const {
+    TandemGrip grip{};
+    ok(tandem_site_read_grip(site, &grip));
+    return grip;
+  }
+};
+
+TEST(DoorGrip, HoldsAndLetsGo) {
+  HeldCube cube;
+  EXPECT_EQ(cube.grip().object, TANDEM_NO_OBJECT);
+  const Vec3 hand_W(0.0, 0.0, 0.03);
+  const double at[3] = {0.0, 0.0, 0.03};
+  ok(tandem_site_grab(cube.site, 0, at));
+  cube.steps(180, hand_W);
+  const TandemGrip held = cube.grip();
+  EXPECT_EQ(held.object, 0u);
+  EXPECT_EQ(held.is_fading, 0);
+  EXPECT_EQ(held.at[2], 0.03);
+  EXPECT_NEAR(held.force[2], 0.5 * 0.2 * kWeight, 1e-4);  // the copy's half
+  EXPECT_NEAR(cube.object().position[2], 0.0, 1e-4);
+  EXPECT_NEAR(cube.read().force[2], -held.force[2], 1e-6);
+  ok(tandem_site_release(cube.site));
+  EXPECT_EQ(cube.grip().is_fading, 1);
+  cube.steps(30, hand_W);
+  EXPECT_EQ(cube.grip().object, TANDEM_NO_OBJECT);
+  EXPECT_LT(cube.object().position[2], -0.5);
+  ok(tandem_site_release(cube.site));  // again: nothing happens
+}
+
+TEST(DoorGrip, IsRefusedWithTheReason) {
+  HeldCube cube;
+  const double bad[3] = {0.0, std::nan(""), 0.0};
+  EXPECT_EQ(tandem_site_grab(cube.site, 3, nullptr), TANDEM_INVALID_ARGUMENT);
+  EXPECT_NE(std::string(tandem_last_error()).find("no object 3"), std::string::npos);
+  EXPECT_EQ(tandem_site_grab(cube.site, 0, bad), TANDEM_INVALID_ARGUMENT);
+  EXPECT_EQ(tandem_site_read_grip(cube.site, nullptr), TANDEM_INVALID_ARGUMENT);
+  ok(tandem_site_unshare(cube.site, 0));
+  EXPECT_EQ(tandem_site_grab(cube.site, 0, nullptr), TANDEM_CANNOT);
+  EXPECT_EQ(tandem_site_grab(nullptr, 0, nullptr), TANDEM_INVALID_ARGUMENT);
+  EXPECT_EQ(tandem_site_release(nullptr), TANDEM_INVALID_ARGUMENT);
+}
+
+// What one site's packet tells of a grip, another site takes in.
+TEST(DoorGrip, GoesWithPackets) {
+  HeldCube cube;
+  ok(tandem_site_connect(cube.site, 2, cube.link, kFarAway, nullptr));
+  ok(tandem_site_grab(cube.site, 0, nullptr));
+  cube.steps(2, Vec3(0.0, 0.0, 0.03));
+  TandemPacket packet{};
+  int there = 0;
+  ok(tandem_link_pop(cube.link, &packet, &there));
+  ASSERT_TRUE(there);
+  EXPECT_EQ(packet.has_grip, 1);
+  EXPECT_EQ(packet.grip_epoch, 1u);
+  EXPECT_EQ(packet.grip_object, 0u);
+  EXPECT_NEAR(packet.grip_position[2], 0.03, 1e-4);
+  EXPECT_EQ(packet.grip_orientation[3], 1.0);
+
+  packet.sender = 2;
+  packet.grip_orientation[3] = 0.5;  // no unit: the packet is refused
+  ok(tandem_link_push(cube.link, &packet));
+  cube.steps(1, Vec3(0.0, 0.0, 0.03));
+  EXPECT_EQ(cube.read().status, std::uint32_t{TANDEM_STATUS_PACKET_REFUSED});
+  EXPECT_EQ(cube.read().packets_taken, 0u);
+  packet.grip_orientation[3] = 1.0;
+  packet.sequence = 1;
+  ok(tandem_link_push(cube.link, &packet));
+  cube.steps(1, Vec3(0.0, 0.0, 0.03));
+  EXPECT_EQ(cube.read().packets_taken, 1u);
+}
+
+}  // namespace
+}  // namespace tandem
