@@ -42,15 +42,14 @@ enum class TickSource {
 ///
 /// The limit belongs to the grip: the device's own limits clip only what is felt.
 struct GripSettings {
-  double stiffness = 2000.0;  ///< K [N/m]; higher holds closer, above about 3000 a device rattles
-  double damping_ratio =
-      1.0;                  ///< of B with hand and copy, of B_r with the copy; higher swings less
-  double radius = 0.03;     ///< r of the torque's spring [m]; larger turns less
-  double max_force = 40.0;  ///< [N]; times r: limit of the torque [N m]
-  double lift_time = 0.25;  ///< within which the hand takes over a weight [s]; 0: objects sag
-  double blend_time = 0.1;  ///< within which an object comes to the hand that grabs it [s]
-  double break_time = 0.1;  ///< at the force's limit, after which the grip breaks [s]
-  double fade_time = 0.05;  ///< of the force after a release or break [s]
+  double stiffness = 2000.0;   ///< K [N/m]; higher holds closer and needs a faster haptic rate
+  double damping_ratio = 1.0;  ///< of B with hand and copy, of B_r with the copy; higher: calmer
+  double radius = 0.03;        ///< r of the torque's spring [m]; larger turns less
+  double max_force = 40.0;     ///< [N]; times r: limit of the torque [N m]
+  double lift_time = 0.25;     ///< within which the hand takes over a weight [s]; 0: objects sag
+  double blend_time = 0.1;     ///< within which an object comes to the hand that grabs it [s]
+  double break_time = 0.1;     ///< at the force's limit, after which the grip breaks [s]
+  double fade_time = 0.05;     ///< of the force after a release or break [s]
 };
 
 /// Settings of a site. Site's constructor checks them.
