@@ -193,7 +193,7 @@ TEST(FirmContact, ACubeOnALinkDoesNotShake) {
 
 /// Measures of a swinging body.
 struct Swing {
-  double gap = 0.0;                  ///< largest one of the joint [m]
+  double gap = 0.0;                 ///< largest one of the joint [m]
   double least = 1e9, most = -1e9;  ///< energy, zero at the start [J]
 };
 

@@ -37,10 +37,10 @@ struct NeighbourSeed {
 /// contact.
 ///
 /// Bodies in joints come with all of their chain, or not at all (JointGraph); so do the chains of
-/// excluded bodies. Kinematic bodies of any shape but a plane are taken too; the chain ends at them.
-/// Left out are static bodies, and dynamic bodies of shapes neither convex nor compound. So are
-/// bodies without contact response or with simulation disabled. For the thread that steps the host's
-/// world.
+/// excluded bodies. Kinematic bodies of any shape but a plane are taken too; the chain ends at
+/// them. Left out are static bodies, and dynamic bodies of shapes neither convex nor compound. So
+/// are bodies without contact response or with simulation disabled. For the thread that steps the
+/// host's world.
 class NeighbourSearch {
  public:
   /// `host` must outlive this object.
