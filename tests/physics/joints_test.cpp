@@ -261,6 +261,24 @@ TEST(HostJoints, WakeWhenTheHostChangesThem) {
   }
 }
 
+TEST(HostJoints, ThatStayBulletsAreTold) {
+  JointHost host;
+  btRigidBody& link = host.addLink(Vec3(0.5 * kLength, 0.0, 0.0));
+  btRigidBody& next = host.addLink(Vec3(1.5 * kLength, 0.0, 0.0));
+  host.join<btPoint2PointConstraint>(link, next, toBullet(kRight), toBullet(kLeft));
+  SiteSettings settings;
+  settings.max_neighbours = 1;
+  host.share(link, settings);
+  host.rig.step(1.0 / 60.0);
+  EXPECT_TRUE(host.site->warnings().empty());
+  host.addLink(Vec3(2.5 * kLength, 0.0, 0.0));
+  host.join<btPoint2PointConstraint>(next, *host.links[2], toBullet(kRight), toBullet(kLeft));
+  host.rig.step(1.0 / 60.0);
+  host.rig.step(1.0 / 60.0);
+  ASSERT_EQ(host.site->warnings().size(), 1U);
+  EXPECT_NE(host.site->warnings()[0].find("raise max_neighbours"), std::string::npos);
+}
+
 // Copies of a pendulum at two sites, 50 ms apart, swing as one alone does.
 TEST_P(JointsAtRates, TwoSitesShareAPendulum) {
   constexpr double kDelay = 0.05;

@@ -1,7 +1,6 @@
 #include "joints/joint_graph.h"
 
 #include <functional>
-#include <utility>
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
@@ -74,22 +73,22 @@ void JointGraph::nameChains() {
 }
 
 void JointGraph::listMembers() {
-  std::vector<std::pair<std::size_t, btRigidBody*>> all;
+  listed_.clear();
   for (const Node& node : nodes_)
-    if (!node.is_end) all.emplace_back(node.chain, node.body);
+    if (!node.is_end) listed_.emplace_back(node.chain, node.body);
   // A kinematic end may be that of several chains.
   forEachJoint(host_, [&](btTypedConstraint& joint) {
     const Node &a = *find(joint.getRigidBodyA()), &b = *find(joint.getRigidBodyB());
     if (a.is_end == b.is_end) return;
     const Node& end = a.is_end ? a : b;
-    if (end.body->isKinematicObject()) all.emplace_back((a.is_end ? b : a).chain, end.body);
+    if (end.body->isKinematicObject()) listed_.emplace_back((a.is_end ? b : a).chain, end.body);
   });
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+  std::sort(listed_.begin(), listed_.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : comesBefore(a.second, b.second);
   });
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
   members_.clear();
-  for (const auto& [chain, body] : all) {
+  for (const auto& [chain, body] : listed_) {
     if (chains_[chain].count++ == 0) chains_[chain].first = members_.size();
     members_.push_back(body);
   }

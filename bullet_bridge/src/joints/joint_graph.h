@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 class btDiscreteDynamicsWorld;
@@ -62,8 +63,9 @@ class JointGraph {
   btDiscreteDynamicsWorld& host_;
   std::vector<Node> nodes_;  ///< sorted by address
   std::vector<Chain> chains_;
-  std::vector<btRigidBody*> members_;  ///< chain by chain
-  std::vector<std::size_t> parent_;    ///< by node, for list()
+  std::vector<btRigidBody*> members_;                         ///< chain by chain
+  std::vector<std::pair<std::size_t, btRigidBody*>> listed_;  ///< working memory of listMembers()
+  std::vector<std::size_t> parent_;                           ///< by node, for list()
 };
 
 }  // namespace tandem

@@ -122,6 +122,14 @@ bool NeighbourSearch::isAnythingComing(const NeighbourSeed& seed, double horizon
   return comes;
 }
 
+bool NeighbourSearch::leavesJointsOf(const btRigidBody& body) const {
+  bool leaves = joints_.isJointed(body) && !joints_.mayHoldChainOf(body);
+  joints_.visitChainOf(body, [&](const btRigidBody& mate) {
+    leaves |= !contains(found_, &mate) && !isExcluded(mate);
+  });
+  return leaves;
+}
+
 bool NeighbourSearch::isStranger(const btCollisionObject& object) const {
   if (object.isStaticObject() || !object.hasContactResponse()) return false;
   const btRigidBody* body = btRigidBody::upcast(&object);

@@ -62,6 +62,10 @@ class NeighbourSearch {
   /// would report it. Joints are those of the last find().
   [[nodiscard]] bool isAnythingComing(const NeighbourSeed& seed, double horizon) const;
 
+  /// True if joints of an excluded body are left to Bullet: at the last find() the island could not
+  /// hold all of its chain.
+  [[nodiscard]] bool leavesJointsOf(const btRigidBody& body) const;
+
   /// True if a stranger may touch `body` within `horizon` [s]: a moving object, with contact
   /// response, that is neither excluded nor found.
   [[nodiscard]] bool isStrangerNear(const btRigidBody& body, double horizon) const;

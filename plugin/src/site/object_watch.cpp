@@ -105,8 +105,17 @@ void ObjectWatch::giveBack() {
 
 void ObjectWatch::explain(std::vector<std::string>& lines) const {
   for (const SharedObject& object : bodies_.objects) {
-    if (!object.rigid || (object.is_there && (object.body.is_held || object.is_new))) continue;
+    if (!object.rigid) continue;
     const std::string name = "object " + std::to_string(object.id);
+    if (object.is_there && (object.body.is_held || object.is_new)) {
+      if (surroundings_.leavesJointsOf(*object.rigid))
+        lines.push_back(
+            name +
+            " hangs on joints that stay Bullet's, at the host's rate: share no body of a "
+            "chain with a joint of your own type or a body that cannot be held, or raise "
+            "max_neighbours");
+      continue;
+    }
     if (!object.is_there) {
       lines.push_back(name +
                       " is not in the Bullet world: put its body back, or share another for it");

@@ -102,6 +102,10 @@ class Surroundings {
   [[nodiscard]] bool isAnythingDriven() const;
   /// True if a body that the last look() did not find comes to the hand. Meanwhile the hand rests.
   [[nodiscard]] bool isAnythingComing() const;
+  /// True if joints of a shared body act at the host's rate only, as the island cannot hold them.
+  [[nodiscard]] bool leavesJointsOf(const btRigidBody& rigid) const {
+    return search_.leavesJointsOf(rigid);
+  }
   /// True if a moving object that the island does not hold may touch the body within `horizon` [s].
   [[nodiscard]] bool isStrangerNear(const SiteBody& body, double horizon) const {
     return search_.isStrangerNear(body.bullet->body(), horizon);
