@@ -186,7 +186,7 @@ void HostJoints::listActing() noexcept {
 }
 
 double HostJoints::rounding() const noexcept {
-  return static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  return std::numeric_limits<double>::epsilon();  // JointCopy measures in double
 }
 
 void HostJoints::evaluate(std::size_t joint, const RigidState& a, const RigidState& b,

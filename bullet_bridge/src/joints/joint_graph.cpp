@@ -1,5 +1,6 @@
 #include "joints/joint_graph.h"
 
+#include <cmath>
 #include <functional>
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
@@ -7,9 +8,13 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "joints/joint_copy.h"
+#include "world/world_access.h"
 
 namespace tandem {
 namespace {
+
+/// A joint is open beyond this way, with a part of the smaller body's radius, or angle [m], [rad].
+constexpr double kOpenWay = 1e-3, kOpenPart = 0.1, kOpenAngle = 0.1;
 
 /// Calls `visit` for all joints that act.
 template <typename Visit>
@@ -65,10 +70,32 @@ void JointGraph::nameChains() {
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (!nodes_[i].is_end) nodes_[i].chain = nodes_[root(i)].chain;
-  forEachJoint(host_, [&](const btTypedConstraint& joint) {
-    if (JointCopy::isKnown(joint)) return;
+  forEachJoint(host_, [&](btTypedConstraint& joint) {
+    if (mayBeHeld(joint)) return;
     for (const btRigidBody* body : {&joint.getRigidBodyA(), &joint.getRigidBodyB()})
       if (const Node& node = *find(*body); !node.is_end) chains_[node.chain].may_be_held = false;
+  });
+}
+
+/// True if its type is known, and it is about closed.
+bool JointGraph::mayBeHeld(btTypedConstraint& joint) {
+  if (!JointCopy::isKnown(joint)) return false;
+  const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
+  double size = HUGE_VAL;
+  for (const btRigidBody* body : {&a, &b}) {
+    if (body->getInvMass() == 0) continue;
+    btVector3 middle;
+    btScalar radius = 0;
+    body->getCollisionShape()->getBoundingSphere(middle, radius);
+    size = std::min(size, static_cast<double>(radius));
+  }
+  rows_.clear();
+  JointCopy(joint, HostSolver()).evaluate(readState(a), readState(b), rows_);
+  return std::all_of(rows_.begin(), rows_.end(), [&](const JointRow& row) {
+    const bool is_rigid =
+        row.law == JointLaw::kLocked && row.stiffness == 0.0 && row.damping == 0.0;
+    const double most = row.n_W == Vec3::Zero() ? kOpenAngle : kOpenWay + kOpenPart * size;
+    return !is_rigid || std::abs(row.way) < most;
   });
 }
 

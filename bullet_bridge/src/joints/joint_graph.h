@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "coordination/src/island/joint_source.h"
+
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 class btTypedConstraint;
@@ -13,7 +15,8 @@ namespace tandem {
 
 /// Chains of moving bodies that joints of the host's world connect.
 ///
-/// The island holds all of a chain or nothing: a joint is solved where both of its bodies are.
+/// The island holds all of a chain or nothing: a joint is solved where both of its bodies are. A
+/// joint that is far from closed stays Bullet's, until Bullet has closed it.
 /// Chains end at static and kinematic bodies. For the thread that steps the host's world.
 class JointGraph {
  public:
@@ -58,6 +61,7 @@ class JointGraph {
   void list();
   void nameChains();
   void listMembers();
+  [[nodiscard]] bool mayBeHeld(btTypedConstraint& joint);
   [[nodiscard]] const Node* find(const btRigidBody& body) const;
 
   btDiscreteDynamicsWorld& host_;
@@ -66,6 +70,7 @@ class JointGraph {
   std::vector<btRigidBody*> members_;                         ///< chain by chain
   std::vector<std::pair<std::size_t, btRigidBody*>> listed_;  ///< working memory of listMembers()
   std::vector<std::size_t> parent_;                           ///< by node, for list()
+  std::vector<JointRow> rows_;                                ///< working memory of mayBeHeld()
 };
 
 }  // namespace tandem

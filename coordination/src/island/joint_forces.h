@@ -84,6 +84,7 @@ class JointForces {
               double moment) noexcept;
   void lookAtAccelerations() noexcept;
   [[nodiscard]] bool factorise() noexcept;
+  [[nodiscard]] bool isBelievable() const noexcept;
   void iterate() noexcept;
   [[nodiscard]] int blockOf(BodyIndex body) const noexcept {
     return body == kStanding ? -1 : block_of_[static_cast<std::size_t>(body)];

@@ -6,7 +6,7 @@
 namespace tandem {
 
 bool isSoft(const JointRow& row, double mobility) noexcept {
-  constexpr double kFastest = 2e4;  // [1/s]
+  constexpr double kFastest = 8e3;  // [1/s]
   if (row.law == JointLaw::kMotor || (row.stiffness == 0.0 && row.damping == 0.0)) return false;
   return row.stiffness * mobility < kFastest * kFastest && row.damping * mobility < kFastest;
 }

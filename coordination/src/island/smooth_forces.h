@@ -97,6 +97,7 @@ class SmoothForces {
   [[nodiscard]] bool hasTurnedOver() const noexcept;
 
   [[nodiscard]] int size() const noexcept { return size_; }
+  [[nodiscard]] bool hasJoints() const noexcept { return !joints_.isEmpty(); }
   [[nodiscard]] const std::vector<Mover>& movers() const noexcept { return movers_; }
   [[nodiscard]] const std::vector<Contact>& contacts() const noexcept { return contacts_; }
 

@@ -25,6 +25,10 @@ constexpr double kAnswerOfHands = 5e-4;
 /// Share of the allowed error for a step that passes an edge.
 constexpr double kAtEdges = 1.0 / 64.0;
 
+/// Shortest step of joints in haptic periods. A taut chain is nearly singular: its forces carry
+/// noise that no shorter step takes out.
+constexpr double kShortestOfJoints = 0.25;
+
 /// Shortest step as a share of what the gains require. An error that does not shrink with the step
 /// comes from a kink of the geometry.
 constexpr double kShortest = 1.0 / 1024.0;
@@ -145,9 +149,11 @@ double SmoothMotion::takeStep(double from, double rest, IslandCounters& counters
       return h;
     }
     // The margin allows for rounding: the rest is divided evenly.
-    if (h <= min_step_ * (1.0 + 1e-6)) return h;
+    const double shortest =
+        forces_.hasJoints() ? std::max(min_step_, kShortestOfJoints * period_) : min_step_;
+    if (h <= shortest * (1.0 + 1e-6)) return h;
     ++counters.rejected_steps;
-    step_ = std::max(min_step_, (error < 32.0 * allowed_error_ ? 0.5 : 0.25) * h);
+    step_ = std::max(shortest, (error < 32.0 * allowed_error_ ? 0.5 : 0.25) * h);
   }
 }
 
