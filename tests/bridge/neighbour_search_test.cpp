@@ -164,9 +164,15 @@ TEST_F(NeighbourSearchTest, LeavesOutWhatDoesNotMoveByForces) {
 TEST_F(NeighbourSearchTest, TakesAChainWholeOrNotAtAll) {
   btRigidBody& near = addAtGap(2e-3);
   btRigidBody& far = rig.addCube(0.2, kHalf, Vec3(5.0, 0.0, 0.0));
-  btPoint2PointConstraint joint(near, far, btVector3(1, 0, 0), btVector3(-1, 0, 0));
+  const btVector3 half =
+      (far.getWorldTransform().getOrigin() - near.getWorldTransform().getOrigin()) / 2;
+  btPoint2PointConstraint joint(near, far, half, -half);
   rig.world.addConstraint(&joint);
   EXPECT_EQ(findOnce(), (Bodies{&near, &far}));
+  // Bullet closes what is wide open.
+  joint.setPivotA(half + btVector3(0, 1, 0));
+  EXPECT_TRUE(findOnce().empty());
+  joint.setPivotA(half);
   // There is no room for both.
   NeighbourSearch small(rig.world, 1);
   EXPECT_TRUE(find(small).empty());
