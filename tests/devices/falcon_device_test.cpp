@@ -261,6 +261,9 @@ TEST_F(FalconOverTty, TellsItsButtonsToAnyThread) {
   visit([](FalconEmulator& emulator) { emulator.press(kCentreButton | kPlusButton); });
   EXPECT_TRUE(tickUntil(
       [this](const FalconStatus&) { return device_->buttons() == (kCentreButton | kPlusButton); }));
+  EXPECT_TRUE(tickUntil([this](const FalconStatus&) {
+    return sample_.valid && sample_.buttons == (kCentreButton | kPlusButton);
+  }));
   // A silent device reports no pressed button, so that a clutch cannot stay out for ever.
   visit([](FalconEmulator& emulator) { emulator.mishaps.silent_replies = FalconMishaps::kAlways; });
   EXPECT_TRUE(tickUntil([this](const FalconStatus&) { return device_->buttons() == 0; }));

@@ -222,5 +222,41 @@ TEST(GuardedDevice, RefusesWhatGuardsNothing) {
   EXPECT_THROW(GuardedDevice(nullptr), std::invalid_argument);
 }
 
+TEST(GuardedDevice, TakesTheTorqueWithTheForce) {
+  DeviceCapabilities device;
+  device.max_torque = 0.1;
+  GuardRig rig({}, device);
+  EXPECT_EQ(rig.script.torque, Vec3::Zero());
+  const Vec3 torque(0.03, 0.0, 0.04);
+  rig.tickFor(0.25, kPush);
+  rig.guard->writeTorque(torque);
+  EXPECT_LT((rig.script.torque - rig.guard->status().share * torque).norm(), 1e-12);
+  EXPECT_GT(rig.script.torque.norm(), 0.01);
+  rig.warmUp(kPush);
+  rig.guard->writeTorque(torque);
+  EXPECT_LT((rig.script.torque - torque).norm(), 1e-12);
+  rig.guard->writeTorque(10.0 * torque);
+  EXPECT_LT((rig.script.torque - 2.0 * torque).norm(), 1e-12);
+
+  rig.guard->holdDeadMan(false);
+  rig.tick(kPush);
+  EXPECT_EQ(rig.script.torque, Vec3::Zero());
+  rig.guard->writeTorque(torque);
+  EXPECT_EQ(rig.script.torque, Vec3::Zero());
+  rig.guard->holdDeadMan(true);
+  rig.warmUp(kPush);
+  rig.guard->writeTorque(Vec3(std::nan(""), 0, 0));
+  EXPECT_EQ(rig.script.torque, Vec3::Zero());
+  EXPECT_EQ(rig.cuts(GuardCut::kNotFinite), 1u);
+}
+
+// A wrist that is not finite is no reading.
+TEST(GuardedDevice, RefusesAWristThatIsNotFinite) {
+  GuardRig rig;
+  rig.warmUp(kPush);
+  rig.script.sample.wrist = WristState{Quat::Identity(), Vec3(kInf, 0, 0)};
+  EXPECT_FALSE(rig.guard->read(rig.now + kPeriod).valid);
+}
+
 }  // namespace
 }  // namespace tandem

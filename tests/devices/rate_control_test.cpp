@@ -117,5 +117,25 @@ TEST(RateControl, RefusesSettingsOutOfRange) {
   expectRefused([](S& s) { s.q_WD = Quat(2, 0, 0, 0); });
 }
 
+TEST(RateControl, TurnsAWristHoweverItIsAsked) {
+  for (const int steps : {1, 7, 250}) {
+    RateControlSettings settings = makePlain();
+    settings.turn_speed = 2.0;
+    RateControl control(settings);
+    control.setDisplacement(Vec3::Zero(), Vec3(0, 0.5, 0));
+    for (int i = 0; i < steps; ++i) control.advance(0.05 / steps);
+    const double decay = std::exp(-0.05 / 0.02), angle = 0.05 - 0.02 * (1 - decay);
+    ASSERT_TRUE(control.wrist());
+    EXPECT_NEAR(control.wrist()->w_W.y(), 1 - decay, 1e-14) << steps;
+    EXPECT_LT(control.wrist()->q_WH.angularDistance(Quat(Eigen::AngleAxisd(angle, Vec3::UnitY()))),
+              1e-7);
+    control.stop();
+    EXPECT_EQ(control.wrist()->w_W, Vec3::Zero());
+  }
+  RateControlSettings settings = makePlain();
+  settings.turn_speed = 0.0;
+  EXPECT_FALSE(RateControl(settings).wrist());
+}
+
 }  // namespace
 }  // namespace tandem

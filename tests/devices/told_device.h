@@ -7,11 +7,12 @@
 
 namespace tandem::test {
 
-/// Samples that a ToldDevice returns, and the force it received. Must outlive the device.
+/// Samples that a ToldDevice returns, and the force and torque it received. Must outlive the
+/// device.
 struct DeviceScript {
   DeviceCapabilities capabilities;
   DeviceSample sample{{}, true};  ///< returned by the next reads
-  Vec3 force = Vec3::Constant(99.0);
+  Vec3 force = Vec3::Constant(99.0), torque = Vec3::Constant(99.0);
   int writes = 0;
 };
 
@@ -28,6 +29,7 @@ class ToldDevice final : public HapticDevice {
     script_.force = f_W;
     ++script_.writes;
   }
+  void writeTorque(const Vec3& t_W) noexcept override { script_.torque = t_W; }
 
  private:
   DeviceScript& script_;

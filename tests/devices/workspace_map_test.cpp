@@ -230,5 +230,33 @@ TEST(MappedDevice, NeverJumpsAndItsVelocityIsItsPositions) {
   }
 }
 
+TEST(MappedDevice, TurnsTheWristAndItsTorqueAlong) {
+  WorkspaceSettings settings;
+  settings.q_WD = Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));
+  settings.scale = 4.0;
+  settings.force_scale = 2.0;
+  test::DeviceScript script;
+  script.capabilities.max_torque = 0.1;
+  script.sample.wrist = WristState{Quat(Eigen::AngleAxisd(0.3, Vec3::UnitX())), Vec3(2, 0, 0)};
+  script.sample.buttons = 5;
+  MappedDevice device(std::make_unique<test::ToldDevice>(script), settings);
+  const DeviceSample sample = device.read(0.0);
+  ASSERT_TRUE(sample.wrist);
+  EXPECT_LT((sample.wrist->w_W - Vec3(0, 2, 0)).norm(), 1e-12);
+  EXPECT_LT(sample.wrist->q_WH.angularDistance(settings.q_WD * script.sample.wrist->q_WH), 1e-12);
+  EXPECT_EQ(sample.buttons, 5u);
+  EXPECT_DOUBLE_EQ(device.capabilities().max_torque, 0.2);
+
+  // The hand's work is the world's times g / s, by torques as by forces.
+  const Vec3 torque_W(0.01, 0.02, 0.03);
+  device.writeTorque(torque_W);
+  EXPECT_NEAR(script.torque.dot(script.sample.wrist->w_W), 0.5 * torque_W.dot(sample.wrist->w_W),
+              1e-12);
+  device.setEngaged(false);
+  (void)device.read(1.0);
+  device.writeTorque(torque_W);
+  EXPECT_EQ(script.torque, Vec3::Zero());
+}
+
 }  // namespace
 }  // namespace tandem

@@ -36,6 +36,8 @@ TEST_P(SpaceMouseOverHidapi, MovesThePointSurvivesUnpluggingAndRefusesRubbish) {
   EXPECT_NEAR(sample.hip.v_W.z(), 0.15, 1e-3);
   EXPECT_EQ(sample.hip.v_W.x(), 0.0);
   EXPECT_EQ(device.status().state.axes[5], 0.5);
+  ASSERT_TRUE(sample.wrist);
+  EXPECT_NEAR(sample.wrist->w_W.y(), -1.5 * (0.5 - 0.05) / 0.95, 5e-3);
   ASSERT_TRUE(node.send({0x42, 1, 2, 3}));
   ASSERT_TRUE(node.send({1, 2, 3}));
   sent += 2;

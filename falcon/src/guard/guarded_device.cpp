@@ -38,15 +38,15 @@ GuardedDevice::GuardedDevice(std::unique_ptr<HapticDevice> device, const GuardSe
   capabilities_.max_force = std::min(settings.max_force, capabilities_.max_force);
   capabilities_.max_slew = std::min(settings.max_slew, capabilities_.max_slew);
   fade_slew_ = std::max(capabilities_.max_slew, capabilities_.max_force / kLongestFade);
-  device_->write(Vec3::Zero());
+  letGo();
 }
 
-GuardedDevice::~GuardedDevice() { device_->write(Vec3::Zero()); }
+GuardedDevice::~GuardedDevice() { letGo(); }
 
 DeviceSample GuardedDevice::read(double now) noexcept {
   takeTime(now);
   DeviceSample sample = device_->read(now);
-  sample.valid = sample.valid && isFinite(sample.hip);
+  sample.valid = sample.valid && isFinite(sample.hip) && (!sample.wrist || isFinite(*sample.wrist));
   if (sample.valid) v_W_ = sample.hip.v_W;
 
   if (is_time_wrong_)
@@ -86,6 +86,21 @@ void GuardedDevice::write(const Vec3& f) noexcept {
   send(force);
 }
 
+void GuardedDevice::writeTorque(const Vec3& t) noexcept {
+  if (!(capabilities_.max_torque > 0.0)) return;
+  if (!t.allFinite() && !status_.is_cut) {
+    cut(GuardCut::kNotFinite);
+    fade();
+  }
+  device_->writeTorque(status_.is_cut ? Vec3(Vec3::Zero())
+                                      : status_.share * shorten(t, capabilities_.max_torque));
+}
+
+void GuardedDevice::letGo() noexcept {
+  device_->write(Vec3::Zero());
+  if (capabilities_.max_torque > 0.0) device_->writeTorque(Vec3::Zero());
+}
+
 /// Updates the time available for a change of force, and detects invalid times.
 void GuardedDevice::takeTime(double now) noexcept {
   standing_ = now > now_ ? 0 : standing_ + 1;
@@ -103,6 +118,7 @@ void GuardedDevice::cut(GuardCut reason) noexcept {
   if (!status_.is_cut) fade_energy_ = 0.0;
   status_.is_cut = true;
   status_.share = 0.0;
+  if (capabilities_.max_torque > 0.0) device_->writeTorque(Vec3::Zero());
   reason_ = reason;
 }
 

@@ -44,8 +44,17 @@ Vec3 WorkspaceMap::toDevice(const Vec3& f_W) const noexcept {
   return settings_.force_scale * (r_WD_.transpose() * f_W);
 }
 
+WristState WorkspaceMap::toWorld(const WristState& wrist_D) const noexcept {
+  return {(settings_.q_WD * wrist_D.q_WH).normalized(), r_WD_ * wrist_D.w_W};
+}
+
+Vec3 WorkspaceMap::torqueToDevice(const Vec3& t_W) const noexcept {
+  return settings_.force_scale / settings_.scale * (r_WD_.transpose() * t_W);
+}
+
 DeviceCapabilities WorkspaceMap::toWorld(DeviceCapabilities capabilities) const {
   capabilities.max_force /= settings_.force_scale;
+  capabilities.max_torque *= settings_.scale / settings_.force_scale;
   capabilities.max_slew /= settings_.force_scale;
   capabilities.max_stiffness /= settings_.scale * settings_.force_scale;
   // Infinity times a zero of the rotation is NaN, so one infinite extent makes all infinite.

@@ -12,6 +12,8 @@ RateControlSettings checked(RateControlSettings settings) {
   using falcon_detail::require;
   require(std::isfinite(settings.speed) && settings.speed > 0.0, "speed of the rate control",
           settings.speed, "finite and above 0 [m/s]");
+  require(std::isfinite(settings.turn_speed) && settings.turn_speed >= 0.0,
+          "turn_speed of the rate control", settings.turn_speed, "finite and at least 0 [rad/s]");
   require(settings.dead_zone >= 0.0 && settings.dead_zone < 1.0, "dead_zone of the rate control",
           settings.dead_zone, "at least 0 and below 1");
   require(std::isfinite(settings.smoothing) && settings.smoothing > 0.0,
@@ -38,17 +40,22 @@ RateControl::RateControl(const RateControlSettings& settings) : settings_(checke
   point_.p_W = settings_.start_W;
 }
 
-void RateControl::setDisplacement(const Vec3& displacement_D) noexcept {
-  const bool is_finite = displacement_D.allFinite();
-  Vec3 parts = Vec3::Zero();
-  for (int i = 0; is_finite && i < 3; ++i)
+void RateControl::setDisplacement(const Vec3& displacement_D, const Vec3& rotation_D) noexcept {
+  const bool is_finite = displacement_D.allFinite() && rotation_D.allFinite();
+  Vec3 parts = Vec3::Zero(), turns = Vec3::Zero();
+  for (int i = 0; is_finite && i < 3; ++i) {
     parts[i] = cutDeadZone(displacement_D[i], settings_.dead_zone);
+    turns[i] = cutDeadZone(rotation_D[i], settings_.dead_zone);
+  }
   wanted_W_ = settings_.speed * (settings_.q_WD * parts);
+  wanted_turn_W_ = settings_.turn_speed * (settings_.q_WD * turns);
 }
 
 void RateControl::stop() noexcept {
   wanted_W_.setZero();
+  wanted_turn_W_.setZero();
   point_.v_W.setZero();
+  wrist_.w_W.setZero();
 }
 
 void RateControl::advance(double interval) noexcept {
@@ -58,6 +65,11 @@ void RateControl::advance(double interval) noexcept {
   const Vec3 behind_W = wanted_W_ - point_.v_W;
   point_.p_W += interval * wanted_W_ - tau * done * behind_W;
   point_.v_W += done * behind_W;
+  const Vec3 behind_turn_W = wanted_turn_W_ - wrist_.w_W;
+  const Vec3 turn_W = interval * wanted_turn_W_ - tau * done * behind_turn_W;
+  wrist_.w_W += done * behind_turn_W;
+  if (const double angle = turn_W.norm(); angle > 0.0)
+    wrist_.q_WH = (Quat(Eigen::AngleAxisd(angle, turn_W / angle)) * wrist_.q_WH).normalized();
   const Vec3 low_W = settings_.start_W - settings_.workspace;
   const Vec3 high_W = settings_.start_W + settings_.workspace;
   for (int i = 0; i < 3; ++i) {

@@ -95,7 +95,7 @@ DeviceSample RawHidDevice::read(double now) noexcept {
   if (was_usable && !is_usable_ && !was_closed) client_->close();
   if (!is_usable_) return {};
   const Quat& q_WD = settings_.q_WD;
-  return {{q_WD * (pose->p_D - settings_.origin_D), q_WD * v_D_}, true};
+  return {{q_WD * (pose->p_D - settings_.origin_D), q_WD * v_D_}, true, {}, heard.state.buttons};
 }
 
 void RawHidDevice::takeState(const RawHidState& state) noexcept {

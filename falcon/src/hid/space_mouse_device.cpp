@@ -24,7 +24,7 @@ double checkedSilence(double silence) {
 
 /// Converts the device's axes (y towards the user, z down) to the user's (y up, z towards the
 /// user).
-Vec3 toUser(const std::array<double, 6>& axes) noexcept { return {axes[0], -axes[2], axes[1]}; }
+Vec3 toUser(const double* axes) noexcept { return {axes[0], -axes[2], axes[1]}; }
 
 }  // namespace
 
@@ -87,12 +87,14 @@ DeviceSample SpaceMouseDevice::read(double now) noexcept {
   was_read_ = true;
   if (!sum.is_connected) {
     motion_->stop();
-    return {motion_->point(), false};
+    return {motion_->point(), false, motion_->wrist()};
   }
   const bool is_silent = now - heard_at_ > silence_;
-  motion_->setDisplacement(is_silent ? Vec3(Vec3::Zero()) : toUser(sum.state.axes));
+  const double* axes = sum.state.axes.data();
+  motion_->setDisplacement(is_silent ? Vec3(Vec3::Zero()) : toUser(axes),
+                           is_silent ? Vec3(Vec3::Zero()) : toUser(axes + 3));
   motion_->advance(std::min(interval, kLongestStep));
-  return {motion_->point(), true};
+  return {motion_->point(), true, motion_->wrist(), sum.state.buttons};
 }
 
 SpaceMouseStatus SpaceMouseDevice::status() {

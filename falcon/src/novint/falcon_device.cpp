@@ -106,6 +106,7 @@ DeviceSample FalconDevice::Impl::read(double now) noexcept {
   sample.valid = reading.is_valid && is_fresh;
   sample.hip.p_W = Vec3(reading.p[0], reading.p[1], reading.p[2]);
   if (sample.valid) sample.hip.v_W = Vec3(reading.v[0], reading.v[1], reading.v[2]);
+  if (sample.valid) sample.buttons = buttons();
   return sample;
 }
 

@@ -41,12 +41,22 @@ struct RigidState {
   [[nodiscard]] PointState point() const { return {p_W, v_W}; }
 };
 
+/// Orientation of a hand H in W, and its angular velocity [rad/s].
+struct WristState {
+  Quat q_WH = Quat::Identity();
+  Vec3 w_W = Vec3::Zero();
+};
+
 [[nodiscard]] inline bool isFinite(const PointState& s) noexcept {
   return s.p_W.allFinite() && s.v_W.allFinite();
 }
 
 [[nodiscard]] inline bool isFinite(const RigidState& s) noexcept {
   return s.p_W.allFinite() && s.v_W.allFinite() && s.w_W.allFinite() && s.q_WB.coeffs().allFinite();
+}
+
+[[nodiscard]] inline bool isFinite(const WristState& s) noexcept {
+  return s.q_WH.coeffs().allFinite() && s.w_W.allFinite();
 }
 
 /// A set-up that cannot work. The message is one line with the value and the remedy.

@@ -73,6 +73,8 @@ class GuardedDevice final : public HapticDevice {
   /// Sample of the device; not valid unless finite.
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3& f) noexcept override;
+  /// A torque has the force's ramp and cuts, and the device's limit. A non-finite one cuts both.
+  void writeTorque(const Vec3& t) noexcept override;
 
   /// Sets the dead-man switch: held (true, the initial state) or released. Acts from the next read
   /// on. For any thread.
@@ -83,6 +85,7 @@ class GuardedDevice final : public HapticDevice {
 
  private:
   void takeTime(double now) noexcept;
+  void letGo() noexcept;
   void cut(GuardCut reason) noexcept;
   void fade() noexcept;
   void send(const Vec3& force) noexcept;

@@ -22,9 +22,11 @@ struct WorkspaceSettings {
 /// Maps motions of a device D to the world W, and forces back:
 ///
 ///   p_W = c_W + s R (p_D - c_D)      v_W = s R v_D      f_D = g R^T f_W
+///   q_WH = R q_DH                    w_W = R w_D        t_D = g / s R^T t_W
 ///
-/// The hand's work is the world's times g / s: f_D . v_D = g / s f_W . v_W. The factor is constant
-/// and positive, so a passive world stays passive at the hand for any s.
+/// The hand's work is the world's times g / s: f_D . v_D = g / s f_W . v_W, and the same for
+/// torques. The factor is constant and positive, so a passive world stays passive at the hand for
+/// any s.
 ///
 /// A value. Pure and real-time safe except for construction.
 class WorkspaceMap {
@@ -35,6 +37,10 @@ class WorkspaceMap {
   [[nodiscard]] PointState toWorld(const PointState& hip_D) const noexcept;
   /// Force on the hand for a force in the world [N].
   [[nodiscard]] Vec3 toDevice(const Vec3& f_W) const noexcept;
+
+  [[nodiscard]] WristState toWorld(const WristState& wrist_D) const noexcept;
+  /// Torque on the hand for a torque in the world [N m].
+  [[nodiscard]] Vec3 torqueToDevice(const Vec3& t_W) const noexcept;
 
   /// Capabilities of the device seen from the world. The workspace becomes the half extents of the
   /// world-aligned box around the rotated one.
@@ -52,10 +58,10 @@ class WorkspaceMap {
 
 /// A device seen through a WorkspaceMap, with a clutch. The inner device's W is its own frame D.
 ///
-/// While the clutch is out the world point stands still and the hand feels no force. The hand can
-/// then return to the middle of its workspace. When the clutch engages, the map is placed anew and
-/// the point continues from where it stands. An invalid reading neither moves the point nor places
-/// the map.
+/// While the clutch is out the world point stands still and the hand feels no force. A wrist still
+/// turns. The hand can then return to the middle of its workspace. When the clutch engages, the map
+/// is placed anew and the point continues from where it stands. An invalid reading neither moves
+/// the point nor places the map.
 ///
 /// A device that returns with other positions (homed again) keeps its old map, so the point jumps
 /// to the hand. Open and close the clutch to place it anew.
@@ -69,6 +75,7 @@ class MappedDevice final : public HapticDevice {
   }
   [[nodiscard]] DeviceSample read(double now) noexcept override;
   void write(const Vec3& f_W) noexcept override;
+  void writeTorque(const Vec3& t_W) noexcept override;
 
   /// Engages the clutch (true, the initial state) or opens it, from the next read on. For any
   /// thread.

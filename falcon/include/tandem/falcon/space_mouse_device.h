@@ -15,9 +15,10 @@ namespace tandem {
 class HidStream;
 class RateControl;
 
-/// Mapping from the displacement of a self-centring cap to the motion of a point.
+/// Mapping from the displacement of a self-centring cap to the motion of a point and a wrist.
 struct RateControlSettings {
   double speed = 0.15;      ///< at full displacement along an axis [m/s], > 0
+  double turn_speed = 1.5;  ///< at full displacement about an axis [rad/s], >= 0; 0: no wrist
   double dead_zone = 0.05;  ///< fraction of the full displacement that counts as zero, 0 to below 1
   double smoothing = 0.03;  ///< time constant of the velocity [s], > 0; more is smoother and later
   Vec3 start_W = Vec3::Zero();            ///< start of the point, the middle of its box [m]
@@ -48,8 +49,8 @@ struct SpaceMouseStatus {
 };
 
 /// A SpaceMouse as a hand without force: the cap's displacement sets the velocity of the haptic
-/// interface point (RateControl). A second user then needs no haptic device. Rotations of the cap
-/// appear only in the status. An unplugged device stops at once and reads as not valid until it is
+/// interface point, its rotation that of the wrist (RateControl). A second user then needs no
+/// haptic device. An unplugged device stops at once and reads as not valid until it is
 /// back.
 ///
 /// read() integrates over the time that it is told, at most 20 ms per step. After a pause of the
