@@ -163,6 +163,66 @@ TEST(Grip, KeepsTheMomentumOfTwoBodies) {
   EXPECT_GT(island.state(cube).v_W.norm(), 1e-3);
 }
 
+// Against a damper that works to rest, a body that is turned at 2 rad/s would lag by 11 mrad.
+TEST(Grip, TurnsWithItsHandWithoutLag) {
+  constexpr double kRate = 2.0;  // [rad/s]
+  Scene scene(0.2);
+  scene.hold.w_W = Vec3(0, 0, kRate);
+  double lag = 0.0;
+  for (int tick = 0; tick < 500; ++tick) {
+    scene.hold.q_WF = Quat(Eigen::AngleAxisd(kRate * tick * kPeriod, Vec3::UnitZ()));
+    scene.take();
+    const RigidState& cube = scene.island.state(scene.cube);
+    if (tick > 300) lag = std::max(lag, cube.q_WB.angularDistance(scene.hold.q_WF));
+    scene.island.advance(kPeriod);
+  }
+  // The wanted orientation stands for each tick.
+  EXPECT_LT(lag, kRate * kPeriod);
+  EXPECT_NEAR(scene.island.state(scene.cube).w_W.z(), kRate, 1e-2);
+}
+
+// The tool touches in its place, also obstacles.
+TEST(Grip, AHandWithAToolTouchesNothing) {
+  Island island{IslandSettings{}};
+  IslandBody body;
+  body.motion = Motion::kPrescribed;
+  body.feels_obstacles = true;
+  const BodyIndex hand = island.addBody(body);
+  IslandBody box;
+  box.shape = Box{Vec3::Constant(0.02)};
+  box.mass = 0.5;
+  box.inertia_B.setConstant(1e-4);
+  box.start.p_W = Vec3(0.028, 0, 0);
+  const BodyIndex near = island.addBody(box);
+  box.start.p_W = Vec3(0, 0.5, 0);
+  IslandGrip hold;
+  hold.body = island.addBody(box);
+  hold.offset_W = Vec3(0, 0.5, 0);
+  hold.gains = {{1500.0, 5.0}, {0.9, 5e-3}};
+  hold.max_force = 40.0;
+  hold.max_torque = 1.0;
+  island.addContact(hand, near, {4000.0, 1.0});
+  island.setTouchMemory(false);  // deep contacts push at once
+  const GripIndex grip = island.addGrip(hand);
+  island.prepare();
+  Obstacle wall;
+  wall.shape = Box{Vec3::Constant(0.02)};
+  wall.p_WB = Vec3(-0.027, 0, 0);
+  const std::vector<Obstacle> obstacles{wall};
+  island.setObstacles(obstacles);
+
+  island.setGrip(grip, &hold);
+  EXPECT_GT(island.computeContactForce(hand).norm(), 1.0);
+  hold.is_tool = true;
+  island.setGrip(grip, &hold);
+  EXPECT_LT(island.computeContactForce(hand).norm(), 1e-12);
+  EXPECT_EQ(island.computeOverlap(hand), 0.0);
+  for (int tick = 0; tick < 100; ++tick) island.advance(kPeriod);
+  EXPECT_EQ(island.state(near).p_W, Vec3(0.028, 0, 0));
+  island.setGrip(grip, nullptr);
+  EXPECT_GT(island.computeContactForce(hand).norm(), 1.0);
+}
+
 // Room for a grip that is never used changes no bit.
 TEST(Grip, CostsNothingUnused) {
   const auto run = [](bool has_room) {

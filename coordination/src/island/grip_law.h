@@ -21,6 +21,7 @@ class GripLaw {
       : place_(hold.p_FG),
         offset_(hold.offset_W),
         lift_(hold.lift_W),
+        turning_(hold.w_W),
         load_(hold.load_W),
         gains_(hold.gains),
         max_force_(hold.max_force),
@@ -43,7 +44,7 @@ class GripLaw {
     Pull pull;
     pull.f = gains_.linear.stiffness * (way + offset_) + gains_.linear.damping * rate + lift_;
     pull.is_limited = limit(pull.f, max_force_);
-    pull.t = gains_.angular.stiffness * turn - gains_.angular.damping * w;
+    pull.t = gains_.angular.stiffness * turn + gains_.angular.damping * (turning_ - w);
     limit(pull.t, max_torque_);
     pull.f = share_ * pull.f;
     pull.t = share_ * pull.t;
@@ -60,7 +61,7 @@ class GripLaw {
     return true;
   }
 
-  PlainVec place_, offset_, lift_, load_;
+  PlainVec place_, offset_, lift_, turning_, load_;
   CouplerSettings gains_;
   double max_force_ = 0.0, max_torque_ = 0.0, share_ = 1.0;
 };

@@ -97,6 +97,7 @@ void Island::setGrip(GripIndex grip, const IslandGrip* hold) noexcept {
     g.hold = *hold;
     impl.disturb(hold->body);
   }
+  impl.model.noteTools(g.hand);
   impl.disturb(g.hand);
   if (!is_same_body) impl.spatial->regrip(impl.model);
 }

@@ -65,7 +65,7 @@ struct CouplerSettings {
 /// a body whose frame stays parallel to W.
 ///
 ///   f = K (p_hand + offset - p_G) + B (v_hand - v_G) + lift      at G, and -f on the hand
-///   t = K_r theta - B_r w_F                                      on F
+///   t = K_r theta + B_r (w - w_F)                                on F, and -t on the hand's wrist
 ///
 /// theta is the rotation vector from F to `q_WF`. The norms of f and t have limits. Hand and body
 /// do not touch each other meanwhile.
@@ -74,12 +74,14 @@ struct IslandGrip {
   Vec3 p_FG = Vec3::Zero();      ///< G from the centre of mass, in F [m]
   Vec3 offset_W = Vec3::Zero();  ///< of G from the hand, with no force [m]
   Quat q_WF = Quat::Identity();  ///< orientation that the torque leads to
+  Vec3 w_W = Vec3::Zero();       ///< w, the rate of that orientation [rad/s]
   Vec3 lift_W = Vec3::Zero();    ///< part of f [N]
   Vec3 load_W = Vec3::Zero();    ///< at G, too, but of no hand here [N]
   CouplerSettings gains;         ///< K, B and K_r, B_r
   double max_force = 0.0;        ///< [N]
   double max_torque = 0.0;       ///< [N m]
   double share = 1.0;            ///< of all forces and their limits; 0: only keeps them apart
+  bool is_tool = false;          ///< the hand touches nothing at all: the body does in its place
 };
 
 /// Force on the place of a grip and torque on its body, in W.

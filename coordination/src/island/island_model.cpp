@@ -88,8 +88,10 @@ void IslandModel::listPresent() noexcept {
     asleep_count += bodies[b].is_asleep;
   }
   const auto meets = [&](BodyIndex b) { return bodies[b].isPresent() && !bodies[b].is_ghost; };
+  const auto touches = [&](BodyIndex b) { return meets(b) && !bodies[b].has_tool; };
   for (const IslandContact& contact : contacts)
-    if (meets(contact.sphere) && meets(contact.other) && letsMeet(contact.sphere, contact.other) &&
+    if (touches(contact.sphere) && touches(contact.other) &&
+        letsMeet(contact.sphere, contact.other) &&
         !areJoined(contact.sphere, contact.other))
       present_contacts.push_back(contact);
   for (std::size_t c = 0; c < couplers.size(); ++c)

@@ -51,6 +51,7 @@ struct ModelBody {
   bool is_asleep = false;      ///< at rest and left out: see Sleepers
   bool disturbed = true;       ///< an external value has changed since the last advance
   bool is_ghost = false;       ///< stays where it is set, and touches nothing
+  bool has_tool = false;       ///< a hand that touches nothing: its tool does
   double contact_share = 1.0;  ///< share of its contacts' gains
   double extra_damping = 0.0;  ///< added to its own damping [N s/m]
   bool has_jumped = true;  ///< since the last advance it came, or was set where no motion led it
@@ -65,6 +66,8 @@ struct ModelBody {
   [[nodiscard]] bool isDynamic() const {
     return is_active && !is_ghost && settings.motion == Motion::kDynamic;
   }
+  /// True if smooth contacts may act on it.
+  [[nodiscard]] bool isTouchable() const { return is_active && !is_ghost && !has_tool; }
   [[nodiscard]] bool isPresent() const { return is_active && !is_asleep; }
   [[nodiscard]] double damping() const { return settings.damping + extra_damping; }
   [[nodiscard]] bool rotates() const { return inverse_inertia_B != Vec3::Zero(); }
@@ -126,6 +129,14 @@ struct IslandModel {
     return bodies[a].settings.filter.meets(bodies[b].settings.filter);
   }
 
+  /// Finds out whether a hand has a tool now.
+  void noteTools(BodyIndex hand) noexcept {
+    const bool has_tool = std::any_of(grips.begin(), grips.end(), [&](const ModelGrip& grip) {
+      return grip.hand == hand && grip.is_on && grip.hold.is_tool;
+    });
+    is_listed = is_listed && bodies[hand].has_tool == has_tool;
+    bodies[hand].has_tool = has_tool;
+  }
   /// True if some grip holds the body.
   [[nodiscard]] bool isGripped(BodyIndex body) const noexcept {
     return std::any_of(grips.begin(), grips.end(),

@@ -88,9 +88,8 @@ double computeOverlap(const IslandModel& model, const States& states, BodyIndex 
       gap = std::min(gap, computeTouchState(model, touch, states).geometry.gap);
     }
   };
-  const auto is_there = [&](BodyIndex b) {
-    return model.bodies[b].is_active && !model.bodies[b].is_ghost;
-  };
+  if (model.bodies[body].has_tool) return 0.0;
+  const auto is_there = [&](BodyIndex b) { return model.bodies[b].isTouchable(); };
   for (const IslandContact& contact : model.contacts) {
     if (contact.sphere != body && contact.other != body) continue;
     const BodyIndex partner = contact.sphere == body ? contact.other : contact.sphere;

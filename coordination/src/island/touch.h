@@ -109,7 +109,7 @@ void forEachTouch(const IslandModel& model, Visit visit) {
     show({pair.sphere, pair.other, nullptr,
           computeShare(pair.gains, model.contactShare(pair.sphere, pair.other))});
   for (const BodyIndex b : model.present) {
-    if (!model.bodies[b].settings.feels_obstacles || model.bodies[b].is_ghost) continue;
+    if (!model.bodies[b].settings.feels_obstacles || !model.bodies[b].isTouchable()) continue;
     const CouplerGains gains =
         computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
     for (BodyIndex slot : model.slots)

@@ -66,7 +66,7 @@ struct GripState {
   std::uint16_t epoch = 0;         ///< counts grabs and releases, modulo 2^16
   std::optional<ObjectId> object;  ///< empty: the hand holds nothing, and the rest means nothing
   Vec3 p_BG = Vec3::Zero();        ///< place on the object, from its centre of mass, in B [m]
-  Quat q_BG = Quat::Identity();    ///< orientation of the hand, whose frame is W's without wrist
+  Quat q_BG = Quat::Identity();    ///< of W in B, once the object is turned as the hand wants it
   double age = 0.0;                ///< time from the last grab or release to the packet's [s]
 };
 
