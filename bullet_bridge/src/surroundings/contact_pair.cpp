@@ -12,6 +12,8 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "surroundings/private_shapes.h"
+
 namespace tandem {
 namespace {
 
@@ -165,15 +167,24 @@ bool ContactPair::searchPart(PartPair& pair, WorkSpace& work) noexcept {
   if (pair.mesh >= 0) {
     searchTriangles(pair, first_pose, second_pose, work);
   } else {
-    const btCollisionObjectWrapper x(nullptr, pair.first->shape.get(), &first.object, first_pose,
-                                     -1, -1);
-    const btCollisionObjectWrapper y(nullptr, pair.second->shape.get(), &second.object, second_pose,
+    const bool is_large = pair.first->large && pair.second->large &&
+                          needsNearestPoints(*pair.first->shape, *pair.second->shape);
+    const btScalar scale = is_large ? kEnlarged : btScalar(1);
+    const auto shapeOf = [&](const Part& part) {
+      return is_large ? part.large.get() : part.shape.get();
+    };
+    const btTransform first_large(first_pose.getBasis(), scale * first_pose.getOrigin());
+    const btTransform second_large(second_pose.getBasis(), scale * second_pose.getOrigin());
+    work.decoy.setContactBreakingThreshold(scale * breakingThreshold());
+    const btCollisionObjectWrapper x(nullptr, shapeOf(*pair.first), &first.object, first_large, -1,
+                                     -1);
+    const btCollisionObjectWrapper y(nullptr, shapeOf(*pair.second), &second.object, second_large,
                                      -1, -1);
     if (pair.algorithm == nullptr)
       pair.algorithm =
           work.dispatcher.findAlgorithm(&x, &y, &work.decoy, BT_CONTACT_POINT_ALGORITHMS);
     if (pair.algorithm == nullptr) return true;
-    QuietResult result(&x, &y, *pair.kept, isPlane(*pair.second));
+    QuietResult result(&x, &y, *pair.kept, isPlane(*pair.second), scale);
     pair.algorithm->processCollision(&x, &y, work.dispatch, &result);
   }
   refreshQuietly(*pair.kept);
@@ -205,7 +216,7 @@ void ContactPair::searchTriangles(PartPair& pair, const btTransform& first_pose,
                                              -1);
         btCollisionAlgorithm* algorithm = work.dispatcher.findAlgorithm(
             &convex, &other, &work.decoy, BT_CONTACT_POINT_ALGORITHMS);
-        QuietResult result(&convex, &other, *pair.kept, false);
+        QuietResult result(&convex, &other, *pair.kept, false, 1);
         algorithm->processCollision(&convex, &other, work.dispatch, &result);
         algorithm->~btCollisionAlgorithm();
         work.dispatcher.freeCollisionAlgorithm(algorithm);

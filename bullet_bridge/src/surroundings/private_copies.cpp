@@ -75,6 +75,8 @@ PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
   } else if (!appendParts(only, btTransform::getIdentity(), parts)) {
     parts.clear();
   }
+  for (Part& part : parts)
+    if (part.shape) part.large = enlarge(*part.shape);
   const bool is_single = !is_compound && isWhole() && parts.front().shape;
   const btCollisionShape& measured =
       is_single ? *parts.front().shape : *host_object.getCollisionShape();

@@ -47,6 +47,7 @@ struct Part {
   Region bounds{};           ///< of a mesh, in its frame
   btTransform pose;          ///< in its object
   Vec3 half = Vec3::Zero();  ///< half extents of the host's box, if it is one [m]
+  std::unique_ptr<btCollisionShape> large = {};  ///< enlarge(*shape)
 };
 
 /// A pose from the private origin: as Bullet gets it, and the position in double.

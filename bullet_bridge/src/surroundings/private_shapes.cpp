@@ -34,10 +34,19 @@ ShapePointer copyPlainShape(const btCollisionShape& shape) {
 }
 
 /// Each axis has its own class.
-ShapePointer copyCylinder(const btCylinderShape& cylinder) {
+ShapePointer copyAnyCylinder(const btCylinderShape& cylinder) {
   if (cylinder.getUpAxis() == 0) return copyPlainShape<btCylinderShapeX>(cylinder);
   if (cylinder.getUpAxis() == 2) return copyPlainShape<btCylinderShapeZ>(cylinder);
   return copyPlainShape<btCylinderShape>(cylinder);
+}
+
+/// Bullet rounds a cylinder's edges by its margin, within its size: leaning by 3 degrees, a peg of
+/// 20 mm goes 0.05 mm into a wall. A fifth of the margin is as cheap and leaves enough for Bullet.
+ShapePointer copyCylinder(const btCylinderShape& cylinder) {
+  constexpr auto kSharpness = btScalar(0.2);
+  ShapePointer copy = copyAnyCylinder(cylinder);
+  copy->setMargin(kSharpness * cylinder.getMargin());
+  return copy;
 }
 
 template <typename BoxType>
@@ -207,6 +216,19 @@ std::unique_ptr<btCollisionShape> copyShape(const btCollisionShape& shape, btSca
     default:
       return nullptr;
   }
+}
+
+std::unique_ptr<btCollisionShape> enlarge(btCollisionShape& own) {
+  if (kEnlarged == btScalar(1) || !own.isConvex()) return nullptr;
+  return std::make_unique<btUniformScalingShape>(static_cast<btConvexShape*>(&own), kEnlarged);
+}
+
+bool needsNearestPoints(const btCollisionShape& a, const btCollisionShape& b) noexcept {
+  const auto isRound = [](const btCollisionShape& shape) {
+    const int type = shape.getShapeType();
+    return type == SPHERE_SHAPE_PROXYTYPE || type == CAPSULE_SHAPE_PROXYTYPE;
+  };
+  return !(a.isPolyhedral() && b.isPolyhedral()) && !(isRound(a) && isRound(b));
 }
 
 }  // namespace tandem

@@ -23,8 +23,10 @@ void QuietDispatcher::releaseManifold(btPersistentManifold* manifold) {
   }
 }
 
-void QuietResult::addContactPoint(const btVector3& normal_on_b, const btVector3& point_on_b,
-                                  btScalar depth) {
+void QuietResult::addContactPoint(const btVector3& normal_on_b, const btVector3& large_point_on_b,
+                                  btScalar large_depth) {
+  const btVector3 point_on_b = large_point_on_b / scale_;
+  const btScalar depth = large_depth / scale_;
   if (depth > kept_.getContactBreakingThreshold()) return;
   const bool is_swapped = kept_.getBody0() != getBody0Internal();
   const btCollisionObject& first = is_swapped ? *getBody1Internal() : *getBody0Internal();

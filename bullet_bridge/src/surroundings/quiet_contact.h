@@ -35,10 +35,11 @@ class QuietDispatcher final : public btCollisionDispatcher {
 /// callbacks.
 class QuietResult final : public btManifoldResult {
  public:
-  /// `shows_kept`: the algorithm asks how many points there are, as that of planes does.
+  /// `shows_kept`: the algorithm asks how many points there are, as that of planes does. `scale`:
+  /// lengths that it knows are so many times ours.
   QuietResult(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-              btPersistentManifold& kept, bool shows_kept)
-      : btManifoldResult(a, b), kept_(kept), shows_kept_(shows_kept) {}
+              btPersistentManifold& kept, bool shows_kept, btScalar scale)
+      : btManifoldResult(a, b), kept_(kept), shows_kept_(shows_kept), scale_(scale) {}
 
   void addContactPoint(const btVector3& normal_on_b, const btVector3& point_on_b,
                        btScalar depth) override;
@@ -46,6 +47,7 @@ class QuietResult final : public btManifoldResult {
  private:
   btPersistentManifold& kept_;
   bool shows_kept_;
+  btScalar scale_;
 };
 
 /// Moves the points along with their objects, and drops those that came apart, as
