@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/island_counters.h"
 #include "tandem/plugin/site.h"
 
 #include "bridge/bullet_rig.h"
@@ -259,6 +261,81 @@ TEST(HostJoints, WakeWhenTheHostChangesThem) {
                   byWidth(1e-9, 1e-5));
     if (is_removed) host.joints.clear();
   }
+}
+
+// A bridge of planks whose pins are open at first, as in Bullet's example: no motion closes all of
+// them at once. The solver tried for ever, 12 ms in each tick.
+TEST(HostJoints, ThatContradictEachOtherDoNotHoldTheSolverUp) {
+  constexpr int kPlanks = 8;
+  constexpr double kSpacing = 0.17;
+  JointHost host;
+  for (int i = 0; i < kPlanks; ++i) {
+    const bool is_end = i == 0 || i == kPlanks - 1;
+    btRigidBody& plank = host.addLink(Vec3(i * kSpacing, 0.0, 0.0), is_end ? 0.0 : 1.0);
+    if (i == 0) continue;
+    for (const double y : {-0.02, 0.02})
+      host.join<btPoint2PointConstraint>(*host.links[static_cast<std::size_t>(i - 1)], plank,
+                                         toBullet(Vec3(kRight + Vec3(0.0, y, 0.0))),
+                                         toBullet(Vec3(kLeft + Vec3(0.0, y, 0.0))));
+  }
+  btRigidBody& middle = *host.links[kPlanks / 2];
+  host.share(middle);
+  for (int i = 0; i < 180; ++i) host.rig.step(1.0 / 60.0);
+  const IslandCounters& counters = host.site->islandCounters();
+  std::printf("%.2f factors a step, %d advances cut short\n",
+              static_cast<double>(counters.rigid_factorisations) /
+                  static_cast<double>(counters.rigid_steps),
+              static_cast<int>(counters.rigid_bounded));
+  EXPECT_GT(counters.rigid_steps, 1000u);
+  EXPECT_LT(counters.rigid_factorisations, 4 * counters.rigid_steps);
+  EXPECT_LT(static_cast<double>(middle.getLinearVelocity().norm()), 5.0);
+}
+
+// Weak motors on six legs: Newton's steps took some from their lower bound to the upper one and
+// back, for ever.
+TEST(HostJoints, WhoseMotorsAreWeakSettle) {
+  JointHost host;
+  btRigidBody& middle = host.addLink(Vec3::Zero(), 0.0);
+  for (int i = 0; i < 6; ++i) {
+    const Quat q = test::turn(i * M_PI / 3.0, Vec3::UnitZ());
+    btRigidBody* parent = &middle;
+    for (int part = 0; part < 2; ++part) {
+      btRigidBody& link = host.addLink(q * Vec3(0.2 + part * kLength, 0.0, 0.0), 1.0);
+      link.getWorldTransform().setRotation(toBullet(q));
+      link.setInterpolationWorldTransform(link.getWorldTransform());
+      host.rig.world.removeRigidBody(&link);
+      host.rig.world.addRigidBody(&link, 2, 0);  // legs do not touch each other
+      const Vec3 pin_W = q * Vec3(0.1 + part * kLength, 0.0, 0.0), axis_W = q * Vec3::UnitY();
+      const auto seenFrom = [&](const btRigidBody& body, const Vec3& v, double w) {
+        const btTransform inverse = body.getWorldTransform().inverse();
+        return w > 0.0 ? btVector3(inverse * toBullet(v)) : inverse.getBasis() * toBullet(v);
+      };
+      auto& hinge = host.join<btHingeConstraint>(
+          *parent, link, seenFrom(*parent, pin_W, 1.0), seenFrom(link, pin_W, 1.0),
+          seenFrom(*parent, axis_W, 0.0), seenFrom(link, axis_W, 0.0));
+      hinge.setLimit(btScalar(-0.6), btScalar(0.4));
+      hinge.enableAngularMotor(true, btScalar(part == 0 ? 3.0 : -5.0), btScalar(0.03));
+      parent = &link;
+    }
+  }
+  host.links.erase(host.links.begin());
+  host.share(*host.links[0]);
+  for (int i = 0; i < 120; ++i) {
+    host.rig.step(1.0 / 60.0);
+    if (i % 20 != 10) continue;
+    for (const auto& joint : host.joints) {
+      auto& hinge = static_cast<btHingeConstraint&>(*joint);
+      hinge.enableAngularMotor(true, -hinge.getMotorTargetVelocity(), btScalar(0.03));
+    }
+  }
+  const IslandCounters& counters = host.site->islandCounters();
+  std::printf("%.2f factors a step, %d advances cut short\n",
+              static_cast<double>(counters.rigid_factorisations) /
+                  static_cast<double>(counters.rigid_steps),
+              static_cast<int>(counters.rigid_bounded));
+  EXPECT_LT(counters.rigid_factorisations, 5 * counters.rigid_steps);
+  for (const btRigidBody* link : host.links)
+    EXPECT_LT(static_cast<double>(link->getLinearVelocity().norm()), 20.0);
 }
 
 TEST(HostJoints, ThatStayBulletsAreTold) {

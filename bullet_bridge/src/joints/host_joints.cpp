@@ -10,6 +10,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "joints/held_ways.h"
 #include "world/world_access.h"
 
 namespace tandem {
@@ -44,6 +45,8 @@ void HostJoints::look(const Find& find) {
   // The thread that ticks allocates nothing.
   ends_.reserve(kMaxJoints);
   acting_.reserve(kMaxJoints);
+  elder_.reserve(kMaxJoints);
+  elders_rows_.reserve(kMostJointRows);
 }
 
 /// True if the island has the joints that look() has found.
@@ -178,11 +181,20 @@ void HostJoints::drop(BodyIndex body) noexcept {
 void HostJoints::listActing() noexcept {
   ends_.clear();
   acting_.clear();
+  elder_.clear();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (joints_[i].is_gone) continue;
+    std::size_t elder = acting_.size();
+    for (std::size_t j = 0; j < acting_.size(); ++j)
+      if (haveSameEnds(joints_[acting_[j]], joints_[i])) elder = j;
     ends_.push_back(joints_[i].ends);
     acting_.push_back(i);
+    elder_.push_back(elder);
   }
+}
+
+bool HostJoints::haveSameEnds(const Joint& one, const Joint& other) noexcept {
+  return (one.a == other.a && one.b == other.b) || (one.a == other.b && one.b == other.a);
 }
 
 double HostJoints::rounding() const noexcept {
@@ -191,9 +203,42 @@ double HostJoints::rounding() const noexcept {
 
 void HostJoints::evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                           std::vector<JointRow>& rows) noexcept {
-  const Joint& wanted = joints_[acting_[joint]];
-  wanted.copy->evaluate(wanted.ends.a == kStanding ? wanted.fixed_a : a,
-                        wanted.ends.b == kStanding ? wanted.fixed_b : b, rows);
+  const std::size_t first = rows.size();
+  ask(joint, a, b, rows);
+  if (elder_[joint] != joint) leaveOutHeld(joint, a, b, first, rows);
+}
+
+void HostJoints::ask(std::size_t joint, const RigidState& a, const RigidState& b,
+                     std::vector<JointRow>& rows) const noexcept {
+  const Joint& asked = joints_[acting_[joint]];
+  asked.copy->evaluate(asked.ends.a == kStanding ? asked.fixed_a : a,
+                       asked.ends.b == kStanding ? asked.fixed_b : b, rows);
+}
+
+/// Leaves out rows, from `first` on, of what joints before this one hold rigidly.
+void HostJoints::leaveOutHeld(std::size_t joint, const RigidState& a, const RigidState& b,
+                              std::size_t first, std::vector<JointRow>& rows) noexcept {
+  const auto isRigid = [](const JointRow& row) {
+    return row.law == JointLaw::kLocked && row.stiffness == 0.0 && row.damping == 0.0;
+  };
+  const Joint& own = joints_[acting_[joint]];
+  // One body is enough, and it must be one that moves.
+  const btRigidBody* const looked_at = own.ends.a == kStanding ? own.b : own.a;
+  HeldWays held;
+  for (std::size_t j = joint; elder_[j] != j;) {
+    j = elder_[j];
+    const Joint& other = joints_[acting_[j]];
+    const bool is_turned = other.a != own.a;
+    elders_rows_.clear();
+    ask(j, is_turned ? b : a, is_turned ? a : b, elders_rows_);
+    for (const JointRow& row : elders_rows_)
+      if (isRigid(row)) static_cast<void>(held.add(row, other.a == looked_at));
+  }
+  const auto isHeld = [&](const JointRow& row) {
+    return isRigid(row) && !held.add(row, own.a == looked_at);
+  };
+  const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
+  rows.erase(std::remove_if(begin, rows.end(), isHeld), rows.end());
 }
 
 }  // namespace tandem

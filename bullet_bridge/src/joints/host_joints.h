@@ -17,7 +17,8 @@ namespace tandem {
 
 /// Joints of the host's world between bodies that the island holds.
 ///
-/// The island solves them on private copies. They are off while Bullet's solver runs, and the host
+/// The island solves them on private copies. What one of two joints between the same bodies holds,
+/// the other leaves out (HeldWays). They are off while Bullet's solver runs, and the host
 /// finds them on as it left them. Joints that it removes, or switches off, end at once.
 class HostJoints final : public JointSource {
  public:
@@ -85,8 +86,13 @@ class HostJoints final : public JointSource {
     bool is_gone = false, is_off = false;
   };
 
+  [[nodiscard]] static bool haveSameEnds(const Joint& one, const Joint& other) noexcept;
   [[nodiscard]] bool isAsWanted() const noexcept;
   void listActing() noexcept;
+  void ask(std::size_t joint, const RigidState& a, const RigidState& b,
+           std::vector<JointRow>& rows) const noexcept;
+  void leaveOutHeld(std::size_t joint, const RigidState& a, const RigidState& b, std::size_t first,
+                    std::vector<JointRow>& rows) noexcept;
 
   btDiscreteDynamicsWorld& host_;
   std::vector<Joint> joints_, next_;
@@ -94,6 +100,9 @@ class HostJoints final : public JointSource {
   int looked_at_ = 0;                ///< joints of the host's world at the last look()
   std::vector<JointEnds> ends_;      ///< of joints that have not gone
   std::vector<std::size_t> acting_;  ///< by the same index: place in joints_
+  std::vector<std::size_t>
+      elder_;  ///< by the same index: the one before between its bodies, or itself
+  std::vector<JointRow> elders_rows_;
 };
 
 }  // namespace tandem

@@ -12,6 +12,11 @@ constexpr double kStiffness = 1e4;
 /// Slip that is none, and slip that will do where it hardly falls [m/s]. Multipliers of a tall
 /// stack converge slowly: the next step goes on with them.
 constexpr double kSettled = 1e-9, kNearlySettled = 1e-6;
+/// Joints of a loop that are open contradict each other, and never settle. Once they have been slow
+/// for this many rounds what is left is theirs to share; contact between them may slip so fast
+/// [m/s].
+constexpr int kPatience = 3;
+constexpr double kContradicted = 1e-2;
 /// Residual of Newton's iteration that is none [m/s].
 constexpr double kSmallResidual = 1e-10;
 /// Change of a velocity with which iteration is lost [m/s]. Should it come back, speeds would be
@@ -90,8 +95,8 @@ void ContactSolver::setUp() noexcept {
 
 /// Iterates until all laws hold. False if the modes do not settle.
 bool ContactSolver::settle() noexcept {
-  double slip_before = HUGE_VAL, residual_before = HUGE_VAL;
-  int factorisations = 0;
+  double slip_before = HUGE_VAL, hold_slip_before = HUGE_VAL, residual_before = HUGE_VAL;
+  int factorisations = 0, slow = 0;
   gatherStiffness();
   bool is_factored = factor_->whole.isNear(J_, D_, first_);
   for (int steps = 0; steps < kMaxSteps; ++steps) {
@@ -103,14 +108,20 @@ bool ContactSolver::settle() noexcept {
     if (!(measureLargest(x_) < kLost)) return false;
     const Modes modes = chooseModes();
     const double residual = measureResidual();
-    if (residual > kSmallResidual || modes.are_forced) {
+    // Great impulses leave no less than their rounding.
+    const bool is_rounding = residual < kNearlySettled && residual > 0.5 * residual_before;
+    if ((residual > kSmallResidual && !is_rounding) || modes.are_forced) {
       // Sliding is not linear: its direction follows the slip.
       is_factored = !modes.have_changed && residual < 0.1 * residual_before;
       residual_before = residual;
       continue;
     }
-    const double slip = measureSlip();
+    const double touch_slip = measureSlip(), hold_slip = measureHoldSlip();
+    const double slip = std::max(touch_slip, hold_slip);
     if (slip < kSettled || (slip > 0.5 * slip_before && slip < kNearlySettled)) return true;
+    slow = hold_slip > kNearlySettled && hold_slip > 0.5 * hold_slip_before ? slow + 1 : 0;
+    if (slow >= kPatience && touch_slip < kContradicted) return true;
+    hold_slip_before = hold_slip;
     if (slip < kNearlySettled) keepAnswer();
     slip_before = slip;
     residual_before = HUGE_VAL;
@@ -265,7 +276,8 @@ void ContactSolver::setUpHolds() noexcept {
     }
     hold_laws_.back().add(*hold, J_.back(), kStiffness);
   }
-  for (HoldLaw& law : hold_laws_) law.respond();
+  bool has_changed = false, is_forced = false;
+  for (HoldLaw& law : hold_laws_) law.choose(has_changed, is_forced);
 }
 
 void ContactSolver::shapeMatrix() noexcept {
@@ -293,11 +305,7 @@ ContactSolver::Modes ContactSolver::chooseModes() noexcept {
     respond(i);
     modes.have_changed |= !(twists_[i].D == before);
   }
-  for (HoldLaw& law : hold_laws_) {
-    const ContactStiffness before = law.D;
-    law.respond();
-    modes.have_changed |= !(law.D == before);
-  }
+  for (HoldLaw& law : hold_laws_) law.choose(modes.have_changed, modes.are_forced);
   return modes;
 }
 
@@ -401,6 +409,12 @@ double ContactSolver::measureSlip() const noexcept {
     if (law.D.ss == law.rho_t && law.D.tt == law.rho_t)
       most = std::max(most, radius * std::sqrt(law.w.s * law.w.s + law.w.t * law.w.t));
   }
+  return most;
+}
+
+/// The same of joints [m/s].
+double ContactSolver::measureHoldSlip() const noexcept {
+  double most = 0.0;
   for (const HoldLaw& law : hold_laws_) most = std::max(most, law.slip());
   return most;
 }

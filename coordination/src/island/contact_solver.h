@@ -81,6 +81,7 @@ class ContactSolver {
   double measureResidual() noexcept;
   [[nodiscard]] double measureLargest(const std::vector<Six>& changes) const noexcept;
   [[nodiscard]] double measureSlip() const noexcept;
+  [[nodiscard]] double measureHoldSlip() const noexcept;
   void addMotions() noexcept;
   void keepAnswer() noexcept;
   void takeAnswer() noexcept;

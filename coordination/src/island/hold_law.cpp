@@ -13,14 +13,23 @@ void HoldLaw::add(JointHold& next, ContactJacobian& J, double stiffness) noexcep
   P0[i] = next.impulse;
   const double mobility = J.mobility(i);
   rho[i] = mobility > 0.0 ? stiffness / mobility : 0.0;
+  mode[i] = Mode::kBetween;
 }
 
-void HoldLaw::respond() noexcept {
+void HoldLaw::choose(bool& has_changed, bool& is_forced) noexcept {
   double stiffness[3] = {};
   for (int i = 0; i < count; ++i) {
+    const double low = hold[i]->low, high = hold[i]->high;
     const double q = P0[i] - rho[i] * u[i];
-    P[i] = std::clamp(q, hold[i]->low, hold[i]->high);
-    if (P[i] == q && hold[i]->low < hold[i]->high) stiffness[i] = rho[i];
+    Mode next = q < low ? Mode::kLow : q > high ? Mode::kHigh : Mode::kBetween;
+    if (!(low < high)) next = Mode::kLow;
+    const bool leaps = next != mode[i] && next != Mode::kBetween && mode[i] != Mode::kBetween;
+    if (leaps) next = Mode::kBetween;
+    is_forced |= leaps;
+    has_changed |= next != mode[i];
+    mode[i] = next;
+    P[i] = next == Mode::kBetween ? q : next == Mode::kLow ? low : high;
+    if (next == Mode::kBetween) stiffness[i] = rho[i];
   }
   D = {};
   D.nn = stiffness[0];

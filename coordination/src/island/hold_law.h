@@ -10,8 +10,12 @@ namespace tandem {
 ///
 ///   P = min(max(P0 - rho u, low), high)
 struct HoldLaw {
+  /// The impulse is at a bound, or between them.
+  enum class Mode { kLow, kBetween, kHigh };
+
   JointHold* hold[3] = {};
   int count = 0;
+  Mode mode[3] = {};
   double u[3] = {};              ///< above the wanted speed
   double P0[3] = {}, P[3] = {};  ///< impulses
   double rho[3] = {};
@@ -23,8 +27,10 @@ struct HoldLaw {
   }
   /// Adds a row; `J.a` and `J.b` are set.
   void add(JointHold& next, ContactJacobian& J, double stiffness) noexcept;
-  /// P and D by the present speeds.
-  void respond() noexcept;
+  /// Chooses the modes that the present speeds ask for, and P and D by them. A row that would go
+  /// from one bound to the other stops in between first, and is `is_forced`: Newton's steps would
+  /// take a motor to and fro for ever.
+  void choose(bool& has_changed, bool& is_forced) noexcept;
   [[nodiscard]] double stiffness(int i) const noexcept {
     return i == 0 ? D.nn : i == 1 ? D.ss : D.tt;
   }

@@ -91,8 +91,7 @@ void IslandModel::listPresent() noexcept {
   const auto touches = [&](BodyIndex b) { return meets(b) && !bodies[b].has_tool; };
   for (const IslandContact& contact : contacts)
     if (touches(contact.sphere) && touches(contact.other) &&
-        letsMeet(contact.sphere, contact.other) &&
-        !areJoined(contact.sphere, contact.other))
+        letsMeet(contact.sphere, contact.other) && !areJoined(contact.sphere, contact.other))
       present_contacts.push_back(contact);
   for (std::size_t c = 0; c < couplers.size(); ++c)
     if (bodies[couplers[c].follower].isPresent()) present_couplers.push_back(static_cast<int>(c));

@@ -178,8 +178,7 @@ void JointForces::gather(double moment) noexcept {
       source_->evaluate(joint.index, a, b, later_);
     }
     first_row_.push_back(rows_.size());
-    for (std::size_t i = 0; i < now_.size(); ++i) {
-      const JointRow& row = now_[i];
+    for (const JointRow& row : now_) {
       double& force = force_[place(joint.index, row)];
       force = 0.0;
       const double mobility = mobilityOf(joint, row);
@@ -196,8 +195,10 @@ void JointForces::gather(double moment) noexcept {
       if (mode == JointMode::kHigh) push(joint, row, force = row.high);
       if (mode != JointMode::kHolds || rows_.size() == rows_.capacity()) continue;
       // Rows hardly ever come or go within a moment.
-      const bool is_same = i < later_.size() && later_[i].number == row.number;
-      addRow(joint, row, is_same ? &later_[i] : nullptr, moment);
+      const auto same = std::find_if(later_.begin(), later_.end(), [&](const JointRow& other) {
+        return other.number == row.number;
+      });
+      addRow(joint, row, same != later_.end() ? &*same : nullptr, moment);
     }
   }
 }
