@@ -23,7 +23,7 @@ void readAt(PartsRig& rig, const Vec3& p_W, const Vec3& v_W = Vec3::Zero()) {
 
 /// Renders a contact force, as one tick does.
 Vec3 render(PartsRig& rig, const Vec3& contact_W, bool fault = false) {
-  rig.hand.render(contact_W, rig.peers, fault);
+  rig.hand.render(contact_W, Vec3::Zero(), rig.peers, fault);
   rig.hand.write();
   return rig.device.force_W;
 }
@@ -111,7 +111,7 @@ TEST(LocalHand, GetsLessForceAsItsEnergyRunsOutWithPeersOrAlone) {
     readAt(rig, Vec3(0.015, 0, 0), Vec3(0.1, 0, 0));
     rig.hand.place();
     rig.hand.countWork();
-    rig.hand.render(Vec3(2, 0, 0), rig.peers, false);
+    rig.hand.render(Vec3(2, 0, 0), Vec3::Zero(), rig.peers, false);
     EXPECT_NEAR(rig.hand.force().x(), 1.0, 1e-12);
     EXPECT_EQ(rig.hand.contact(), Vec3(2, 0, 0));
     EXPECT_EQ(rig.hand.energy().limitedCount(), 1u);
@@ -145,10 +145,49 @@ TEST(LocalHand, KeepsToTheSlowerSlewAndTheDevicesForce) {
   SiteLog log;
   const Peers none(settings, island, bodies, hand.energy(), log);
   for (int i = 1; i <= 10; ++i) {
-    hand.render(Vec3(0, 0, 8), none, false);
+    hand.render(Vec3(0, 0, 8), Vec3::Zero(), none, false);
     EXPECT_NEAR(hand.force().z(), std::min(3.0, 0.5 * i), 1e-14) << i;
   }
   EXPECT_EQ(hand.guard().clampedCount(), 10u);
+}
+
+// A torque rises within 20 ms to the device's limit, and fades with the force.
+TEST(LocalHand, RendersATorqueWithinTheDevicesLimit) {
+  test::FakeDevice device;
+  device.limits.max_torque = 0.1;  // [N m]
+  Island island{IslandSettings{}};
+  const SiteSettings settings;
+  LocalHand hand(device, settings, island, true);
+  Bodies bodies;
+  SiteLog log;
+  const Peers none(settings, island, bodies, hand.energy(), log);
+  ASSERT_TRUE(hand.feelsTorque());
+  const Vec3 wanted(0.0, 0.3, -0.4);
+  for (int i = 1; i <= 25; ++i) {
+    hand.render(Vec3::Zero(), wanted, none, false);
+    hand.write();
+    EXPECT_NEAR(device.torque_W.norm(), std::min(0.1, 0.005 * i), 1e-12) << i;
+    EXPECT_GT(device.torque_W.dot(wanted), 0.0);
+  }
+  for (int i = 1; i <= 25; ++i) {
+    hand.render(Vec3::Zero(), wanted, none, true);
+    hand.write();
+    EXPECT_NEAR(device.torque_W.norm(), std::max(0.0, 0.1 - 0.005 * i), 1e-12) << i;
+  }
+}
+
+// A wrist whose quaternion is no rotation turns nothing.
+TEST(LocalHand, TakesOnlyAWristThatIsUsable) {
+  PartsRig rig;
+  rig.device.sample = {{}, true, WristState{Quat(0.6, 0.0, 0.8, 0.0), Vec3(1, 0, 0)}};
+  rig.hand.read(0.0);
+  ASSERT_TRUE(rig.hand.wrist());
+  for (const Quat& bad : {Quat(0, 0, 0, 0), Quat(2, 0, 0, 0), Quat(kNan, 0, 0, 0)}) {
+    rig.device.sample.wrist->q_WH = bad;
+    rig.hand.read(0.001);
+    EXPECT_EQ(rig.hand.wrist()->q_WH.coeffs(), Quat(0.6, 0.0, 0.8, 0.0).coeffs());
+    EXPECT_EQ(rig.hand.wrist()->w_W, Vec3::Zero());
+  }
 }
 
 TEST(LocalHand, ReadsAContinuousDeviceAgainInsideATick) {

@@ -8,7 +8,7 @@
 
 namespace tandem::test {
 
-/// A device at a place that the test sets; it records the forces written to it.
+/// A device at a place that the test sets; it records force and torque written to it.
 class FakeDevice final : public HapticDevice {
  public:
   FakeDevice() = default;
@@ -16,10 +16,11 @@ class FakeDevice final : public HapticDevice {
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override { return limits; }
   [[nodiscard]] DeviceSample read(double) noexcept override { return sample; }
   void write(const Vec3& f_W) noexcept override { force_W = f_W; }
+  void writeTorque(const Vec3& t_W) noexcept override { torque_W = t_W; }
 
   DeviceCapabilities limits{"fake"};
   DeviceSample sample{{}, true};
-  Vec3 force_W = Vec3::Zero();
+  Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();
 };
 
 /// A link whose arrivals the test inserts, ordered by time. It keeps up to `room` sent packets.

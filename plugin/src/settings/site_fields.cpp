@@ -91,6 +91,15 @@ std::vector<SiteField> makeFields() {
           "grip.break_time", "s", "at the limit, after which the grip breaks", kNotNegative, kOwn),
       field<&S::grip, &GripSettings::fade_time>(
           "grip.fade_time", "s", "of the force after a release", kNotNegative, kShared),
+      field<&S::tool, &ToolSettings::stiffness>("tool.stiffness", "N/m",
+                                                "K of the spring between a hand and its tool",
+                                                kPositive, kShared),
+      field<&S::tool, &ToolSettings::damping_ratio>(
+          "tool.damping_ratio", "", "of that spring with hand and tool", kNotNegative, kShared),
+      field<&S::tool, &ToolSettings::radius>(
+          "tool.radius", "m", "the torque's spring has K times its square", kNotNegative, kShared),
+      field<&S::tool, &ToolSettings::max_force>(
+          "tool.max_force", "N", "of the hold; times the radius: torque", kPositive, kShared),
       field<&S::hip_radius>("hip_radius", "m", "of the local haptic interface point", kPositive,
                             kOwn),
       field<&S::hand_group>("hand_group", "", "collision group of the hand and of proxies", kBits,

@@ -54,15 +54,15 @@ void EnergyPort::credit(double most, bool keeps_all) noexcept {
 
 /// With the impulse J = f T and the least mass m, the hand gets J . v + J^2 / (2 m), and up to
 /// |J| |dv| / 2 <= J^2 / (4 m) + m dv^2 / 4 by the change dv of its velocity.
-Vec3 EnergyPort::limit(const Vec3& wanted_W, const Vec3& v_W, const Vec3& change_W,
-                       double duration) noexcept {
+double EnergyPort::computeShare(const Vec3& wanted_W, double turning, const Vec3& v_W,
+                                const Vec3& change_W, double duration) noexcept {
   const double m = settings_.least_mass;
-  const TickEnergy whole{duration * wanted_W.dot(v_W) + 0.25 * m * change_W.squaredNorm(),
-                         0.75 * duration * duration / m * wanted_W.squaredNorm()};
+  const TickEnergy whole{
+      duration * (wanted_W.dot(v_W) + turning) + 0.25 * m * change_W.squaredNorm(),
+      0.75 * duration * duration / m * wanted_W.squaredNorm()};
   const double share = observer_.computeShare(whole);
-  if (share == 1.0) return wanted_W;
-  ++limited_;
-  return share * wanted_W;
+  limited_ += share != 1.0;
+  return share;
 }
 
 }  // namespace tandem

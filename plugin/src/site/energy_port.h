@@ -63,10 +63,11 @@ class EnergyPort {
     if (waiting_ > 0.0 || !keeps_all) credit(settings_.power * period, keeps_all);
   }
 
-  /// The share of `wanted_W` [N] that a hand of velocity `v_W` may get over `duration` [s]. Its
-  /// velocity is expected to change by as much as `change_W` [m/s], in any direction.
-  [[nodiscard]] Vec3 limit(const Vec3& wanted_W, const Vec3& v_W, const Vec3& change_W,
-                           double duration) noexcept;
+  /// The share of `wanted_W` [N] that a hand of velocity `v_W` may get over `duration` [s], with a
+  /// torque of the power `turning` [W]. Its velocity is expected to change by as much as `change_W`
+  /// [m/s], in any direction.
+  [[nodiscard]] double computeShare(const Vec3& wanted_W, double turning, const Vec3& v_W,
+                                    const Vec3& change_W, double duration) noexcept;
 
  private:
   void credit(double most, bool keeps_all) noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coordination/src/geometry/turn.h"
+#include "site/shorten.h"
 
 namespace tandem {
 namespace {
@@ -13,21 +14,31 @@ constexpr double kBlendSpeed = 0.5;
 /// Part of the time to come to the hand that is left for a hand that is heard late.
 constexpr double kLeastBlend = 0.25;
 
+/// States of a user that are farther apart tell no rate [s].
+constexpr double kLongestGap = 0.1;
+/// A user's hand turns no faster [rad/s].
+constexpr double kFastestTurn = 50.0;
+
 double computeCritical(double stiffness, double inertia) noexcept {
   return 2.0 * std::sqrt(stiffness * inertia);
 }
 
-/// Gains of a hand's grip of a body.
-CouplerSettings computeGains(const SiteSettings& settings, const IslandBody& body,
-                             const Vec3& p_BG) noexcept {
+/// How firmly a hand holds.
+ToolSettings chooseHold(const SiteSettings& settings, const SharedObject& object) noexcept {
+  if (object.tool_of) return settings.tool;
   const GripSettings& grip = settings.grip;
-  const double hand = settings.proxy.mass;
+  return {grip.stiffness, grip.damping_ratio, grip.radius, grip.max_force};
+}
+
+/// Gains of a hand's grip of a body.
+CouplerSettings computeGains(const ToolSettings& hold, double hand, const IslandBody& body,
+                             const Vec3& p_BG) noexcept {
   const double reduced = hand * body.mass / (hand + body.mass);
   // It turns about the grip.
   const double inertia = body.inertia_B.maxCoeff() + body.mass * p_BG.squaredNorm();
-  const double turn = grip.stiffness * grip.radius * grip.radius;
-  return {{grip.stiffness, grip.damping_ratio * computeCritical(grip.stiffness, reduced)},
-          {turn, grip.damping_ratio * computeCritical(turn, inertia)}};
+  const double turn = hold.stiffness * hold.radius * hold.radius;
+  return {{hold.stiffness, hold.damping_ratio * computeCritical(hold.stiffness, reduced)},
+          {turn, hold.damping_ratio * computeCritical(turn, inertia)}};
 }
 
 /// Rises from 0 to 1 without a jump of its rate.
@@ -57,6 +68,27 @@ void GripHold::begin(const GripState& told, const SharedObject& object) noexcept
   state_ = told;
   is_found_ = finds_turn_ = finds_place_ = false;
   at_limit_ = 0.0;
+}
+
+GripState GripHold::tell() const noexcept {
+  GripState told = state_;
+  told.q_BG = findWanted().conjugate();
+  return told;
+}
+
+Quat GripHold::findWanted() const noexcept {
+  return (wrist_.q_WH * state_.q_BG.conjugate()).normalized();
+}
+
+void GripHold::turn(const GripState& told, double time) noexcept {
+  const double passed = time - told_at_;
+  if (passed == 0.0) return;
+  const Quat before = state_.q_BG.conjugate(), now = told.q_BG.conjugate();
+  const Vec3 turn_W = computeTurn(before.coeffs().data(), now.coeffs().data()).toVec3();
+  const bool is_next = passed > 0.0 && passed < kLongestGap;
+  wrist_.w_W = is_next ? shortenTo(Vec3(turn_W / passed), kFastestTurn) : Vec3(Vec3::Zero());
+  state_.q_BG = told.q_BG;
+  told_at_ = time;
 }
 
 void GripHold::letGo() noexcept {
@@ -105,18 +137,20 @@ void GripHold::follow(const SharedObject& object, double period, double share,
 /// The pull begins at nothing: the object is where the spring rests.
 void GripHold::find(const SharedObject& object) noexcept {
   const GripSettings& grip = settings_->grip;
+  const ToolSettings hold = chooseHold(*settings_, object);
   const RigidState& body = island_->state(object.body.index);
   is_found_ = true;
-  if (finds_turn_) state_.q_BG = body.q_WB.conjugate();
+  if (finds_turn_) state_.q_BG = body.q_WB.conjugate() * wrist_.q_WH;
   if (finds_place_) state_.p_BG = body.q_WB.conjugate() * (island_->state(hand_).p_W - body.p_W);
   hold_.body = object.body.index;
   hold_.p_FG = state_.p_BG;
-  hold_.gains = computeGains(*settings_, object.settings, state_.p_BG);
-  hold_.max_force = grip.max_force;
-  hold_.max_torque = grip.max_force * grip.radius;
+  hold_.gains = computeGains(hold, settings_->proxy.mass, object.settings, state_.p_BG);
+  hold_.max_force = hold.max_force;
+  hold_.max_torque = hold.max_force * hold.radius;
+  hold_.is_tool = object.tool_of.has_value();
   hold_.offset_W.setZero();
   found_W_ = -findWay(body);
-  const Quat wanted = state_.q_BG.conjugate();
+  const Quat wanted = findWanted();
   found_turn_W_ = computeTurn(wanted.coeffs().data(), body.q_WB.coeffs().data()).toVec3();
   p_before_W_ = body.p_W + body.q_WB * hold_.p_FG;
   blended_ = 0.0;
@@ -140,7 +174,8 @@ void GripHold::blend(double period) noexcept {
   blended_ = std::min(blended_ + period, blend_length_);
   const double done = blend_length_ > 0.0 ? easeIn(blended_ / blend_length_) : 1.0;
   hold_.offset_W = (1.0 - done) * found_W_;
-  hold_.q_WF = turnBy((1.0 - done) * found_turn_W_, state_.q_BG.conjugate());
+  hold_.q_WF = turnBy((1.0 - done) * found_turn_W_, findWanted());
+  hold_.w_W = wrist_.w_W;
 }
 
 /// The spring's force against the weight becomes lift, which takes over what hangs and never more.

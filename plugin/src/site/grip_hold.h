@@ -33,6 +33,8 @@ class GripHold {
   [[nodiscard]] bool isHolding() const noexcept { return phase_ == Phase::kHolding; }
   /// What is held, and how; `epoch` and `age` are those told.
   [[nodiscard]] const GripState& state() const noexcept { return state_; }
+  /// The same for a peer: the hand's frame is W's, so its orientation in B changes with the wrist.
+  [[nodiscard]] GripState tell() const noexcept;
   [[nodiscard]] double share() const noexcept { return hold_.share; }
   [[nodiscard]] GripPull computePull() const noexcept { return island_->computeGripPull(index_); }
 
@@ -42,6 +44,12 @@ class GripHold {
   /// Takes hold of an object by its place `at_B`, or where the hand is then, and as it is turned
   /// then.
   void begin(const SharedObject& object, const std::optional<Vec3>& at_B) noexcept;
+  /// The hand turns: what it holds turns along. Before follow().
+  void turn(const WristState& wrist) noexcept { wrist_ = wrist; }
+  /// The same for a user elsewhere, with its newest state at its time `time` [s].
+  void turn(const GripState& told, double time) noexcept;
+  /// The user is silent: its hand is not known to turn.
+  void stopTurning() noexcept { wrist_.w_W.setZero(); }
   /// Lets go: the pull fades.
   void letGo() noexcept;
   /// Lets go at once.
@@ -65,6 +73,7 @@ class GripHold {
   void countWork(const RigidState& body) noexcept;
   void lift(const SharedObject& object, double period, double sites, bool is_limited) noexcept;
   [[nodiscard]] Vec3 findWay(const RigidState& body) const noexcept;
+  [[nodiscard]] Quat findWanted() const noexcept;
 
   const SiteSettings* settings_;
   Island* island_;
@@ -75,6 +84,8 @@ class GripHold {
   bool finds_turn_ = false;   ///< it stays turned as it is found
   bool finds_place_ = false;  ///< it is held where the hand is found
   GripState state_;
+  WristState wrist_;      ///< of the hand
+  double told_at_ = 0.0;  ///< the user's time of `state_`, for a user elsewhere [s]
   IslandGrip hold_;
   Vec3 found_W_ = Vec3::Zero();                ///< offset at the beginning [m]
   Vec3 found_turn_W_ = Vec3::Zero();           ///< from the wanted orientation to the found one

@@ -40,10 +40,15 @@ std::optional<Grip> Grips::grip() const noexcept {
   return Grip{*state.object, state.p_BG, pull.f_W, pull.t_W, !local_->isHolding()};
 }
 
+Vec3 Grips::computeTorque() const noexcept {
+  if (!isBusy()) return Vec3::Zero();
+  return -local_->computePull().t_W;
+}
+
 std::optional<GripState> Grips::state(double time) const noexcept {
   if (!has_changed_) return std::nullopt;
   GripState told;
-  if (local_->isHolding()) told = local_->state();
+  if (local_->isHolding()) told = local_->tell();
   told.epoch = epoch_;
   told.age = std::max(0.0, time - changed_at_);
   return told;
@@ -56,7 +61,8 @@ void Grips::follow(double now, double period) noexcept {
   is_new_ = false;
   for (const Peer& peer : peers_) {
     Remote& remote = remotes_[static_cast<std::size_t>(peer.place)];
-    if (remote.hold && (remote.hold->isOn() || peer.latest.grip)) followPeer(peer, remote, period);
+    if (remote.hold && (remote.hold->isOn() || peer.latest.grip))
+      followPeer(peer, remote, now, period);
   }
 }
 
@@ -67,9 +73,10 @@ void Grips::followLocal(double period) noexcept {
     if (local_->isHolding()) noteChange();
     return local_->drop();
   }
+  if (hand_.wrist()) local_->turn(*hand_.wrist());
   local_->follow(object, period, 1.0, countSites());
   hand_.energy().countLift(local_->takeWork());
-  if (!local_->isHolding() || local_->timeAtLimit() < settings_.grip.break_time ||
+  if (!local_->isHolding() || object.tool_of || local_->timeAtLimit() < settings_.grip.break_time ||
       local_->timeAtLimit() == 0.0)
     return;
   ++log_.counters.grips_broken;
@@ -90,10 +97,11 @@ const SharedObject* Grips::findTold(const Peer& peer) const noexcept {
   if (!told || !told->object || *told->object >= peer.ties.size()) return nullptr;
   const SharedObject& object = bodies_.objects[*told->object];
   const bool is_here = object.body.is_held && peer.isRenewed(peer.ties[object.id], object);
-  return is_here ? &object : nullptr;
+  const bool may_hold = !object.tool_of || *object.tool_of == peer.id;
+  return is_here && may_hold ? &object : nullptr;
 }
 
-void Grips::followPeer(const Peer& peer, Remote& remote, double period) noexcept {
+void Grips::followPeer(const Peer& peer, Remote& remote, double now, double period) noexcept {
   GripHold& hold = *remote.hold;
   const std::optional<GripState>& told = peer.latest.grip;
   const SharedObject* object = findTold(peer);
@@ -106,6 +114,8 @@ void Grips::followPeer(const Peer& peer, Remote& remote, double period) noexcept
     hold.begin(*told, *object);
     remote.epoch = object->epoch;
   }
+  if (object && hold.isHolding()) hold.turn(*told, peer.latest.time);
+  if (peer.health.isOverdue(now)) hold.stopTurning();
   if (!hold.isOn()) return;
   if (peer.health.isProxyOut()) return hold.pause();
   const SharedObject& held = bodies_.objects[*hold.state().object];

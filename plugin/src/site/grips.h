@@ -31,7 +31,8 @@ class Grips {
   /// Set-up: the peer that is about to be added may hold objects, too. Allocates.
   void addPeer(const Peer& peer);
 
-  /// The local hand takes hold of an object of the island.
+  /// The local hand takes hold of an object of the island. The local user's tool does not break
+  /// off.
   void grab(const SharedObject& object, const std::optional<Vec3>& at_B) noexcept;
   void release() noexcept;
   /// The local grip, if there is one.
@@ -41,6 +42,8 @@ class Grips {
   void follow(double now, double period) noexcept;
   /// The local hand holds something, or has just let go.
   [[nodiscard]] bool isBusy() const noexcept { return local_ && local_->isOn(); }
+  /// Torque of the local grip on the hand, in W [N m].
+  [[nodiscard]] Vec3 computeTorque() const noexcept;
   /// For a packet whose state belongs to `time` [s].
   [[nodiscard]] std::optional<GripState> state(double time) const noexcept;
 
@@ -52,7 +55,7 @@ class Grips {
   };
 
   void followLocal(double period) noexcept;
-  void followPeer(const Peer& peer, Remote& remote, double period) noexcept;
+  void followPeer(const Peer& peer, Remote& remote, double now, double period) noexcept;
   void noteChange() noexcept;
   [[nodiscard]] double countSites() const noexcept;
   [[nodiscard]] const SharedObject* findTold(const Peer& peer) const noexcept;

@@ -1,19 +1,34 @@
 #include "site/local_hand.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "site/peers.h"
 
 namespace tandem {
+namespace {
+
+/// A torque rises and fades between zero and the device's limit within this time [s].
+constexpr double kTorqueRise = 0.02;
+
+/// A device's orientation may have seven digits.
+bool isUsable(const WristState& wrist) noexcept {
+  return isFinite(wrist) && std::abs(wrist.q_WH.norm() - 1.0) < 1e-3;
+}
+
+}  // namespace
 
 LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island& island,
                      bool island_moves)
     : device_(device),
       island_(island),
       period_(1.0 / settings.haptic_rate),
+      most_torque_(device.capabilities().max_torque),
       guard_(device.capabilities().max_force,
              std::min(settings.max_slew, device.capabilities().max_slew) / settings.haptic_rate,
              settings.fault_slew / settings.haptic_rate),
+      torque_guard_(most_torque_, most_torque_ * period_ / kTorqueRise,
+                    most_torque_ * period_ / kTorqueRise),
       energy_(settings.passivity, island_moves) {
   read(0.0);
   if (!isThere())
@@ -25,6 +40,19 @@ LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island&
   body.filter = {settings.hand_group, settings.hand_mask};
   body.start.p_W = hand_.p_W;
   hip_ = island.addBody(body);
+}
+
+void LocalHand::read(double now) noexcept {
+  sample_ = device_.read(now);
+  is_there_ = sample_.valid && isFinite(sample_.hip);
+  hand_ = frame_.toWorld(sample_.hip);
+  const bool is_turning = is_there_ && sample_.wrist && isUsable(*sample_.wrist);
+  if (is_turning) {
+    wrist_ = sample_.wrist;
+    wrist_->q_WH.normalize();
+  } else if (wrist_) {
+    wrist_->w_W.setZero();
+  }
 }
 
 void LocalHand::shiftOrigin(const Vec3& offset_W) noexcept {
@@ -65,6 +93,7 @@ void LocalHand::countWork() noexcept {
   }
   if (p_before_W_ && force_W_ != Vec3::Zero())
     energy_.countHand(force_W_, hand_.p_W - *p_before_W_);
+  if (wrist_ && torque_W_ != Vec3::Zero()) energy_.countHand(torque_W_, period_ * wrist_->w_W);
   p_before_W_ = hand_.p_W;
   v_before_W_ = v_known_W_;
   v_known_W_ = hand_.v_W;
@@ -78,14 +107,33 @@ const Vec3& LocalHand::computeContactForce() noexcept {
   return contact_W_;
 }
 
-void LocalHand::render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept {
+void LocalHand::render(const Vec3& contact_W, const Vec3& torque_W, const Peers& peers,
+                       bool fault) noexcept {
   contact_W_ = contact_W;
   if (energy_.isKept()) energy_.receive(period_, peers.keepAccounts());
-  if (contact_W_ == Vec3::Zero() && force_W_ == Vec3::Zero()) return;
+  const bool has_torque = torque_W != Vec3::Zero() || torque_W_ != Vec3::Zero();
+  if (contact_W_ == Vec3::Zero() && force_W_ == Vec3::Zero() && !has_torque) return;
   force_W_ = guard_.follow(guard_.clamp(contact_W_), fault || fades_);
-  if (energy_.isKept())
-    force_W_ = energy_.limit(force_W_, v_known_W_, v_known_W_ - v_before_W_, period_);
+  if (has_torque) torque_W_ = torque_guard_.follow(torque_guard_.clamp(torque_W), fault || fades_);
+  if (energy_.isKept()) {
+    const double turning = wrist_ ? torque_W_.dot(wrist_->w_W) : 0.0;
+    const double share =
+        energy_.computeShare(force_W_, turning, v_known_W_, v_known_W_ - v_before_W_, period_);
+    if (share != 1.0) force_W_ *= share;
+    if (share != 1.0) torque_W_ *= share;
+  }
   guard_.note(force_W_);
+  torque_guard_.note(torque_W_);
+}
+
+void LocalHand::write() noexcept {
+  device_.write(force_W_);
+  if (feelsTorque()) device_.writeTorque(torque_W_);
+}
+
+void LocalHand::letGo() noexcept {
+  device_.write(Vec3::Zero());
+  if (feelsTorque()) device_.writeTorque(Vec3::Zero());
 }
 
 PointState LocalHand::pointAt(double time, double tick_start) noexcept {

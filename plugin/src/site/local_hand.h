@@ -15,8 +15,8 @@ namespace tandem {
 class Peers;
 
 // clang-format off
-/// The local user's hand: its device, its haptic interface point (HIP) in the island, its energy
-/// account and the rendered force.
+/// The local user's hand: its device, its haptic interface point (HIP) in the island, its wrist, its
+/// energy account and the rendered force and torque.
 ///
 ///     read -> place the HIP -> energy of the last tick -> contact force -> clamp -> slew -> energy
 ///     -> write
@@ -34,11 +34,9 @@ class LocalHand {
   /// True if the latest sample has a usable position.
   [[nodiscard]] bool isThere() const noexcept { return is_there_; }
 
-  void read(double now) noexcept {
-    sample_ = device_.read(now);
-    is_there_ = sample_.valid && isFinite(sample_.hip);
-    hand_ = frame_.toWorld(sample_.hip);
-  }
+  void read(double now) noexcept;
+  /// The latest usable orientation; empty: the device has none.
+  [[nodiscard]] const std::optional<WristState>& wrist() const noexcept { return wrist_; }
   /// The host's world got another origin; the hand goes along.
   void shiftOrigin(const Vec3& offset_W) noexcept;
   /// Moves the HIP to the hand. Without a usable sample the HIP stays and its velocity is zero.
@@ -51,17 +49,22 @@ class LocalHand {
 
   /// Contact force on the HIP in the island [N], cached while the island sleeps.
   [[nodiscard]] const Vec3& computeContactForce() noexcept;
-  /// Computes the force of this tick, within the energy that is left. With a `fault` it fades.
-  void render(const Vec3& contact_W, const Peers& peers, bool fault) noexcept;
-  void write() noexcept { device_.write(force_W_); }
+  /// True if the device renders torques.
+  [[nodiscard]] bool feelsTorque() const noexcept { return most_torque_ > 0.0; }
+  /// Computes force and torque of this tick, within the energy that is left. With a `fault` they
+  /// fade.
+  void render(const Vec3& contact_W, const Vec3& torque_W, const Peers& peers, bool fault) noexcept;
+  void write() noexcept;
   /// Writes zero force at once, without a slew.
-  void letGo() noexcept { device_.write(Vec3::Zero()); }
+  void letGo() noexcept;
   /// True: the force fades to zero and stays there. False: it may rise again.
   void setFading(bool fades) noexcept { fades_ = fades; }
 
   /// Contact force of the model and the rendered force, in W [N].
   [[nodiscard]] const Vec3& contact() const noexcept { return contact_W_; }
   [[nodiscard]] const Vec3& force() const noexcept { return force_W_; }
+  /// Rendered torque, in W [N m]; 0 if the device renders none.
+  [[nodiscard]] const Vec3& torque() const noexcept { return torque_W_; }
   /// The HIP at `time` [s], for a packet. Inside a tick a continuous device is read again.
   [[nodiscard]] PointState pointAt(double time, double tick_start) noexcept;
 
@@ -77,16 +80,18 @@ class LocalHand {
   Island& island_;
   double period_;
   BodyIndex hip_ = 0;
-  ForceGuard guard_;
+  double most_torque_;  ///< [N m]
+  ForceGuard guard_, torque_guard_;
   EnergyPort energy_;
   SessionFrame frame_;  ///< of the device
   DeviceSample sample_;
   PointState hand_;  ///< of the latest sample, in W
+  std::optional<WristState> wrist_;
   bool is_there_ = false, was_there_ = true;
   Vec3 v_known_W_ = Vec3::Zero();   ///< of the latest usable sample
   Vec3 v_before_W_ = Vec3::Zero();  ///< of the usable sample before it
   std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
-  Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
+  Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero(), torque_W_ = Vec3::Zero();
   RestMark contact_rest_;  ///< when the contact force was computed
   bool fades_ = false;
 };

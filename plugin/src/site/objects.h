@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "tandem/coordination/link.h"
@@ -12,14 +13,16 @@ class btRigidBody;
 
 namespace tandem {
 
-/// A body of the host of which every peer has a copy.
+/// A body of the host of which every peer has a copy. The copies of an object are tied together,
+/// each with its part of the mass. Those of a tool are not: the user's hand holds each of them.
 struct SharedObject {
   btRigidBody* rigid = nullptr;        ///< the host's body; null after unshare()
   std::unique_ptr<HapticBody> bullet;  ///< `body` points to it
   IslandBody settings;                 ///< island body, as it was held last
   SiteBody body;
   ObjectId id = 0;
-  double damping = 0.0;  ///< of this copy [N s/m]
+  std::optional<PeerId> tool_of;  ///< the user of a tool; empty: an object of all
+  double damping = 0.0;           ///< of this copy [N s/m]
   double bounding_radius = 0.0;
   ObjectEpoch epoch;        ///< of our copy; for the thread that ticks
   ObjectEpoch said;         ///< what peers are told: `epoch`, once our copy has followed
@@ -40,10 +43,15 @@ struct SharedObject {
     seen.p_W += offset_W;
   }
 
+  /// Part of the body's mass that this copy has, one of `peers` copies.
+  [[nodiscard]] double massShare(int peers) const noexcept {
+    return tool_of ? 1.0 : 1.0 / static_cast<double>(peers);
+  }
+
   /// Takes the host's body as it is now, one of `peers` copies. It must be dynamic and in the
   /// world.
   void hold(btDiscreteDynamicsWorld& world, int peers, const Shape& shape) {
-    bullet = std::make_unique<HapticBody>(world, *rigid, 1.0 / static_cast<double>(peers));
+    bullet = std::make_unique<HapticBody>(world, *rigid, massShare(peers));
     body.bullet = bullet.get();
     bounding_radius = computeBoundingRadius(shape);
     settings.shape = shape;

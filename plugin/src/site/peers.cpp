@@ -41,6 +41,7 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
 }
 
 CouplerSettings Peers::makeCoupler(const SharedObject& object) const noexcept {
+  if (object.tool_of) return {};
   const CouplerGains& linear = settings_.coordination;
   const double radius_squared = object.settings.inertia_B.maxCoeff() / object.settings.mass;
   return {linear, settings_.angular_coordination.value_or(CouplerGains{

@@ -13,6 +13,9 @@ ObjectId Site::share(btRigidBody& body, double damping) { return impl_->share(bo
 std::vector<ObjectId> Site::share(const std::vector<NamedBody>& bodies) {
   return impl_->share(bodies);
 }
+ObjectId Site::shareTool(btRigidBody& body, PeerId user, const Vec3& at_B) {
+  return impl_->shareTool(body, user, at_B);
+}
 void Site::share(ObjectId id, btRigidBody& body) { impl_->share(id, body); }
 void Site::unshare(ObjectId id) { impl_->unshare(id); }
 void Site::shiftOrigin(const Vec3& offset_W) { impl_->shiftOrigin(offset_W); }
@@ -38,6 +41,7 @@ std::uint64_t Site::stateHash() const noexcept { return impl_->log.hash(); }
 std::vector<std::string> Site::warnings() const { return impl_->warnings(); }
 
 const Vec3& Site::force() const noexcept { return impl_->hand.force(); }
+const Vec3& Site::torque() const noexcept { return impl_->hand.torque(); }
 const PassivityObserver& Site::passivity() const noexcept {
   return impl_->hand.energy().observer();
 }

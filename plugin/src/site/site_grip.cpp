@@ -13,14 +13,26 @@ enum class Refusal { kNone, kLeftToBullet, kHoldsOther };
 
 }  // namespace
 
-void Site::Impl::grab(ObjectId id, const std::optional<Vec3>& at_B) {
-  if (at_B && !(at_B->cwiseAbs().maxCoeff() <= kFarthestPlace && at_B->allFinite()))
+void Site::Impl::checkPlace(const Vec3& at_B) {
+  if (!(at_B.cwiseAbs().maxCoeff() <= kFarthestPlace && at_B.allFinite()))
     throw std::invalid_argument("the place of a grip must be finite and within 1000 m");
+}
+
+void Site::Impl::checkCanHold() const {
   if (!grips.canHold())
     throw Error(
         "a hand holds objects only with the island and hand-off, and without a guide; leave guide, "
         "contact_model and injection at their defaults");
+}
+
+void Site::Impl::grab(ObjectId id, const std::optional<Vec3>& at_B) {
+  if (at_B) checkPlace(*at_B);
+  checkCanHold();
   const SharedObject& object = findObject(id);
+  if (object.tool_of && *object.tool_of != settings.self)
+    throw Error("object " + std::to_string(id) + " is the tool of user " +
+                std::to_string(static_cast<std::uint32_t>(*object.tool_of)) +
+                "; a hand holds objects and its own tool");
   if (!object.rigid)
     throw Error("object " + std::to_string(id) + " is not shared any more; share a body for it");
   // Nothing may be thrown where a haptic thread runs it.

@@ -22,6 +22,7 @@ struct Site::Impl final : HostStepListener, SiteParts {
   ObjectId share(btRigidBody& rigid, double damping);
   std::vector<ObjectId> share(const std::vector<NamedBody>& named);
   void share(ObjectId id, btRigidBody& rigid);
+  ObjectId shareTool(btRigidBody& rigid, PeerId user, const Vec3& at_B);
   void unshare(ObjectId id);
   void connect(PeerId id, Link& link, const Vec3& start_W);
   /// A haptic thread ticks from now on.
@@ -46,6 +47,9 @@ struct Site::Impl final : HostStepListener, SiteParts {
   std::unique_ptr<HostStep> host_step;
 
  private:
+  ObjectId add(SharedObject object, btRigidBody& rigid);
+  static void checkPlace(const Vec3& at_B);
+  void checkCanHold() const;
   void checkOpenToSetUp();
   SharedObject& findObject(ObjectId id);
   void checkShareable(const btRigidBody& rigid) const;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "tandem/bullet_bridge/shapes.h"
 
@@ -49,6 +50,25 @@ void Site::Impl::checkShareable(const btRigidBody& rigid) const {
 }
 
 ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
+  SharedObject object;
+  object.damping = damping;
+  return add(std::move(object), rigid);
+}
+
+ObjectId Site::Impl::shareTool(btRigidBody& rigid, PeerId user, const Vec3& at_B) {
+  checkPlace(at_B);
+  checkCanHold();
+  if (user == settings.self && grips.isBusy())
+    throw Error("the hand holds something already; release it first");
+  SharedObject tool;
+  tool.tool_of = user;
+  const ObjectId id = add(std::move(tool), rigid);
+  if (user == settings.self) grips.grab(bodies.objects[id], at_B);
+  return id;
+}
+
+/// Adds an object with the values that its body does not tell.
+ObjectId Site::Impl::add(SharedObject object, btRigidBody& rigid) {
   checkOpenToSetUp();
   if (bodies.objects.size() == kMaxSharedObjects)
     throw Error("a site shares at most " + std::to_string(kMaxSharedObjects) + " objects");
@@ -56,10 +76,8 @@ ObjectId Site::Impl::share(btRigidBody& rigid, double damping) {
   const Shape shape = getShareableShape(rigid);
   host_step->leaveNeighbours();  // the body may be a neighbour
 
-  SharedObject object;
   object.id = static_cast<ObjectId>(bodies.objects.size());
   object.rigid = &rigid;
-  object.damping = damping;
   object.hold(host_world.world(), settings.peers, shape);
   host_step->checkObject(object.settings.mass);
   object.body.index = island.addBody(object.settings);
@@ -105,7 +123,8 @@ void Site::Impl::share(ObjectId id, btRigidBody& rigid) {
   checkShareable(rigid);
   static_cast<void>(getShareableShape(rigid));
   HapticBody::checkAttachable(host_world.world(), rigid);
-  host_step->checkObject(1.0 / static_cast<double>(rigid.getInvMass()) / settings.peers);
+  host_step->checkObject(object.massShare(settings.peers) /
+                         static_cast<double>(rigid.getInvMass()));
   host_step->leaveNeighbours();  // the body may be a neighbour
   unshare(id);
   objects.expect(object, rigid);

@@ -20,7 +20,8 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
   grips.follow(now, timeline.period());
 
   // The force of a tick is computed from its start.
-  hand.render(host_step->computeContactForce(), peers, log.hasFault());
+  const Vec3 torque_W = hand.feelsTorque() ? grips.computeTorque() : Vec3(Vec3::Zero());
+  hand.render(host_step->computeContactForce(), torque_W, peers, log.hasFault());
   if (log.recording) log.recordTick(now, hand, bodies, peers, island, !desk.isOpen());
   log.addToHash(now, hand.force(), island);
   if (!island.isAsleep() && !areAwakeFinite(island)) log.raise(kStateNotFinite);

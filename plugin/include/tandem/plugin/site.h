@@ -144,6 +144,22 @@ class Site {
   /// nothing is shared.
   std::vector<ObjectId> share(const std::vector<NamedBody>& bodies);
 
+  /// Gives a user a tool: a dynamic body of this host's world, of any shape that share() takes. At
+  /// the user's own site (SiteSettings::self) the hand holds it from the first tick on, as by
+  /// grab(), with SiteSettings::tool; at the others the user's proxy holds theirs. So the user
+  /// touches things with the body, rigidly and with its friction, and feels them through the hold
+  /// alone. What is seen goes into nothing. Hand and proxy touch nothing meanwhile.
+  ///
+  /// The tool turns with a device that tells its wrist. Another keeps the tool as it is turned at
+  /// the start; an angular factor of 0 makes it stiff. A device with torque feels the hold's. The
+  /// tool keeps its whole mass at each site, and no coupler ties its copies. Its weight is felt: a
+  /// body without gravity has none. `at_B` is the handle, from the centre of mass in the tool's
+  /// frame [m].
+  ///
+  /// All peers share tools and objects in the same order. release() lays the tool down, grab()
+  /// takes it up. Throws as share() and grab() do.
+  ObjectId shareTool(btRigidBody& body, PeerId user, const Vec3& at_B = Vec3::Zero());
+
   /// Gives a shared object back to Bullet, with its own mass and the velocity that it has. Peers
   /// let go of their copies after 16 packets without it, and the other objects stay shared. At any
   /// time between two steps of the host, also with a HapticLoop; the body may be deleted at once.
@@ -169,8 +185,8 @@ class Site {
 
   /// Lets the hand hold a shared object by its place `at_B`, from the centre of mass in the
   /// object's frame [m]; without one, where the hand is. A spring-damper (SiteSettings::grip) keeps
-  /// the place at the hand and the object's orientation as it is now: a device of three degrees of
-  /// freedom has none of its own. The object comes to a hand that is elsewhere within 0.1 s. Its
+  /// the place at the hand, and the object's orientation as it is now: it turns only with a device
+  /// that tells its wrist. The object comes to a hand that is elsewhere within 0.1 s. Its
   /// weight passes to the hand, so that it does not sag. Hand and object do not touch meanwhile.
   ///
   /// The force on the object is minus that on the hand in each tick, before the device's limits.
@@ -179,8 +195,9 @@ class Site {
   /// the same hold of their copy. Recordings do not hold grips.
   ///
   /// At any time between two steps of the host, also with a HapticLoop; waits for it as
-  /// betweenTicks() does. Throws tandem::Error if the object is not shared or left to Bullet, if
-  /// the hand holds another one, and with a guide, a native model or impulse injection. Throws
+  /// betweenTicks() does. Throws tandem::Error if the object is not shared, left to Bullet or
+  /// another user's tool, if the hand holds another one, and with a guide, a native model or
+  /// impulse injection. Throws
   /// std::invalid_argument for a place that is not finite or beyond 1000 m.
   void grab(ObjectId object, const std::optional<Vec3>& at_B = std::nullopt);
 
@@ -229,6 +246,8 @@ class Site {
 
   /// Force on the device in the latest tick, in W [N].
   [[nodiscard]] const Vec3& force() const noexcept;
+  /// Torque on the device in the latest tick, in W [N m]; 0 if it renders none.
+  [[nodiscard]] const Vec3& torque() const noexcept;
   /// Current island states of the haptic interface point, a shared object and a proxy.
   [[nodiscard]] const RigidState& hip() const noexcept;
   [[nodiscard]] const RigidState& object(ObjectId id) const noexcept;

@@ -52,6 +52,14 @@ struct GripSettings {
   double fade_time = 0.05;     ///< of the force after a release or break [s]
 };
 
+/// The hold of a tool: the law of a grip, softer and without an end. Its times are the grip's.
+struct ToolSettings {
+  double stiffness = 1500.0;   ///< K [N/m]; higher is stiffer and needs a faster haptic rate
+  double damping_ratio = 0.7;  ///< of B with hand and tool, of B_r with the tool; higher: calmer
+  double radius = 0.025;       ///< r of the torque's spring [m]; larger turns less
+  double max_force = 40.0;     ///< [N]; times r: limit of the torque [N m]
+};
+
 /// Settings of a site. Site's constructor checks them.
 struct SiteSettings {
   PeerId self{1};
@@ -86,6 +94,7 @@ struct SiteSettings {
   int max_neighbours = 16;
   double host_stall = 0.0;  ///< longest expected silence of the host [s]; widens the search
   GripSettings grip;        ///< Site::grab()
+  ToolSettings tool;        ///< Site::shareTool()
   /// Reaction to a silent remote peer. With a native contact model gains change once per host step.
   /// Rigid contact has no gain; it ends when the proxy is lost.
   LinkLossSettings link_loss;
