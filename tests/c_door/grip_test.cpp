@@ -1,5 +1,6 @@
 // A hand that holds a shared body, through the C door.
 
+#include <cmath>
 #include <string>
 
 #include "c_door/c_door_rig.h"
@@ -98,6 +99,59 @@ TEST(DoorGrip, GoesWithPackets) {
   ok(tandem_link_push(cube.link, &packet));
   cube.steps(1, Vec3(0.0, 0.0, 0.03));
   EXPECT_EQ(cube.read().packets_taken, 1u);
+}
+
+/// A stick that user 1 has as a tool, beside the shared cube.
+struct ToolInHand : HeldCube {
+  std::uint32_t tool = 99;
+
+  ToolInHand() {
+    TandemBodySettings stick = tandem_default_body_settings();
+    stick.size[0] = stick.size[1] = 0.01;
+    stick.size[2] = 0.06;
+    stick.mass = 0.05;
+    stick.start.position[0] = 0.5;
+    TandemBody body = TANDEM_NO_BODY;
+    ok(tandem_world_add_body(world, &stick, &body));
+    ok(tandem_site_share_tool(site, body, 1, nullptr, &tool));
+  }
+  [[nodiscard]] TandemState toolState() const {
+    TandemReading reading{};
+    TandemState objects[2];
+    ok(tandem_site_read(site, &reading, 2, objects, 0, nullptr, nullptr));
+    return objects[1];
+  }
+};
+
+TEST(DoorGrip, AToolComesToTheHandAndTurnsWithIt) {
+  ToolInHand held;
+  EXPECT_EQ(held.tool, 1u);
+  const double half = std::sqrt(0.5), turned[4] = {0, 0, half, half}, rate[3] = {0, 0, 0};
+  const double straight[4] = {0, 0, 0, 1};
+  ok(tandem_device_turn(held.device, straight, rate));
+  held.steps(10, Vec3(0.5, 0.2, 0.0));
+  ok(tandem_device_turn(held.device, turned, rate));
+  held.steps(120, Vec3(0.5, 0.2, 0.0));
+  EXPECT_EQ(held.grip().object, held.tool);
+  const TandemState tool = held.toolState();
+  EXPECT_NEAR(tool.position[1], 0.2, 1e-4);
+  EXPECT_NEAR(std::abs(tool.orientation[2]), half, 1e-4);
+  EXPECT_NEAR(held.read().force[2], -0.05 * kWeight, 1e-3);
+}
+
+TEST(DoorGrip, AToolIsRefusedWithTheReason) {
+  ToolInHand held;
+  TandemBodySettings settings = tandem_default_body_settings();
+  TandemBody body = TANDEM_NO_BODY;
+  settings.mass = 0.1;
+  ok(tandem_world_add_body(held.world, &settings, &body));
+  EXPECT_EQ(tandem_site_share_tool(held.site, body, 1, nullptr, nullptr), TANDEM_CANNOT);
+  EXPECT_NE(std::string(tandem_last_error()).find("release it first"), std::string::npos);
+  const double bad[4] = {0, 0, 0, 2}, rate[3] = {0, 0, 0};
+  EXPECT_EQ(tandem_device_turn(held.device, bad, rate), TANDEM_INVALID_ARGUMENT);
+  std::uint32_t theirs = 0;
+  ok(tandem_site_share_tool(held.site, body, 2, nullptr, &theirs));
+  EXPECT_EQ(tandem_site_grab(held.site, theirs, nullptr), TANDEM_CANNOT);
 }
 
 }  // namespace

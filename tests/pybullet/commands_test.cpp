@@ -212,6 +212,8 @@ TEST(Fuzz, NoCommandBreaksThePlugin) {
                                "release",
                                "grip",
                                "object=0",
+                               "tool_of=1",
+                               "orientation=0,0,0,1",
                                "data",
                                "device",
                                "site",

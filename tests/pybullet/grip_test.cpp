@@ -90,5 +90,25 @@ TEST(HeldBody, GoesWithPackets) {
   EXPECT_LT(held.host.askDoubles("push" + words, packet).status, 0);
 }
 
+TEST(HeldBody, IsAToolThatTurns) {
+  HeldCube held;
+  StubBody body = makeStubCube();
+  body.state.p_W = Vec3(0.0, 0.3, 0.5);
+  const int tool = held.host.engine.add(body);
+  EXPECT_EQ(held.host.command("share body=" + std::to_string(tool) + " tool_of=1"), 1);
+  const double mass = held.host.engine.bodies.at(tool).mass;
+  for (int i = 0; i < 500; ++i) {
+    held.host.command(std::string("hand position=0,0.3,0.53 velocity=0,0,0 orientation=") +
+                      (i < 10 ? "0,0,0,1" : "0,0,0.6,0.8"));
+    held.host.step(1);
+  }
+  const RigidState& state = held.host.engine.bodies.at(tool).state;
+  EXPECT_LT((state.p_W - Vec3(0.0, 0.3, 0.53)).norm(), 1e-3);
+  EXPECT_NEAR(std::abs(state.q_WB.z()), 0.6, 1e-3);
+  EXPECT_EQ(held.host.engine.bodies.at(tool).mass, mass);  // whole
+  EXPECT_EQ(held.grip()[kObject], 1.0);
+  EXPECT_FALSE(held.host.refusal("share body=0 tool_of=0").empty());
+}
+
 }  // namespace
 }  // namespace tandem

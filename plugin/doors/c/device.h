@@ -14,12 +14,13 @@ namespace tandem::c_door {
 /// Plain numbers that threads can exchange.
 using Triple = std::array<double, 3>;
 
-/// A device that the caller moves. move() and read() may be called by two threads.
+/// A device that the caller moves and turns, in one thread. Another may read it.
 class MovedDevice final : public HapticDevice {
  public:
   MovedDevice(const Vec3& start_W, const DeviceCapabilities& limits);
 
   void move(const Vec3& p_W, const Vec3& v_W) noexcept;
+  void turn(const Quat& q_WH, const Vec3& w_W) noexcept;
 
   [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override { return limits_; }
   [[nodiscard]] DeviceSample read(double now) noexcept override;
@@ -27,9 +28,12 @@ class MovedDevice final : public HapticDevice {
 
  private:
   struct Motion {
-    Triple p_W{}, v_W{};
+    Triple p_W{}, v_W{}, w_W{};
+    std::array<double, 4> q_WH{};
+    bool has_wrist = false;
   };
   DeviceCapabilities limits_;
+  Motion telling_;  ///< for the thread that moves
   LatestValue<Motion> told_;
   double since_ = 0.0;  ///< time at which the motion was first read [s]
 };
@@ -57,6 +61,7 @@ class ShownForce final : public HapticDevice {
     device_->write(f_W);
     force_W_.write({f_W.x(), f_W.y(), f_W.z()});
   }
+  void writeTorque(const Vec3& t_W) noexcept override { device_->writeTorque(t_W); }
   [[nodiscard]] const Triple& force() noexcept { return force_W_.read(); }
 
  private:

@@ -54,15 +54,25 @@ void SiteEnd::checkObject(std::uint32_t object) const {
                                 "; this site has " + std::to_string(shared_.size()));
 }
 
-ObjectId SiteEnd::share(TandemBody body, double damping) {
+template <typename Share>
+ObjectId SiteEnd::shareBody(TandemBody body, Share share) {
   checkSetUp("sharing a body");
-  requireNotNegative("damping", damping);
   WorldBody& known = findShareable(world_, body);
   shared_.reserve(shared_.size() + 1);
-  const ObjectId object = site_.share(*known.rigid, damping);
+  const ObjectId object = share(*known.rigid);
   shared_.push_back(body);
   known.is_shared = true;
   return object;
+}
+
+ObjectId SiteEnd::share(TandemBody body, double damping) {
+  requireNotNegative("damping", damping);
+  return shareBody(body, [&](btRigidBody& rigid) { return site_.share(rigid, damping); });
+}
+
+ObjectId SiteEnd::shareTool(TandemBody body, std::uint32_t user, const Vec3& at_B) {
+  return shareBody(body,
+                   [&](btRigidBody& rigid) { return site_.shareTool(rigid, PeerId{user}, at_B); });
 }
 
 void SiteEnd::unshare(std::uint32_t object) {

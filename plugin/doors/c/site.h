@@ -31,6 +31,7 @@ class SiteEnd {
   SiteEnd& operator=(const SiteEnd&) = delete;
 
   ObjectId share(TandemBody body, double damping);
+  ObjectId shareTool(TandemBody body, std::uint32_t user, const Vec3& at_B);
   void unshare(std::uint32_t object);
   void shareAgain(std::uint32_t object, TandemBody body);
   [[nodiscard]] TandemObjectState objectState(std::uint32_t object) const;
@@ -46,6 +47,8 @@ class SiteEnd {
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
+  template <typename Share>
+  ObjectId shareBody(TandemBody body, Share share);
   /// Throws while a loop runs, before Site starts any work.
   void checkSetUp(const char* what) const;
   /// Throws unless `object` is one of this site.

@@ -74,6 +74,10 @@ inline constexpr SiteWord kSiteWords[] = {
     word<&TandemSiteSettings::grip_blend_time>("grip_blend_time", "grip.blend_time"),
     word<&TandemSiteSettings::grip_break_time>("grip_break_time", "grip.break_time"),
     word<&TandemSiteSettings::grip_fade_time>("grip_fade_time", "grip.fade_time"),
+    word<&TandemSiteSettings::tool_stiffness>("tool_stiffness", "tool.stiffness"),
+    word<&TandemSiteSettings::tool_damping_ratio>("tool_damping_ratio", "tool.damping_ratio"),
+    word<&TandemSiteSettings::tool_radius>("tool_radius", "tool.radius"),
+    word<&TandemSiteSettings::tool_max_force>("tool_max_force", "tool.max_force"),
 };
 
 }  // namespace tandem::c_door

@@ -25,6 +25,7 @@ static_assert(TANDEM_LINK_REJOINING == static_cast<int>(LinkState::kRejoining));
 [[nodiscard]] TandemReading readSite(const Site& site) noexcept {
   TandemReading reading{};
   writeVec3(site.force(), reading.force);
+  writeVec3(site.torque(), reading.torque);
   writeVec3(site.hip().p_W, reading.hip);
   writeVec3(site.hip().v_W, reading.hip_velocity);
   reading.ticks = site.tickCount();
@@ -106,6 +107,15 @@ TandemResult tandem_site_share(TandemSite* site, TandemBody body, double damping
   return guarded([&] {
     SiteEnd& of = open(site);
     const ObjectId id = of.share(body, damping);
+    if (object) *object = id;
+  });
+}
+
+TandemResult tandem_site_share_tool(TandemSite* site, TandemBody body, uint32_t user,
+                                    const double at[3], uint32_t* object) {
+  return guarded([&] {
+    SiteEnd& of = open(site);
+    const ObjectId id = of.shareTool(body, user, readVec3OrZero("at", at));
     if (object) *object = id;
   });
 }

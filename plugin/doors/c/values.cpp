@@ -30,6 +30,13 @@ constexpr double kUnit = 1e-6;
   return v;
 }
 
+[[nodiscard]] Quat readUnitQuat(const Name& name, const char* part, const double* values) {
+  const Quat q(values[3], values[0], values[1], values[2]);
+  if (!(std::abs(q.norm() - 1.0) <= kUnit))
+    refuse(name, part, q.coeffs(), "x, y, z, w of length 1");
+  return q.normalized();
+}
+
 }  // namespace
 
 void refuseNull(const char* name) {
@@ -65,16 +72,16 @@ Vec3 readUnitVec3(const char* name, const double* values) {
   return v.normalized();
 }
 
+Quat readOrientation(const char* name, const double* values) {
+  return readUnitQuat(name, "", &checkPointer(values, name));
+}
+
 RigidState fromC(const Name& name, const TandemState& state) {
-  const double* q = state.orientation;
   RigidState read;
   read.p_W = readFinite(name, ".position", state.position);
-  read.q_WB = Quat(q[3], q[0], q[1], q[2]);
   read.v_W = readFinite(name, ".velocity", state.velocity);
   read.w_W = readFinite(name, ".angular_velocity", state.angular_velocity);
-  if (!(std::abs(read.q_WB.norm() - 1.0) <= kUnit))
-    refuse(name, ".orientation", read.q_WB.coeffs(), "x, y, z, w of length 1");
-  read.q_WB.normalize();
+  read.q_WB = readUnitQuat(name, ".orientation", state.orientation);
   return read;
 }
 

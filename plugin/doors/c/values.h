@@ -45,6 +45,8 @@ void requireNotNegative(const char* name, double value);
 [[nodiscard]] Vec3 readVec3OrZero(const char* name, const double* values);
 /// The length must be 1 within 1e-6.
 [[nodiscard]] Vec3 readUnitVec3(const char* name, const double* values);
+/// x, y, z, w; the length must be 1 within 1e-6.
+[[nodiscard]] Quat readOrientation(const char* name, const double* values);
 [[nodiscard]] RigidState fromC(const Name& name, const TandemState& state);
 
 void writeVec3(const Vec3& v, double* values) noexcept;

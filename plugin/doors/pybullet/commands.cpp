@@ -123,6 +123,14 @@ void Commands::share(Words& words, Reply& reply) {
     reply.status = object;
     return;
   }
+  if (words.has("tool_of")) {
+    const std::uint32_t user = words.id("tool_of");
+    double at[3]{};
+    words.numbersIfThere("at", at, 3);
+    words.finish();
+    reply.status = session_.shareTool(body, user, at, shape ? &*shape : nullptr);
+    return;
+  }
   const double damping = words.number("damping", 0.0);
   words.finish();
   reply.status = session_.share(body, damping, shape ? &*shape : nullptr);
@@ -177,7 +185,11 @@ void Commands::hand(Words& words, Reply&) {
   if (session_.deviceIsMoved()) {
     words.numbers("position", position, 3);
     words.numbers("velocity", velocity, 3);
+    double orientation[4]{}, angular_velocity[3]{};
+    const bool turns = words.numbersIfThere("orientation", orientation, 4);
+    if (turns) words.numbersIfThere("angular_velocity", angular_velocity, 3);
     words.finish();
+    if (turns) check(tandem_device_turn(device, orientation, angular_velocity));
     check(tandem_device_move(device, position, velocity));
   } else {
     words.numbers("force", force, 3);

@@ -5,18 +5,9 @@
 #include "refusal.h"
 
 namespace tandem::pybullet {
-namespace {
-
-std::uint32_t readId(Words& words, const char* key) {
-  const int id = words.integer(key);
-  if (id < 1) throw Refusal(kBadCommand, std::string(key) + ": 1 or more");
-  return static_cast<std::uint32_t>(id);
-}
-
-}  // namespace
 
 void Commands::peer(Words& words, Reply&) {
-  Peer peer{readId(words, "id"), words.text("address", ""), words.text("key")};
+  Peer peer{words.id("id"), words.text("address", ""), words.text("key")};
   words.finish();
   peers_.push_back(std::move(peer));
 }
@@ -37,7 +28,7 @@ void Commands::key(Words& words, Reply&) {
 void Commands::mesh(Words& words, Reply&) {
   const std::vector<Peer> said_peers = std::exchange(peers_, {});
   const std::vector<Item> said_items = std::exchange(agreements_, {});
-  const std::uint32_t self = readId(words, "self");
+  const std::uint32_t self = words.id("self");
   const std::string bind = words.text("bind");
   words.finish();
   std::vector<TandemMeshPeer> peers;
@@ -54,7 +45,7 @@ void Commands::mesh(Words& words, Reply&) {
 }
 
 void Commands::meshStatus(Words& words, Reply& reply) {
-  const std::uint32_t peer = readId(words, "peer");
+  const std::uint32_t peer = words.id("peer");
   words.finish();
   const TandemPeerStatus status = session_.meshStatus(peer);
   reply.put(static_cast<double>(status.phase));
@@ -64,7 +55,7 @@ void Commands::meshStatus(Words& words, Reply& reply) {
 }
 
 void Commands::meshExplain(Words& words, Reply& reply) {
-  const std::uint32_t peer = readId(words, "peer");
+  const std::uint32_t peer = words.id("peer");
   words.finish();
   reply.putText(session_.explainPeer(peer));
 }
@@ -75,7 +66,7 @@ void Commands::link(Words& words, Reply& reply) {
     words.finish();
     reply.status = session_.addManualLink();
   } else if (kind == "mesh") {
-    const std::uint32_t peer = readId(words, "peer");
+    const std::uint32_t peer = words.id("peer");
     words.finish();
     reply.status = session_.addMeshLink(peer);
   } else if (kind == "simulated") {
@@ -112,7 +103,7 @@ void Commands::pop(Words& words, Reply& reply) {
 }
 
 void Commands::connect(Words& words, Reply& reply) {
-  const std::uint32_t peer = readId(words, "peer");
+  const std::uint32_t peer = words.id("peer");
   const int link = words.integer("link");
   double start[3]{};
   words.numbers("start", start, 3);

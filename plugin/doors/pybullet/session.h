@@ -65,6 +65,8 @@ class Session {
   /// Shares the base of a body without joints. `shape` replaces PyBullet's shape, if given. Returns
   /// the number of the object.
   int share(int body, double damping, const Piece* shape);
+  /// Gives a user a tool, held by its place `at`; else as share().
+  int shareTool(int body, std::uint32_t user, const double at[3], const Piece* shape);
   /// Shares a body for an object that has none, after unshare() or because its body was removed.
   void shareAgain(int object, int body, const Piece* shape);
   /// Gives a shared object back to PyBullet; the others stay shared. Does nothing if it has no
@@ -139,7 +141,7 @@ class Session {
   TandemBody addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state);
   void addMoving(BorrowedBody body, TandemBody id, const TandemState& state, int object);
   template <typename ShareGuest>
-  int shareGuest(int body, const Piece* shape, ShareGuest share);
+  int shareGuest(int body, double mass_share, const Piece* shape, ShareGuest share);
   std::size_t findObject(int object) const;
   int findBody(TandemBody id) const;
   void release(std::size_t moving, bool is_there);
@@ -173,6 +175,7 @@ class Session {
   bool has_warned_of_step_ = false;
   std::string ended_;  // reason; "" while the site runs
   std::vector<std::string> warnings_;
+  std::vector<int> tools_;      // objects that are tools: each copy has its whole mass
   std::vector<int> lost_;       // objects whose body went away
   bool has_ever_lost_ = false;  // since the start
   std::vector<Moving> moving_;

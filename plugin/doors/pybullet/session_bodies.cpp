@@ -84,7 +84,7 @@ void Session::addMoving(BorrowedBody body, TandemBody id, const TandemState& sta
 
 /// Makes a guest for a body, and calls `share` with it for the number of the object.
 template <typename ShareGuest>
-int Session::shareGuest(int body, const Piece* shape, ShareGuest share) {
+int Session::shareGuest(int body, double mass_share, const Piece* shape, ShareGuest share) {
   requireSite();
   requireFree(body);
   BorrowedBody borrowed(engine_, body);
@@ -105,16 +105,24 @@ int Session::shareGuest(int body, const Piece* shape, ShareGuest share) {
     (void)tandem_world_remove_body(world_.get(), id);
     throw why;
   }
-  borrowed.borrow(engine_, 1.0 / peers_);
+  borrowed.borrow(engine_, mass_share);
   stopContactWithAll(body);
   addMoving(std::move(borrowed), id, state, static_cast<int>(object));
   return static_cast<int>(object);
 }
 
 int Session::share(int body, double damping, const Piece* shape) {
-  return shareGuest(body, shape, [&](TandemBody id, std::uint32_t& object) {
+  return shareGuest(body, 1.0 / peers_, shape, [&](TandemBody id, std::uint32_t& object) {
     return tandem_site_share(site_.get(), id, damping, &object);
   });
+}
+
+int Session::shareTool(int body, std::uint32_t user, const double at[3], const Piece* shape) {
+  const int object = shareGuest(body, 1.0, shape, [&](TandemBody id, std::uint32_t& number) {
+    return tandem_site_share_tool(site_.get(), id, user, at, &number);
+  });
+  tools_.push_back(object);
+  return object;
 }
 
 void Session::shareAgain(int object, int body, const Piece* shape) {
@@ -123,7 +131,8 @@ void Session::shareAgain(int object, int body, const Piece* shape) {
     throw Refusal(kWrongOrder, "object " + std::to_string(object) +
                                    " has a body; `unshare` it first, or remove that");
   }
-  shareGuest(body, shape, [&](TandemBody id, std::uint32_t& number) {
+  const bool is_tool = std::find(tools_.begin(), tools_.end(), object) != tools_.end();
+  shareGuest(body, is_tool ? 1.0 : 1.0 / peers_, shape, [&](TandemBody id, std::uint32_t& number) {
     number = static_cast<std::uint32_t>(object);
     return tandem_site_share_again(site_.get(), number, id);
   });

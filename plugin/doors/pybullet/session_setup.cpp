@@ -137,7 +137,7 @@ void Session::close() {
   without_contact_.clear();
   ids_.clear(), now_.clear(), told_.clear();
   warnings_.clear();
-  lost_.clear();
+  tools_.clear(), lost_.clear();
   ended_.clear();
   is_between_ = has_warned_of_step_ = has_ever_lost_ = false;
 }

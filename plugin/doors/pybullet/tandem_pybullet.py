@@ -190,6 +190,13 @@ class Site:
         objects, whatever the order of theirs. Comes before share(); give the names to mesh()."""
         return {name: self.share(bodies[name], damping) for name in sorted(bodies)}
 
+    def share_tool(self, body, user, at=(0, 0, 0), shape=None):
+        """Gives a user (self_id or a peer) a body without joints as a tool and returns its number, from
+        0. The user's hand holds it at once by its place `at`, from the centre of mass in its frame [m];
+        at the peers the user's proxy does. It touches things with friction, in the hand's place, and
+        turns with the orientation of move(). All users share bodies and tools in the same order."""
+        return self._command_with_shape("share", body, shape, tool_of=user, at=at)
+
     def unshare(self, object):
         """Gives a shared object back to PyBullet, with its own mass and its velocity. The others stay
         shared; share(body, object=...) shares a body for it again. Between any two steps."""
@@ -283,9 +290,11 @@ class Site:
         """Sets the force of a simulated device's hand from now on [N]."""
         self._command("hand", force=force)
 
-    def move(self, position, velocity=(0, 0, 0)):
-        """Sets the position [m] and velocity [m/s] of the hand."""
-        self._command("hand", position=position, velocity=velocity)
+    def move(self, position, velocity=(0, 0, 0), orientation=None, angular_velocity=(0, 0, 0)):
+        """Sets the position [m] and velocity [m/s] of the hand; with an orientation (x, y, z, w) also its
+        wrist, which turns what it holds. Its angular velocity is in W [rad/s]."""
+        turn = {} if orientation is None else {"orientation": orientation, "angular_velocity": angular_velocity}
+        self._command("hand", position=position, velocity=velocity, **turn)
 
     def step(self):
         """Calls p.stepSimulation(), which also runs the haptic ticks of this time."""

@@ -103,6 +103,12 @@ int Words::integer(std::string_view key, int otherwise) {
   return has(key) ? integer(key) : otherwise;
 }
 
+std::uint32_t Words::id(std::string_view key) {
+  const int id = integer(key);
+  if (id < 1) refuse(std::string(key) + ": 1 or more");
+  return static_cast<std::uint32_t>(id);
+}
+
 std::uint64_t Words::count(std::string_view key, std::uint64_t otherwise) {
   const Word* const word = find(key);
   return word ? read<std::uint64_t>(word->key, word->value) : otherwise;

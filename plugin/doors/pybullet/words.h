@@ -25,6 +25,8 @@ class Words {
   double number(std::string_view key, double otherwise);
   int integer(std::string_view key);
   int integer(std::string_view key, int otherwise);
+  /// Number of a user, from 1.
+  std::uint32_t id(std::string_view key);
   std::uint64_t count(std::string_view key, std::uint64_t otherwise);
   /// The value is 0 or 1.
   bool flag(std::string_view key, bool otherwise);

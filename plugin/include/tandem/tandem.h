@@ -253,6 +253,11 @@ TandemResult tandem_device_create_moved(const double start[3], TandemDeviceLimit
 TandemResult tandem_device_move(TandemDevice* device, const double position[3],
                                 const double velocity[3]);
 
+/* Turns the wrist of a device that the caller moves: x, y, z, w of the hand in W, and its angular
+   velocity [rad/s]. Before the first call the device has no wrist. [host] */
+TandemResult tandem_device_turn(TandemDevice* device, const double orientation[4],
+                                const double angular_velocity[3]);
+
 /* Creates a simulated handle of `mass` [kg] with `damping` [N s/m] and a hand that pushes it.
    The hand's force is 0 until tandem_device_set_hand(). `guide` is the unit vector of a slot, or
    null. [setup] */
@@ -276,6 +281,21 @@ typedef struct TandemDeviceFunctions {
 /* [setup] */
 TandemResult tandem_device_create(TandemDeviceFunctions functions, TandemDeviceLimits limits,
                                   TandemDevice** device);
+
+/* Functions of the caller for a device that turns. They are called as the others are, with the same
+   `user`. */
+typedef struct TandemWristFunctions {
+  /* Writes x, y, z, w of the hand in W and its angular velocity [rad/s] at `now` [s]. Returns 0 if
+     they are not known: the wrist stands. */
+  int (*read)(void* user, double now, double orientation[4], double angular_velocity[3]);
+  void (*write)(void* user, const double torque[3]); /* on the hand, in W [N m]; null: none */
+  double max_torque;                                 /* [N m]; 0 without `write` */
+} TandemWristFunctions;
+
+/* As tandem_device_create(), with a wrist. [setup] */
+TandemResult tandem_device_create_turning(TandemDeviceFunctions functions,
+                                          TandemWristFunctions wrist, TandemDeviceLimits limits,
+                                          TandemDevice** device);
 
 /* Reads the force on the hand that was rendered last, in W [N]. [host] */
 TandemResult tandem_device_get_force(const TandemDevice* device, double force[3]);
@@ -324,7 +344,7 @@ typedef struct TandemPacket {
   uint32_t grip_epoch;        /* counts grabs and releases, modulo 65536 */
   uint32_t grip_object;       /* TANDEM_NO_OBJECT: nothing now */
   double grip_position[3];    /* on the object, from its centre of mass, in its frame [m] */
-  double grip_orientation[4]; /* x, y, z, w of the hand in the object's frame */
+  double grip_orientation[4]; /* x, y, z, w of the world in the object's frame, as wanted */
   double grip_age;            /* from the last grab or release to `time` [s] */
 } TandemPacket;
 
@@ -456,6 +476,11 @@ typedef struct TandemSiteSettings {
   double grip_blend_time;    /* within which an object comes to the hand [s] */
   double grip_break_time;    /* at the force's limit, after which the grip breaks [s] */
   double grip_fade_time;     /* of the force after a release [s] */
+  /* The hold of a tool: tandem_site_share_tool(). */
+  double tool_stiffness;     /* K [N/m] */
+  double tool_damping_ratio; /* of the spring with hand and tool */
+  double tool_radius;        /* r [m]: the torque's spring has K r^2 */
+  double tool_max_force;     /* [N]; times r: of the torque [N m] */
 } TandemSiteSettings;
 
 /* Gains, masses and rates of the paper's Experiment I. [any] */
@@ -472,6 +497,16 @@ TandemResult tandem_site_destroy(TandemSite* site);
    their value until the site ends. All sites share the same objects in the same order: `object`
    counts from 0. `damping` acts on this copy [N s/m]. [setup] */
 TandemResult tandem_site_share(TandemSite* site, TandemBody body, double damping, uint32_t* object);
+
+/* Gives a user a tool: a dynamic body of any shape that tandem_site_share() takes. At the user's
+   own site (`self`) the hand holds it from the first tick on, by its place `at` from the centre of
+   mass in the tool's frame [m]; null: there. At the others the user's proxy holds theirs. The tool
+   touches things, rigidly and with its friction; hand and proxy touch nothing meanwhile. It turns
+   with a wrist, keeps its whole mass, and its copies are not tied. tandem_site_release() lays it
+   down, tandem_site_grab() takes it up. All sites share tools and objects in the same order. Fails
+   while the hand holds something, and with a guide. [setup] */
+TandemResult tandem_site_share_tool(TandemSite* site, TandemBody body, uint32_t user,
+                                    const double at[3], uint32_t* object);
 
 /* Gives a shared object back, with its own mass and the velocity that it has. Its number stays for
    tandem_site_share_again(), and the others stay shared. Peers let go of their copies after 16
@@ -581,6 +616,7 @@ typedef struct TandemReading {
   uint64_t packets_taken;
   size_t object_count;
   size_t remote_count;
+  double torque[3]; /* on the hand, in W [N m] */
 } TandemReading;
 
 /* Reads objects and proxies in the island. `objects` has room for `object_room` states, in the
