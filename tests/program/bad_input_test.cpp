@@ -128,6 +128,8 @@ TEST(BadInput, KeysThatDoNotGoTogether) {
                         {"rates.host", "240", "rates.haptic", "impulse", "handoff"});
   expectOverrideRefused("experiment.duration=1e-5", {"experiment.duration", "1e-05"});
   expectOverrideRefused("site1.hand=minimum_jerk", {"site1.hand_waypoints"});
+  expectOverrideRefused("site1.grips=[[0.1, 0.2]]", {"site1.grips", "experiment.guide"});
+  expectOverrideRefused("site1.grips=[[0.2, 0.1]]", {"site1.grips", "growing"});
   expectOverrideRefused("site2.hand=csv", {"site2.hand_file"});
 }
 

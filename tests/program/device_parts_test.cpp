@@ -1,4 +1,4 @@
-// Parts of `tandem device` that need no process: names of devices and clutches, bars, axes.
+// Parts of `tandem device` that need no process: names of devices and switches, bars, axes.
 
 #include <cmath>
 #include <limits>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "demos/program/device/bars.h"
-#include "demos/program/device/clutch.h"
 #include "demos/program/device/device_spec.h"
+#include "demos/program/device/device_switch.h"
 #include "demos/program/device/user_axes.h"
 #include "demos/program/terminal/usage_error.h"
 #include "falcon/src/novint/falcon_frames.h"
@@ -52,29 +52,29 @@ TEST(DeviceSpec, RefusesTheRest) {
   }
 }
 
-TEST(Clutch, ReadsButtonsAndPedals) {
-  EXPECT_EQ(parseClutch("plus").button, kPlusButton);
-  EXPECT_EQ(parseClutch("forward").button, kForwardButton);
-  EXPECT_EQ(parseClutch("centre").button, kCentreButton);
-  EXPECT_EQ(parseClutch("minus").button, kMinusButton);
-  const ClutchSpec pedal = parseClutch("hid:/dev/hidraw4,key,0,2,0x68");
+TEST(DeviceSwitch, ReadsButtonsAndPedals) {
+  EXPECT_EQ(parseSwitch("--clutch", "plus").button, kPlusButton);
+  EXPECT_EQ(parseSwitch("--clutch", "forward").button, kForwardButton);
+  EXPECT_EQ(parseSwitch("--clutch", "centre").button, kCentreButton);
+  EXPECT_EQ(parseSwitch("--clutch", "minus").button, kMinusButton);
+  const SwitchSpec pedal = parseSwitch("--clutch", "hid:/dev/hidraw4,key,0,2,0x68");
   EXPECT_EQ(pedal.button, 0);
   EXPECT_EQ(pedal.path, "/dev/hidraw4");
   EXPECT_EQ(pedal.map.kind, HidSwitchKind::kKey);
   EXPECT_EQ(pedal.map.report, 0);
   EXPECT_EQ(pedal.map.byte, 2U);
   EXPECT_EQ(pedal.map.value, 0x68);
-  EXPECT_EQ(parseClutch("hid:/dev/hidraw4,bits,3,1,1").map.kind, HidSwitchKind::kBits);
-  EXPECT_EQ(parseClutch("hid:/dev/hidraw4,usage,2,1,205").map.value, 205);
+  EXPECT_EQ(parseSwitch("--clutch", "hid:/dev/hidraw4,bits,3,1,1").map.kind, HidSwitchKind::kBits);
+  EXPECT_EQ(parseSwitch("--clutch", "hid:/dev/hidraw4,usage,2,1,205").map.value, 205);
 }
 
-TEST(Clutch, RefusesTheRest) {
+TEST(DeviceSwitch, RefusesTheRest) {
   for (const char* text :
        {"", "foot", "hid:", "hid:/dev/hidraw4", "hid:/a,key,0,2", "hid:/a,key,0,2,3,4",
         "hid:/a,lever,0,2,3", "hid:/a,key,256,2,3", "hid:/a,key,0,65,3", "hid:/a,key,0,2,0x10000",
         "hid:/a,key,0,2,-1", "hid:/a,key,0,2,", "hid:/a,key,0,2,0x", "hid:a,key,0,2,3"}) {
     SCOPED_TRACE(text);
-    EXPECT_THROW((void)parseClutch(text), UsageError);
+    EXPECT_THROW((void)parseSwitch("--clutch", text), UsageError);
   }
 }
 

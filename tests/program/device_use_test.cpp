@@ -27,6 +27,7 @@ TEST(DeviceUse, RefusesBadUse) {
   expectRefused(runEmulated("info", {"--motors-per-torque", "-1"}), 2, {"--motors-per-torque -1"});
   expectRefused(runEmulated("info", {"--offset", "0", "0", "99"}), 2, {"--offset 99"});
   expectRefused(runEmulated("info", {"--clutch", "foot"}), 2, {"--clutch foot", "centre"});
+  expectRefused(runEmulated("info", {"--grip", "foot"}), 2, {"--grip foot", "centre"});
   expectRefused(runEmulated("latency", {"--for", "0"}), 2, {"--for 0"});
   expectRefused(runEmulated("home", {"--wait", "-1"}), 2, {"--wait -1"});
   expectRefused(runEmulated("", {"--scenario", "/tandem/none.toml"}), 2, {"/tandem/none.toml"});

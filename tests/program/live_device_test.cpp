@@ -99,6 +99,21 @@ TEST_F(LiveDeviceTest, AButtonIsItsClutch) {
   EXPECT_TRUE(readUntilAt(stays_W + Vec3(0.01, 0, 0)));
 }
 
+TEST_F(LiveDeviceTest, AnotherButtonHoldsThings) {
+  DeviceOptions options;
+  options.clutch = "centre";
+  options.grip = "forward";
+  hold(Vec3::Zero());
+  open(options);
+  EXPECT_TRUE(readUntilAt(kCentre_W));
+  EXPECT_FALSE(device_->isGripPressed());
+  press(kForwardButton);
+  EXPECT_TRUE(readUntil([&](const DeviceSample&) { return device_->isGripPressed(); }));
+  EXPECT_TRUE(device_->isEngaged());
+  press(0);
+  EXPECT_TRUE(readUntil([&](const DeviceSample&) { return !device_->isGripPressed(); }));
+}
+
 TEST_F(LiveDeviceTest, IsHeldUntilItIsTicked) {
   hold(Vec3(0.01, 0.01, 0.01));
   open({});

@@ -30,6 +30,8 @@ void declareDeviceOptions(Arguments& arguments, DeviceOptions& options) {
   arguments.option("--clutch", options.clutch,
                    "while pressed the hand goes back alone: plus, forward, centre, minus, or "
                    "hid:PATH,KIND,REPORT,BYTE,VALUE");
+  arguments.option("--grip", options.grip,
+                   "while pressed the hand holds the cube that it touches: as --clutch");
 }
 
 void checkDeviceOptions(const DeviceOptions& options) {

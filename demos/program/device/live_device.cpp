@@ -4,8 +4,6 @@
 
 #include "tandem/falcon/monotonic_clock.h"
 
-#include "device/plugged_in.h"
-
 namespace tandem::demos {
 namespace {
 
@@ -23,14 +21,11 @@ WorkspaceSettings makeWorkspace(const DeviceOptions& options, const Placement& p
 
 LiveDevice::LiveDevice(DeviceSpec spec, Driver driver, const DeviceOptions& options,
                        const Placement& placement)
-    : spec_(std::move(spec)), driver_(std::move(driver)), placement_(placement) {
-  if (options.clutch) {
-    const ClutchSpec clutch = parseClutch(*options.clutch);
-    clutch_button_ = clutch.button;
-    if (clutch.button == 0)
-      pedal_ = std::make_unique<HidSwitch>([path = clutch.path] { return openHidPath(path); },
-                                           clutch.map);
-  }
+    : spec_(std::move(spec)),
+      driver_(std::move(driver)),
+      clutch_("--clutch", options.clutch),
+      grip_("--grip", options.grip),
+      placement_(placement) {
   GuardSettings guard;
   guard.max_force = options.max_force;
   auto guarded = std::make_unique<GuardedDevice>(std::move(driver_.device), guard);
@@ -42,13 +37,8 @@ LiveDevice::LiveDevice(DeviceSpec spec, Driver driver, const DeviceOptions& opti
 
 LiveDevice::~LiveDevice() = default;
 
-bool LiveDevice::isClutchPressed() const noexcept {
-  if (pedal_) return pedal_->isPressed();
-  return clutch_button_ != 0 && driver_.pressed && (driver_.pressed() & clutch_button_) != 0;
-}
-
 DeviceSample LiveDevice::read(double) noexcept {
-  mapped_->setEngaged(!is_held_ && !isClutchPressed());
+  mapped_->setEngaged(!is_held_ && !clutch_.isPressed(driver_));
   const DeviceSample sample = mapped_->read(readMonotonicClock());
   if (sample.valid) {
     p_W_ = sample.hip.p_W;

@@ -3,10 +3,9 @@
 #include <memory>
 
 #include "tandem/falcon/guarded_device.h"
-#include "tandem/falcon/hid_switch.h"
 #include "tandem/falcon/mapped_device.h"
 
-#include "device/clutch.h"
+#include "device/device_switch.h"
 #include "device/drivers.h"
 
 namespace tandem::demos {
@@ -17,8 +16,9 @@ struct Placement {
   Vec3 centre_W = Vec3::Zero();
 };
 
-/// An opened device with all layers between it and a site: map, guard, driver, clutch. It is real,
-/// so it uses the monotonic clock, not the site's time.
+/// An opened device with all layers between it and a site: map, guard, driver, clutch. It also has
+/// the switch by which the user holds things. It is real, so it uses the monotonic clock, not the
+/// site's time.
 class LiveDevice final : public HapticDevice {
  public:
   /// Throws like MappedDevice, GuardedDevice and HidSwitch.
@@ -45,6 +45,8 @@ class LiveDevice final : public HapticDevice {
 
   /// True if the clutch was in at the last read.
   [[nodiscard]] bool isEngaged() const noexcept { return mapped_->isEngaged(); }
+  /// True while the user wants to hold something. For any thread.
+  [[nodiscard]] bool isGripPressed() const noexcept { return grip_.isPressed(driver_); }
   [[nodiscard]] const DeviceSpec& spec() const noexcept { return spec_; }
   [[nodiscard]] const WorkspaceMap& map() const noexcept { return mapped_->map(); }
   [[nodiscard]] const GuardStatus& guard() const noexcept { return guarded_->status(); }
@@ -52,12 +54,9 @@ class LiveDevice final : public HapticDevice {
   [[nodiscard]] EmulatedUser* emulated() noexcept { return driver_.emulated.get(); }
 
  private:
-  [[nodiscard]] bool isClutchPressed() const noexcept;
-
   DeviceSpec spec_;
   Driver driver_;  ///< its device is in mapped_, which is destroyed first
-  std::unique_ptr<HidSwitch> pedal_;
-  std::uint8_t clutch_button_ = 0;
+  DeviceSwitch clutch_, grip_;
   GuardedDevice* guarded_ = nullptr;
   std::unique_ptr<MappedDevice> mapped_;
   Placement placement_;

@@ -21,7 +21,8 @@ DeviceSpec chooseDevice(const DeviceOptions& options) {
 std::unique_ptr<LiveDevice> openDevice(const DeviceOptions& options, const Placement& placement,
                                        UserWish wish) {
   checkDeviceOptions(options);
-  if (options.clutch) (void)parseClutch(*options.clutch);
+  if (options.clutch) (void)parseSwitch("--clutch", *options.clutch);
+  if (options.grip) (void)parseSwitch("--grip", *options.grip);
   const DeviceSpec spec = chooseDevice(options);
   return std::make_unique<LiveDevice>(spec, openDriver(spec, options, wish), options, placement);
 }

@@ -1,5 +1,7 @@
 #include <csignal>
 #include <cstdio>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -88,6 +90,13 @@ UdpMeshSettings makeSettings(const PeerOptions& options, const Scenario& scenari
   return settings;
 }
 
+void checkGrip(const DeviceOptions& options, const Scenario& scenario) {
+  if (!options.grip) return;
+  if (options.device.empty())
+    throw UsageError("--grip: needs --device; a simulated hand holds things by siteN.grips");
+  if (!scenario.mayGrip()) throw UsageError(std::string("--grip: ") + kGripNeeds);
+}
+
 /// Opens the user's own device, ready at the user's start in the scenario; null without --device.
 /// Sets `is_ended` if the user asks to end.
 std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Scenario& scenario,
@@ -115,6 +124,7 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Sc
 void runPeer(const PeerOptions& options) {
   checkOptions(options);
   const Scenario scenario = loadScenario(options.scenario, options.overrides);
+  checkGrip(options.device, scenario);
   std::optional<OutputFolder> folder;
   if (options.folder)
     folder.emplace(*options.folder, "--out " + *options.folder,
@@ -127,8 +137,10 @@ void runPeer(const PeerOptions& options) {
   bool is_ended = false;
   const auto device = openUsersDevice(options, scenario, is_ended);
   if (is_ended) return;
+  std::function<bool()> wants_grip;
+  if (options.device.grip) wants_grip = [&] { return device->isGripPressed(); };
   PeerRun run(scenario, options.site - 1, makeSettings(options, scenario), std::move(peer),
-              device.get());
+              device.get(), std::move(wants_grip));
   const auto stop = [] { return stop_asked != 0; };
   const auto report = [&](const PeerReport& one) {
     if (!options.quiet) print(one);

@@ -24,8 +24,13 @@ const char* explainRefusal(RefuseCode code) {
 }  // namespace
 
 PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
-                 HapticDevice* device)
-    : scenario_(scenario), index_(site), device_(device), other_(peer.id), peers_(settings, [&] {
+                 HapticDevice* device, std::function<bool()> wants_grip)
+    : scenario_(scenario),
+      index_(site),
+      device_(device),
+      wants_grip_(std::move(wants_grip)),
+      other_(peer.id),
+      peers_(settings, [&] {
         std::vector<UdpPeer> peers;
         peers.push_back(std::move(peer));
         return peers;
@@ -177,6 +182,7 @@ void PeerRun::run(const std::function<bool()>& stop,
       const double time = static_cast<double>(step) / scenario_.host_rate;
       sleepUntil(start + time);
       world_->stepHostUntil(time);
+      if (wants_grip_) world_->hold(wants_grip_());
       if (time < next_report) continue;
       report(makeReport(time));
       next_report += kReportPeriod;

@@ -29,9 +29,10 @@ struct PeerReport {
 class PeerRun {
  public:
   /// `site` is 0 or 1. `device` is the user's, and must outlive this; null means simulated, by the
-  /// scenario. Throws like LivePeers and SiteWorld.
+  /// scenario. `wants_grip`: the user wants to hold the cube; empty: the scenario says when. Throws
+  /// like LivePeers and SiteWorld.
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
-          HapticDevice* device = nullptr);
+          HapticDevice* device = nullptr, std::function<bool()> wants_grip = {});
 
   /// Waits until the other site is there and both know the start. Throws UsageError if it has
   /// another configuration. Throws tandem::Error if it does not answer within `patience` [s],
@@ -66,6 +67,7 @@ class PeerRun {
   Scenario scenario_;
   int index_;
   HapticDevice* device_;
+  std::function<bool()> wants_grip_;
   PeerId other_;
   LivePeers peers_;
   std::unique_ptr<SiteWorld> world_;

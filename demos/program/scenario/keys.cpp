@@ -56,6 +56,23 @@ void readWaypoints(HandScenario& hand, const Place& place, const toml::node& nod
   }
 }
 
+void readGrips(HandScenario& hand, const Place& place, const toml::node& node) {
+  const FieldRange range{0.0, 3600.0, false, "a list of [from, to] with growing times"};
+  const toml::array* rows = node.as_array();
+  if (!rows) refuse(place, node, range.allowed);
+  hand.grips.clear();
+  double last = 0.0;
+  for (const toml::node& row : *rows) {
+    const toml::array* values = row.as_array();
+    if (!values || values->size() != 2) refuse(place, node, range.allowed);
+    const double from = readNumber(place, (*values)[0], range);
+    const double to = readNumber(place, (*values)[1], range);
+    if (!(from >= last && to > from)) refuse(place, node, range.allowed);
+    hand.grips.push_back({from, to});
+    last = to;
+  }
+}
+
 void readBoxes(std::vector<NeighbourBox>& boxes, const Place& place, const toml::node& node) {
   const char* allowed =
       "a list of at most 200 [x, y, z, size, mass], size above 0, mass 0 (static) or more";
@@ -142,6 +159,9 @@ Keys makeBodyKeys() {
       siteKey("proxy.mass"),
       siteKey("proxy.damping"),
       siteKey("proxy.radius", ", and of the local haptic interface points"),
+      siteKey("grip.stiffness"),
+      siteKey("grip.max_force"),
+      siteKey("grip.lift_time"),
       own(numberKey({"device.mass", "of the simulated device", "kg"}, kPositive, &S::device_mass)),
       own(numberKey({"device.damping", "b_dev", "N s/m"}, kNotNegative, &S::device_damping)),
       own(numberKey(
@@ -216,6 +236,15 @@ Keys makeHandKeys(std::size_t i) {
     readWaypoints(s.hands[i], place, node);
   };
   waypoints.show = [i](const S& s) -> nlohmann::json { return s.hands[i].waypoints; };
+  ScenarioKey grips =
+      makeKey({site + "grips",
+               "times in which the hand holds the cube that it touches: list of `[from, to]`", "s",
+               "no guide, island, handoff", "none"},
+              "growing times");
+  grips.read = [i](S& s, const Place& place, const toml::node& node) {
+    readGrips(s.hands[i], place, node);
+  };
+  grips.show = [i](const S& s) -> nlohmann::json { return s.hands[i].grips; };
   Keys keys = {
       choiceKey({site + "hand", "the kind of hand"}, {"constant", "sine", "minimum_jerk", "csv"},
                 hand(&Hand::kind)),
@@ -235,6 +264,7 @@ Keys makeHandKeys(std::size_t i) {
       vectorKey({site + "start_offset", "of the device, from \"just in contact on the axis\"", "m",
                  "off the axis: no guide"},
                 hand(&Hand::start_offset)),
+      grips,
   };
   for (ScenarioKey& key : keys) key.is_own = true;
   return keys;

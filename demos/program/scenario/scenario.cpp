@@ -143,6 +143,7 @@ void checkTogether(const Scenario& s, const std::string& file) {
       refuse_pair(site + ".hand = \"csv\": needs " + site + ".hand_file");
     if (s.guide && s.kind != "playground" && hand.start_offset.tail<2>() != Eigen::Vector2d::Zero())
       refuse_pair(site + ".start_offset: off the axis needs experiment.guide = false");
+    if (!hand.grips.empty() && !s.mayGrip()) refuse_pair(site + ".grips: " + kGripNeeds);
   }
   if (s.guide && s.kind == "playground")
     refuse_pair("experiment.guide = true: a playground is free; set it to false");

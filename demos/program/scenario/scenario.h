@@ -23,6 +23,7 @@ struct HandScenario {
   double stiffness = 300.0;       ///< stiffness of a hand that follows waypoints [N/m]
   double damping = 5.0;           ///< [N s/m]
   std::vector<std::array<double, 4>> waypoints;  ///< t, and displacement from the start [s, m]
+  std::vector<std::array<double, 2>> grips;      ///< times in which the hand holds the object [s]
   std::string file;                              ///< file of the csv hand, relative to the scenario
   Vec3 start_offset =
       Vec3::Zero();  ///< start of the device, relative to "just in contact on the axis" [m]
@@ -34,6 +35,11 @@ struct NeighbourBox {
   double size = 0.04;            ///< edge [m]
   double mass = 0.1;             ///< [kg]; 0: static
 };
+
+/// Tells of which scenarios Scenario::mayGrip() is true.
+inline constexpr const char* kGripNeeds =
+    "a hand holds the cube with experiment.guide = false, contact.model = island and "
+    "bridge.injection = handoff";
 
 /// A scenario file, checked. Keys, meanings and units: docs/scenarios.md.
 struct Scenario {
@@ -69,6 +75,11 @@ struct Scenario {
   double friction = 0.5;  ///< friction of all bodies of the world
   std::vector<NeighbourBox> boxes;
 
+  /// True if hands can hold the object.
+  [[nodiscard]] bool mayGrip() const {
+    return hasObject() && !guide && site.contact_model == ContactModel::kIsland &&
+           site.injection == Injection::kHandoff;
+  }
   [[nodiscard]] bool hasObject() const { return kind != "user_contact"; }
 };
 

@@ -1,5 +1,6 @@
 #include "world/scene.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "tandem/bullet_bridge/convert.h"
@@ -79,6 +80,9 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
   return settings;
 }
 
+/// A hand takes hold of an object that is at most this far from it [m].
+constexpr double kGripReach = 0.01;
+
 }  // namespace
 
 SceneFrame makeSceneFrame(const Scenario& scenario) {
@@ -128,6 +132,9 @@ void SiteWorld::build(const Scenario& scenario, int index, Link& link, HapticDev
 
   site_ = std::make_unique<Site>(makeSettings(scenario, index), world_, device);
   if (object) site_->share(*object, scenario.object_damping);
+  hand_radius_ = scenario.site.proxy.radius;
+  if (object && scenario.mayGrip()) object_size_ = scenario.object_size;
+  grips_ = scenario.hands[static_cast<std::size_t>(index)].grips;
   site_->connect(PeerId{index == 0 ? 2u : 1u}, link, computeStart(scenario, frame_, 1 - index));
 
   if (const btRigidBody* proxy = site_->proxyBody(0)) {
@@ -161,7 +168,29 @@ void SiteWorld::stepHostUntil(double now) {
   while (static_cast<double>(host_steps_ + 1) / host_rate_ <= now + 1e-9) {
     world_.stepSimulation(static_cast<btScalar>(1.0 / host_rate_), 0);
     ++host_steps_;
+    if (!grips_.empty()) hold(isGripTime(static_cast<double>(host_steps_) / host_rate_));
   }
+}
+
+bool SiteWorld::isGripTime(double time) const noexcept {
+  return std::any_of(grips_.begin(), grips_.end(), [&](const std::array<double, 2>& grip) {
+    return time >= grip[0] && time < grip[1];
+  });
+}
+
+void SiteWorld::hold(bool wants) {
+  if (!wants && holds_) site_->release();
+  if (!wants) holds_ = false;
+  if (!wants || holds_ || object_size_ == 0.0) return;
+  bool touches = false;
+  site_->betweenTicks([&] {
+    const RigidState& cube = site_->object(0);
+    const Vec3 hand_B = cube.q_WB.conjugate() * (site_->hip().p_W - cube.p_W);
+    touches = hand_B.cwiseAbs().maxCoeff() <= 0.5 * object_size_ + hand_radius_ + kGripReach;
+  });
+  if (!touches) return;
+  site_->grab(0);
+  holds_ = true;
 }
 
 btRigidBody& SiteWorld::addBox(const Vec3& half_extents, double mass, const Vec3& p_S,

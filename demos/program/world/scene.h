@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -58,10 +59,14 @@ class SiteWorld {
   /// Pose of a scene body now, in W.
   [[nodiscard]] RigidState pose(const SceneBody& body) const;
 
-  /// Runs the host steps that end by `now` [s]. All ticks that start inside them must be done.
+  /// Runs the host steps that end by `now` [s]. All ticks that start inside them must be done. The
+  /// hand holds the object in the times of the scenario.
   void stepHostUntil(double now);
+  /// The user wants to hold the object, or not: the hand takes hold once it touches it.
+  void hold(bool wants);
 
  private:
+  [[nodiscard]] bool isGripTime(double time) const noexcept;
   void build(const Scenario& scenario, int index, Link& link, HapticDevice& device);
   btRigidBody& addBox(const Vec3& half_extents, double mass, const Vec3& p_S,
                       const std::string& name, const std::string& role);
@@ -70,6 +75,10 @@ class SiteWorld {
   SceneFrame frame_;
   double friction_;
   double host_rate_;
+  double hand_radius_ = 0.0;                  ///< [m]
+  double object_size_ = 0.0;                  ///< 0: no object that can be held
+  std::vector<std::array<double, 2>> grips_;  ///< from, to [s]
+  bool holds_ = false;
   std::uint64_t host_steps_ = 0;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};

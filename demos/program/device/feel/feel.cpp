@@ -87,6 +87,7 @@ LoopReport run(SiteWorld& world, LiveDevice& device, const Scenario& scenario,
     const double time = static_cast<double>(step) / scenario.host_rate;
     if (pause(std::max(*settings.begin + time - readMonotonicClock(), 0.0))) break;
     world.stepHostUntil(time);
+    if (task.device.grip) world.hold(device.isGripPressed());
     const Moment moment = look(world, scenario);
     tally.add(moment);
     if (line.isDue()) line.show(show(time, moment, most_force));

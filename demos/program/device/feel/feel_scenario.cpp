@@ -1,5 +1,7 @@
 #include "device/feel/feel_scenario.h"
 
+#include <string>
+
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
@@ -39,6 +41,8 @@ Scenario makeFeelScenario(const DeviceTask& task) {
         "--scenario: tandem device needs contact.model = island and bridge.injection = handoff; "
         "the "
         "others have no haptic rate of their own");
+  if (task.device.grip && !scenario.mayGrip())
+    throw UsageError(std::string("--grip: ") + kGripNeeds);
   scenario.site.link_loss.start_live = false;
   return scenario;
 }

@@ -1,4 +1,4 @@
-#include "device/clutch.h"
+#include "device/device_switch.h"
 
 #include <charconv>
 #include <vector>
@@ -7,16 +7,17 @@
 
 #include "tandem/falcon/falcon_status.h"
 
+#include "device/plugged_in.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) {
+[[noreturn]] void refuse(const char* option, const std::string& text) {
   throw UsageError(
-      fmt::format("--clutch {}: allowed: plus, forward, centre, minus, or "
+      fmt::format("{} {}: allowed: plus, forward, centre, minus, or "
                   "hid:PATH,KIND,REPORT,BYTE,VALUE with KIND bits, key or usage",
-                  text));
+                  option, text));
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -50,21 +51,35 @@ std::optional<HidSwitchKind> readKind(std::string_view text) {
 
 }  // namespace
 
-ClutchSpec parseClutch(const std::string& text) {
+SwitchSpec parseSwitch(const char* option, const std::string& text) {
   if (text == "plus") return {kPlusButton, "", {}};
   if (text == "forward") return {kForwardButton, "", {}};
   if (text == "centre") return {kCentreButton, "", {}};
   if (text == "minus") return {kMinusButton, "", {}};
-  if (!text.starts_with("hid:/")) refuse(text);
+  if (!text.starts_with("hid:/")) refuse(option, text);
   const std::vector<std::string> parts = split(text.substr(4));
-  if (parts.size() != 5) refuse(text);
+  if (parts.size() != 5) refuse(option, text);
   const auto kind = readKind(parts[1]);
   const auto report = readNumber(parts[2], 255), byte = readNumber(parts[3], 64),
              value = readNumber(parts[4], 0xFFFF);
-  if (!kind || !report || !byte || !value) refuse(text);
+  if (!kind || !report || !byte || !value) refuse(option, text);
   return {0,
           parts[0],
           {*kind, *report, static_cast<std::size_t>(*byte), static_cast<std::uint16_t>(*value)}};
+}
+
+DeviceSwitch::DeviceSwitch(const char* option, const std::optional<std::string>& text) {
+  if (!text) return;
+  const SwitchSpec spec = parseSwitch(option, *text);
+  button_ = spec.button;
+  if (spec.button == 0)
+    pedal_ =
+        std::make_unique<HidSwitch>([path = spec.path] { return openHidPath(path); }, spec.map);
+}
+
+bool DeviceSwitch::isPressed(const Driver& driver) const noexcept {
+  if (pedal_) return pedal_->isPressed();
+  return button_ != 0 && driver.pressed && (driver.pressed() & button_) != 0;
 }
 
 }  // namespace tandem::demos
