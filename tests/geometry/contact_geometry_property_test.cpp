@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coordination/src/geometry/compound_parts.h"
 #include "coordination/src/geometry/contact_geometry.h"
 #include "coordination/src/geometry/convex_polyhedron.h"
 #include "coordination/src/geometry/triangle_mesh.h"
@@ -55,8 +56,12 @@ Shape makeShape(std::size_t kind, Random& random) {
       return test::makeHull(makeSkewSolid(a, b, c, random));
     case 7:
       return test::makeMesh(test::cutIntoTriangles(makeSkewSolid(a, b, c, random)));
-    default:
+    case 8:
       return Cone{a, b, static_cast<Axis>(static_cast<int>(20.0 * c) % 3)};
+    default:
+      // Parts that are apart: no surface is inside another part.
+      return makeCompound({{Box{0.5 * Vec3(a, b, c)}, Vec3(0.45, 0.0, 0.0), random.rotation()},
+                           {Capsule{0.4 * a, 0.4 * b}, Vec3(-0.41, 0.0, 0.0), random.rotation()}});
   }
 }
 
@@ -237,6 +242,12 @@ class SampledSurface {
     cover(kPi * radius, kPi / 2 * radius);
   }
 
+  void add(const SampledSurface& other) {
+    distance_ = std::min(distance_, other.distance_);
+    covering_radius_ = std::max(covering_radius_, other.covering_radius_);
+  }
+  [[nodiscard]] const Vec3& from() const { return from_; }
+
  private:
   static constexpr int kSteps = 200;
 
@@ -301,6 +312,19 @@ void addSurface(SampledSurface& surface, const Plane& plane) {
   surface.addRectangle(plane.offset * plane.normal_B, 1.5 * u, 1.5 * plane.normal_B.cross(u));
 }
 
+Vec3 toPart(const CompoundParts::Part& part, const Vec3& p_B) {
+  return part.toPart(PlainVec(p_B)).toVec3();
+}
+
+void addSurface(SampledSurface& surface, const Compound& compound) {
+  for (const CompoundParts::Part& part : compound.parts->all()) {
+    SampledSurface own(toPart(part, surface.from()));
+    if (const auto* box = std::get_if<Box>(&part.shape)) addSurface(own, *box);
+    if (const auto* capsule = std::get_if<Capsule>(&part.shape)) addSurface(own, *capsule);
+    surface.add(own);
+  }
+}
+
 bool isInside(const Vec3& p, const Sphere& s) { return p.norm() < s.radius; }
 bool isInside(const Vec3& p, const Box& s) {
   return (p.cwiseAbs().array() < s.half_extents.array()).all();
@@ -333,6 +357,15 @@ bool isInside(const Vec3& p, const Mesh& s) {  // all shapes here are convex
                      [&](const auto& one) { return one.normal.dot(p) < one.offset; });
 }
 
+bool isInside(const Vec3& p, const Compound& s) {
+  const auto holds = [&](const CompoundParts::Part& part) {
+    const Vec3 p_C = toPart(part, p);
+    if (const auto* box = std::get_if<Box>(&part.shape)) return isInside(p_C, *box);
+    return isInside(p_C, std::get<Capsule>(part.shape));
+  };
+  return std::any_of(s.parts->all().begin(), s.parts->all().end(), holds);
+}
+
 TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
   forEachScene(100, [](const Scene& scene) {
     const Vec3 p_B = scene.q_WB.conjugate() * (scene.p_W - scene.p_WB);
@@ -350,11 +383,12 @@ TEST_P(ContactProperties, DistanceAgreesWithDenselySampledSurface) {
 
 std::string nameShape(const ::testing::TestParamInfo<std::size_t>& kind) {
   return std::array{"Sphere",   "Box",        "Capsule", "Plane", "CapsuleAlong",
-                    "Cylinder", "ConvexHull", "Mesh",    "Cone"}
+                    "Cylinder", "ConvexHull", "Mesh",    "Cone",  "Compound"}
       .at(kind.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 9), nameShape);
+INSTANTIATE_TEST_SUITE_P(Shapes, ContactProperties, ::testing::Range<std::size_t>(0, 10),
+                         nameShape);
 
 }  // namespace
 }  // namespace tandem

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coordination/src/geometry/compound_parts.h"
 #include "coordination/src/geometry/contact_geometry.h"
 #include "coordination/src/island/island.h"
 #include "support/random.h"
@@ -329,8 +330,12 @@ class Bounce : public ::testing::TestWithParam<int> {
         return test::makeMesh(test::cutIntoTriangles(test::makePrism(0.03, 0.03, 24)));
       case 8:
         return Cone{0.03, 0.03, Axis::kX};
-      default:
+      case 9:
         return Cone{0.03, 0.03, Axis::kZ, 0.002};
+      default:
+        return makeCompound({{Box{{0.03, 0.01, 0.05}}, Vec3(0.0, -0.01, 0.0)},
+                             {Box{{0.01, 0.02, 0.05}}, Vec3(-0.02, 0.0, 0.0)},
+                             {Sphere{0.01}, Vec3(0.02, 0.01, 0.02)}});
     }
   }
 };
@@ -354,9 +359,9 @@ TEST_P(Bounce, KeepsTheEnergy) {
         << "flight " << i << ", " << towards.transpose();
   }
 }
-INSTANTIATE_TEST_SUITE_P(Shapes, Bounce, ::testing::Range(0, 10), [](const auto& kind) {
+INSTANTIATE_TEST_SUITE_P(Shapes, Bounce, ::testing::Range(0, 11), [](const auto& kind) {
   return std::string(std::array{"Box", "Capsule", "Cylinder", "Hull", "RoundedHull", "MeshBox",
-                                "MeshOctahedron", "MeshPrism", "Cone", "RoundedCone"}
+                                "MeshOctahedron", "MeshPrism", "Cone", "RoundedCone", "Compound"}
                          .at(static_cast<std::size_t>(kind.param)));
 });
 
@@ -383,9 +388,13 @@ TEST(IslandShapes, PassingAnEdgeCloselyKeepsTheEnergy) {
   EXPECT_LT(sum / kFlights, 1e-7);
 }
 
-TEST(IslandShapes, HullCylinderAndConeTakeThePush) {
-  for (const Shape& shape : {Shape(Cylinder{0.02, 0.03, Axis::kX}), Shape(Cone{0.03, 0.03}),
-                             Shape(test::makeHull(test::makeOctahedron({0.02, 0.03, 0.025})))}) {
+TEST(IslandShapes, BodiesOfAllShapesTakeThePush) {
+  const test::Solid octahedron = test::makeOctahedron({0.02, 0.03, 0.025});
+  const Cone cone{0.03, 0.03};
+  for (const Shape& shape :
+       {Shape(Cylinder{0.02, 0.03, Axis::kX}), Shape(cone), Shape(test::makeHull(octahedron)),
+        Shape(test::makeMesh(test::cutIntoTriangles(octahedron))),
+        Shape(makeCompound({{cone}, {Sphere{0.01}, Vec3(0.05, 0.0, 0.0)}}))}) {
     IslandSettings settings;
     Island island(settings);
     IslandBody device;
@@ -412,14 +421,6 @@ TEST(IslandShapes, HullCylinderAndConeTakeThePush) {
     // A push beside its middle turns the body.
     EXPECT_GT(island.state(object).w_W.norm(), 0.1);
   }
-}
-
-TEST(IslandShapes, RefusesAMeshAsABody) {
-  Island island(IslandSettings{});
-  IslandBody body;
-  body.shape = test::makeMesh(test::makeFloor(1, 1.0));
-  body.motion = Motion::kPrescribed;
-  EXPECT_THROW(island.addBody(body), std::invalid_argument);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace {
 
 using test::BoxScene;
 
-constexpr double kHalf = 0.02, kMass = 0.2;  // [m], [kg]
+constexpr double kHalf = 0.02;  // [m]
+constexpr double kMass = 0.2;   // [kg]
 
 /// A row of cubes along x. A spring pushes the first, as a tool at 50 mm/s.
 class PushedRow {

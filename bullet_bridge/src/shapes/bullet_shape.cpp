@@ -1,9 +1,12 @@
 #include "shapes/bullet_shape.h"
 
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConeShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
@@ -12,6 +15,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "coordination/src/geometry/compound_parts.h"
 #include "coordination/src/geometry/convex_polyhedron.h"
 #include "coordination/src/geometry/triangle_mesh.h"
 
@@ -19,6 +23,18 @@ namespace tandem {
 namespace {
 
 using BulletShape = std::unique_ptr<btCollisionShape>;
+
+/// Bullet's compounds do not delete their children.
+class OwnCompound final : public btCompoundShape {
+ public:
+  void add(const btTransform& pose, BulletShape child) {
+    addChildShape(pose, child.get());
+    own_.push_back(std::move(child));
+  }
+
+ private:
+  std::vector<BulletShape> own_;
+};
 
 struct Maker {
   BulletShape operator()(const Sphere& sphere) const {
@@ -59,6 +75,12 @@ struct Maker {
   BulletShape operator()(const Plane& plane) const {
     return std::make_unique<btStaticPlaneShape>(toBullet(plane.normal_B),
                                                 static_cast<btScalar>(plane.offset));
+  }
+  BulletShape operator()(const Compound& compound) const {
+    auto shape = std::make_unique<OwnCompound>();
+    for (const CompoundParts::Part& part : compound.parts->all())
+      shape->add(toBullet(part.p_BC, part.q_BC), makeBulletShape(part.shape));
+    return shape;
   }
   BulletShape operator()(const Mesh&) const {
     throw std::invalid_argument("a mesh cannot be a body of this world; use hulls");

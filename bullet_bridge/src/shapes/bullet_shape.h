@@ -9,7 +9,8 @@
 namespace tandem {
 
 /// Converts a shape to Bullet's form, the inverse of convertShape(). The margin of a hull or cone
-/// is its rounding. Throws std::invalid_argument for a mesh. `shape` must satisfy checkShape().
+/// is its rounding. A compound owns its children. Throws std::invalid_argument for a mesh. `shape`
+/// must satisfy checkShape().
 [[nodiscard]] std::unique_ptr<btCollisionShape> makeBulletShape(const Shape& shape);
 
 }  // namespace tandem

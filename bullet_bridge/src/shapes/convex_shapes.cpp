@@ -119,6 +119,7 @@ struct Scaler {
   }
   std::optional<Shape> operator()(const Plane&) const { return std::nullopt; }
   std::optional<Shape> operator()(const Mesh&) const { return std::nullopt; }
+  std::optional<Shape> operator()(const Compound&) const { return std::nullopt; }
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "geometry/compound_parts.h"
 #include "geometry/face_heights.h"
 #include "geometry/held_face.h"
 #include "geometry/round.h"
@@ -118,6 +119,15 @@ double computeFaceLead(const PlainVec& c, const ConvexHull& hull, int face) noex
     if (i != own) others = std::max(others, heightOver(solid.faces()[i], c));
   // Faces in one plane count as one face.
   return height - others + detail::kOnCore;
+}
+
+Separation separate(const PlainVec& c, const Compound& compound) noexcept {
+  Separation nearest{std::numeric_limits<double>::infinity(), {1.0, 0.0, 0.0}};
+  for (const CompoundParts::Part& part : compound.parts->all()) {
+    const Separation found = separate(part.toPart(c), part.shape);
+    if (found.distance < nearest.distance) nearest = {found.distance, part.toBody(found.n)};
+  }
+  return nearest;
 }
 
 Separation leaveAnyByFace(const PlainVec& c, const Shape& shape, int piece, int face) noexcept {

@@ -108,6 +108,9 @@ inline Separation separate(const PlainVec& c, const Capsule& capsule) noexcept {
 /// Separation from the nearest point of a whole mesh; its piece there decides the sign.
 [[nodiscard]] Separation separate(const PlainVec& c, const Mesh& mesh) noexcept;
 
+/// Separation from the nearest part. Only a part alone knows its faces: none is told.
+[[nodiscard]] Separation separate(const PlainVec& c, const Compound& compound) noexcept;
+
 inline Separation separate(const PlainVec& c, const Box& box) noexcept {
   const Vec3& h = box.half_extents;
   const PlainVec outwards{c.x - std::clamp(c.x, -h.x(), h.x()),  //

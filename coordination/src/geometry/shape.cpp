@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bad_value.h"
+#include "geometry/compound_parts.h"
 #include "geometry/convex_polyhedron.h"
 #include "geometry/triangle_mesh.h"
 
@@ -32,6 +33,9 @@ double boundingRadius(const ConvexHull& hull) noexcept {
 double boundingRadius(const Mesh& mesh) noexcept {
   return mesh.surface->boundingRadius() + mesh.skin;
 }
+double boundingRadius(const Compound& compound) noexcept {
+  return compound.parts->boundingRadius();
+}
 
 double reach(const Sphere& sphere, const Vec3&) noexcept { return sphere.radius; }
 double reach(const Box& box, const Vec3& d) noexcept { return box.half_extents.dot(d.cwiseAbs()); }
@@ -56,6 +60,13 @@ double reach(const ConvexHull& hull, const Vec3& d) noexcept {
   return farthest + hull.rounding;
 }
 double reach(const Mesh& mesh, const Vec3&) noexcept { return boundingRadius(mesh); }
+double reach(const Compound& compound, const Vec3& d) noexcept {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const CompoundParts::Part& part : compound.parts->all())
+    farthest =
+        std::max(farthest, d.dot(part.p_BC) + computeReach(part.shape, part.q_BC.conjugate() * d));
+  return farthest;
+}
 
 void checkPositive(const char* name, double value) {
   if (!(std::isfinite(value) && value > 0.0)) throwBadValue(name, value, "finite and above 0 m");
@@ -98,6 +109,11 @@ void check(const ConvexHull& hull) {
 void check(const Mesh& mesh) {
   if (!mesh.surface) throw std::invalid_argument("a mesh needs a surface");
   checkNotNegative("mesh skin", mesh.skin);
+}
+
+/// Its parts have been checked.
+void check(const Compound& compound) {
+  if (!compound.parts) throw std::invalid_argument("a compound needs parts");
 }
 
 void check(const Plane& plane) {

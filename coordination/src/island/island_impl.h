@@ -112,7 +112,7 @@ struct Island::Impl {
       states[b] = model.bodies[b].state;
       wrenches[b] = {};
     }
-    forEachTouch(model, [&](Touch touch) {
+    const auto addAll = [&](Touch touch) {
       if (!couldMeet(model, touch, states, 0.0)) return;
       recall(model, touch, 0.5 * model.settings.haptic_period);
       const auto add = [&](const Touch& one) {
@@ -120,11 +120,13 @@ struct Island::Impl {
         const double push = computePush(one, state);
         if (push > 0.0) addPush(model, one, state, push, states, wrenches);
       };
-      if (isWholeMesh(touch))
+      if (isWholeMesh(model, touch))
         forEachPiece(model, touch, states, 0.0, [&](const Touch& piece, double) { add(piece); });
       else
         add(touch);
-    });
+    };
+    forEachTouch(model, addAll,
+                 [&](const Touch& whole) { return couldMeetAnyPart(model, whole, states, 0.0); });
     for (const int g : model.present_grips) addPull(model.grips[g]);
   }
 

@@ -33,8 +33,6 @@ void checkBody(const IslandBody& body, bool is_guided) {
   if (!isFinite(body.start)) throw std::invalid_argument("a body's start state must be finite");
   if (body.feels_obstacles && !std::holds_alternative<Sphere>(body.shape))
     throw std::invalid_argument("only a sphere feels obstacles; make other shapes is_rigid");
-  if (std::holds_alternative<Mesh>(body.shape))
-    throw std::invalid_argument("a mesh cannot be a body of an island; make it an obstacle");
   if (body.motion != Motion::kDynamic) return;
   checkPositive("body mass", body.mass);
   if (is_guided) return;

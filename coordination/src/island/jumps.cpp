@@ -45,7 +45,7 @@ double measureAlongGuide(const IslandModel& model, const Touch& touch,
 double measureDepth(const IslandModel& model, const Touch& touch, const States& states) noexcept {
   if (model.settings.guide) return std::max(0.0, measureAlongGuide(model, touch, states));
   if (!couldMeet(model, touch, states, 0.0)) return 0.0;
-  if (!isWholeMesh(touch))
+  if (!isWholeMesh(model, touch))
     return std::max(0.0, -computeTouchState(model, touch, states).geometry.gap);
   double depth = 0.0;
   forEachPiece(model, touch, states, 0.0,
@@ -58,9 +58,10 @@ double measureDepthBefore(const IslandModel& model, const Touch& touch,
                           const States& states) noexcept {
   const Obstacle& obstacle = *touch.obstacle;
   const double radius = std::get<Sphere>(model.bodies[touch.sphere].settings.shape).radius;
+  const ShapePose pose = poseOf(touch, obstacle.p_before_WB, obstacle.q_before_WB);
   const SphereContact before =
-      findSphereContact(states[touch.sphere].p_W, radius, obstacle.shape, obstacle.p_before_WB,
-                        obstacle.q_before_WB, isWholeMesh(touch) ? -1 : touch.touched);
+      findSphereContact(states[touch.sphere].p_W, radius, shapeOf(model, touch), pose.p_W, pose.q_W,
+                        isWholeMesh(model, touch) ? -1 : touch.touched);
   return std::max(0.0, -before.gap);
 }
 

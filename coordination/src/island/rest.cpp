@@ -50,6 +50,7 @@ class Hash {
   }
   void add(const ConvexHull& h) noexcept { add(h.solid.get()), add(h.rounding); }
   void add(const Mesh& m) noexcept { add(m.surface.get()), add(m.skin); }
+  void add(const Compound& c) noexcept { add(c.parts.get()); }
   void add(const Plane& p) noexcept { add(p.normal_B), add(p.offset); }
   [[nodiscard]] std::uint64_t value() const noexcept { return fnv_.value(); }
 

@@ -135,18 +135,18 @@ void SmoothForces::addContact(const IslandModel& model, const Touch& touch) noex
   if (!touch.obstacle) mobility += model.bodies[touch.other].mobility;
   contact.gains.damping = limitDamping(touch.gains.damping, mobility);
   contact.guard_scale = contact.gains.stiffness + contact.gains.damping / period_;
+  contact.shape = &shapeOf(model, touch);
+  contact.part = touch.part;
+  contact.piece = touch.piece;
   if (touch.obstacle) {
     contact.other = static_cast<int>(frames_.size());
-    contact.shape = &touch.obstacle->shape;
-    contact.piece = touch.piece;
     frames_.emplace_back();
     frames_.back().p = PlainVec(touch.obstacle->p_WB);
     frames_.back().R_WB = PlainRotation(touch.obstacle->q_WB);
   } else {
     contact.other = findFrame(model, touch.other);
-    contact.shape = &model.bodies[touch.other].settings.shape;
     const auto other = static_cast<std::size_t>(contact.other);
-    if (other < movers_.size() && !std::holds_alternative<Sphere>(*contact.shape))
+    if (other < movers_.size() && !std::holds_alternative<Sphere>(wholeShapeOf(model, touch)))
       movers_[other].needs_rotation = movers_[other].turns;
   }
   contacts_.push_back(contact);
@@ -284,10 +284,11 @@ Separation SmoothForces::separate(const Contact& contact, const PlainVec& c_B, L
 
 void SmoothForces::push(Contact& contact, Look look) noexcept {
   Frame &sphere = frames_[contact.sphere], &other = frames_[contact.other];
-  const PlainVec c_B = other.R_WB.toBody(sphere.p - other.p);
+  PlainVec c = other.R_WB.toBody(sphere.p - other.p);
+  if (contact.part) c = contact.part->toPart(c);
   if (look == Look::kDecide) contact.face = -1;
-  const Separation found = separate(contact, c_B, look);
-  const PlainVec n = other.R_WB.toWorld(found.n);
+  const Separation found = separate(contact, c, look);
+  const PlainVec n = other.R_WB.toWorld(contact.part ? contact.part->toBody(found.n) : found.n);
   // From the other body's centre to the nearest point of its surface.
   const PlainVec arm = sphere.p - other.p - found.distance * n;
   const double overlap = contact.radius - found.distance;
@@ -314,7 +315,7 @@ void SmoothForces::push(Contact& contact, Look look) noexcept {
     contact.entered = leaves_by_face ? found.face : -1;
     if (contact.face >= 0) {
       const double lead =
-          computeAnyFaceLead(c_B, *contact.shape, contact.piece, contact.face, contact.touched);
+          computeAnyFaceLead(c, *contact.shape, contact.piece, contact.face, contact.touched);
       // A change of face is an event; for a piece of a mesh also before it is touched.
       if (contact.pushes)
         contact.guard = std::min(contact.guard, lead);

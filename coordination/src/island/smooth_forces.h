@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/compound_parts.h"
 #include "geometry/separation.h"
 #include "island/grip_law.h"
 #include "island/island_model.h"
@@ -37,7 +38,8 @@ class SmoothForces {
     int sphere = 0, other = 0;  ///< frames
     double radius = 0.0;        ///< of the sphere, less the allowance [m]
     const Shape* shape = nullptr;
-    int piece = -1;  ///< triangle of a mesh
+    const CompoundParts::Part* part = nullptr;  ///< of the other's compound, which has `shape`
+    int piece = -1;                             ///< triangle of a mesh
     CouplerGains gains;
     double guard_scale = 0.0;  ///< converts a force to an overlap [N/m]
     bool pushes = false;       ///< pushes over the present step

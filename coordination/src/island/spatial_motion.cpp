@@ -31,8 +31,12 @@ constexpr std::size_t kMaxObstacleTouches = 64;
 /// Most touches per slot; HIP and proxies are few.
 constexpr std::size_t kMaxSlotTouches = 4;
 
+/// Most touches of spheres on parts of compounds and pieces of meshes that move, besides one each.
+constexpr std::size_t kMaxPartTouches = 64;
+
 std::size_t countMostTouches(const IslandModel& model) {
-  return model.contacts.size() + kMaxObstacleTouches + kMaxSlotTouches * model.slots.size();
+  return model.contacts.size() + kMaxObstacleTouches + kMaxSlotTouches * model.slots.size() +
+         kMaxPartTouches;
 }
 
 std::size_t countMostContacts(const IslandModel& model) {
@@ -41,9 +45,12 @@ std::size_t countMostContacts(const IslandModel& model) {
 
 std::size_t countMostJoints(const IslandModel& model) { return model.joints ? kMaxJoints : 0; }
 
+bool areOfOneShape(const Touch& a, const Touch& b) noexcept {
+  return a.sphere == b.sphere && a.other == b.other && a.obstacle == b.obstacle && a.part == b.part;
+}
+
 bool isSame(const Touch& a, const Touch& b) noexcept {
-  return a.sphere == b.sphere && a.other == b.other && a.obstacle == b.obstacle &&
-         a.piece == b.piece;
+  return areOfOneShape(a, b) && a.piece == b.piece;
 }
 
 bool any(const std::vector<char>& flags) noexcept {
@@ -157,11 +164,14 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
     }
     touches_.clear();
     forEachTouch(model, [&](const Touch& touch) {
-      if (!isWholeMesh(touch)) return addTouch(model, touch);
-      const double allowance = allowance_[touch.sphere] + way;
-      if (couldMeet(model, touch, states_, allowance))
-        forEachPiece(model, touch, states_, allowance,
-                     [&](const Touch& piece, double) { addTouch(model, piece); });
+      const bool is_mesh = isWholeMesh(model, touch);
+      double allowance = allowance_[touch.sphere] + way;
+      if (!touch.obstacle) allowance += allowance_[touch.other] + way;
+      // Of what has many parts or pieces only those nearby have room.
+      if ((is_mesh || touch.part) && !couldMeet(model, touch, states_, allowance)) return;
+      if (!is_mesh) return addTouch(model, touch);
+      forEachPiece(model, touch, states_, allowance,
+                   [&](const Touch& piece, double) { addTouch(model, piece); });
     });
     joints_.choose(model, together_);
     smooth_.choose(model, together_, alone_, touches_);
@@ -215,19 +225,26 @@ void SpatialMotion::findLoners(IslandModel& model, double dt, IslandCounters& co
 void SpatialMotion::findTouches(IslandModel& model, IslandCounters& counters) noexcept {
   touches_.clear();
   model.faces.startLook();
-  forEachTouch(model, [&](Touch& touch) {
-    double allowance = allowance_[touch.sphere];
-    if (!touch.obstacle) allowance += allowance_[touch.other];
+  const auto allowanceOf = [&](const Touch& touch) {
+    return allowance_[touch.sphere] + (touch.obstacle ? 0.0 : allowance_[touch.other]);
+  };
+  const auto look = [&](Touch& touch) {
+    const double allowance = allowanceOf(touch);
     if (!couldMeet(model, touch, states_, allowance)) {
       ++counters.contact_searches_skipped;
       return;
     }
     ++counters.contact_searches;
-    if (isWholeMesh(touch))
+    if (isWholeMesh(model, touch))
       followPieces(model, states_, touch, allowance,
                    [&](const Touch& piece) { addTouch(model, piece); });
     else if (followFace(model, states_, touch, allowance) < allowance)
       addTouch(model, touch);
+  };
+  forEachTouch(model, look, [&](const Touch& whole) {
+    const bool could_meet = couldMeetAnyPart(model, whole, states_, allowanceOf(whole));
+    counters.contact_searches_skipped += !could_meet;
+    return could_meet;
   });
   model.faces.endLook();
 }
@@ -333,11 +350,9 @@ bool SpatialMotion::mustRepeat(IslandModel& model, double dt) noexcept {
   bool met = false;
   std::size_t known = 0;
   forEachTouch(model, [&](const Touch& touch) {
-    if (isWholeMesh(touch)) {
+    if (isWholeMesh(model, touch)) {
       const std::size_t first = known;
-      while (known < touches_.size() && touches_[known].obstacle == touch.obstacle &&
-             touches_[known].sphere == touch.sphere)
-        ++known;
+      while (known < touches_.size() && areOfOneShape(touches_[known], touch)) ++known;
       if (!couldMeet(model, touch, states_, 0.0)) return;
       forEachPiece(model, touch, states_, 0.0, [&](const Touch& piece, double gap) {
         met |= gap <= 0.0 && std::none_of(touches_.begin() + first, touches_.begin() + known,

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/compound_parts.h"
 #include "geometry/contact_geometry.h"
 #include "geometry/mesh_pieces.h"
 #include "island/island_model.h"
@@ -14,10 +15,22 @@ struct Touch {
   BodyIndex other = 0;                 ///< the sphere itself with an obstacle
   const Obstacle* obstacle = nullptr;  ///< null: `other` is a body
   CouplerGains gains;
-  int piece = -1;          ///< triangle of a mesh obstacle; -1: the whole mesh
+  const CompoundParts::Part* part = nullptr;  ///< of a compound; null: the whole shape
+  int piece = -1;                             ///< triangle of a mesh; -1: the whole mesh
   int touched = -1;        ///< face that the sphere has touched, or triangle: TouchedFaces
   double allowance = 0.0;  ///< overlap that does not push yet [m]: TouchMemory
 };
+
+/// The shape of the other body or obstacle, without regard to parts.
+[[nodiscard]] inline const Shape& wholeShapeOf(const IslandModel& model,
+                                               const Touch& touch) noexcept {
+  return touch.obstacle ? touch.obstacle->shape : model.bodies[touch.other].settings.shape;
+}
+
+/// The shape that touches the sphere: of a compound one part.
+[[nodiscard]] inline const Shape& shapeOf(const IslandModel& model, const Touch& touch) noexcept {
+  return touch.part ? touch.part->shape : wholeShapeOf(model, touch);
+}
 
 /// Key of the touch in the model's memory.
 [[nodiscard]] TouchKey keyOf(const IslandModel& model, const Touch& touch) noexcept;
@@ -36,8 +49,17 @@ using States = std::vector<RigidState>;
 /// A body alone is watched when something comes this close [m].
 inline constexpr double kWatchDistance = 1e-4;
 
+/// Pose of the shape that touches.
+struct ShapePose {
+  Vec3 p_W = Vec3::Zero();
+  Quat q_W = Quat::Identity();
+};
+[[nodiscard]] ShapePose poseOf(const Touch& touch, const States& states) noexcept;
+/// The same with the body or obstacle elsewhere.
+[[nodiscard]] ShapePose poseOf(const Touch& touch, const Vec3& p_WB, const Quat& q_WB) noexcept;
+
 /// False if the bounding spheres are farther apart than `reach` [m], and nothing is remembered. It
-/// takes a few additions; exact geometry needs a rotation and a root.
+/// takes a few additions, and for a part a rotation; exact geometry needs a root, too.
 [[nodiscard]] bool couldMeet(const IslandModel& model, const Touch& touch, const States& states,
                              double reach) noexcept;
 
@@ -68,9 +90,9 @@ inline void recall(const IslandModel& model, Touch& touch, double ahead = 0.0) n
   if (!model.memory.isEmpty()) addMemory(model, touch, ahead);
 }
 
-/// True for a mesh obstacle that forEachPiece() must split first.
-[[nodiscard]] inline bool isWholeMesh(const Touch& touch) noexcept {
-  return touch.obstacle && touch.piece < 0 && std::holds_alternative<Mesh>(touch.obstacle->shape);
+/// True for a mesh that forEachPiece() must split first.
+[[nodiscard]] inline bool isWholeMesh(const IslandModel& model, const Touch& touch) noexcept {
+  return touch.piece < 0 && std::holds_alternative<Mesh>(shapeOf(model, touch));
 }
 
 /// True if a piece of a mesh pushes with its face, and not with an edge or corner.
@@ -84,11 +106,11 @@ inline void recall(const IslandModel& model, Touch& touch, double ahead = 0.0) n
 template <typename Visit>
 void forEachPiece(const IslandModel& model, const Touch& whole, const States& states,
                   double allowance, Visit visit) noexcept {
-  const Obstacle& obstacle = *whole.obstacle;
-  const Mesh& mesh = *std::get_if<Mesh>(&obstacle.shape);
+  const Mesh& mesh = *std::get_if<Mesh>(&shapeOf(model, whole));
   const double radius = std::get_if<Sphere>(&model.bodies[whole.sphere].settings.shape)->radius;
-  const PlainVec c_B = PlainRotation(obstacle.q_WB)
-                           .toBody(PlainVec(states[whole.sphere].p_W) - PlainVec(obstacle.p_WB));
+  const ShapePose pose = poseOf(whole, states);
+  const PlainVec c_B =
+      PlainRotation(pose.q_W).toBody(PlainVec(states[whole.sphere].p_W) - PlainVec(pose.p_W));
   forEachPiece(c_B, mesh, whole.touched, radius + allowance, allowance,
                [&](int piece, const Separation& found) {
                  Touch touch = whole;
@@ -97,11 +119,42 @@ void forEachPiece(const IslandModel& model, const Touch& whole, const States& st
                });
 }
 
-/// Calls `visit` with every possible touch of present bodies: pairs of bodies, and spheres with
-/// slots and obstacles. Meshes stay whole.
+/// True for a compound, whose parts touch. A guided island knows extents only: there it is one.
+[[nodiscard]] inline bool hasParts(const IslandModel& model, const Touch& whole) noexcept {
+  return std::holds_alternative<Compound>(wholeShapeOf(model, whole)) && !model.settings.guide;
+}
+
+/// Calls `visit` with the touch of each part of a compound, which has the face that the model
+/// remembers.
 template <typename Visit>
-void forEachTouch(const IslandModel& model, Visit visit) {
+void forEachPart(const IslandModel& model, const Touch& whole, Visit visit) {
+  for (const CompoundParts::Part& part :
+       std::get_if<Compound>(&wholeShapeOf(model, whole))->parts->all()) {
+    Touch touch = whole;
+    touch.part = &part;
+    recallFace(model, touch);
+    visit(touch);
+  }
+}
+
+/// True if a part of a compound may be nearer than `reach` [m], or is remembered.
+[[nodiscard]] inline bool couldMeetAnyPart(const IslandModel& model, const Touch& whole,
+                                           const States& states, double reach) noexcept {
+  return couldMeet(model, whole, states, reach) || model.faces.holdsPartOf(keyOf(model, whole));
+}
+
+/// Lets forEachTouch() visit all parts of all compounds.
+inline constexpr auto kAllCompounds = [](const Touch&) { return true; };
+
+/// Calls `visit` with every possible touch of present bodies: pairs of bodies, and spheres with
+/// slots and obstacles. Meshes stay whole. `takes(whole)` tells whether a compound's parts matter.
+template <typename Visit, typename Takes = decltype(kAllCompounds)>
+void forEachTouch(const IslandModel& model, Visit visit, Takes takes = kAllCompounds) {
   const auto show = [&](Touch&& touch) {
+    if (hasParts(model, touch)) [[unlikely]] {
+      if (takes(touch)) forEachPart(model, touch, visit);
+      return;
+    }
     recallFace(model, touch);
     visit(touch);
   };

@@ -11,6 +11,12 @@ struct TouchKey {
   BodyIndex sphere = 0;
   BodyIndex other = 0;         ///< the sphere itself with an obstacle
   std::uint64_t obstacle = 0;  ///< 0: `other` is a body
+  int part = 0;                ///< of a compound, from 1; 0: the whole shape
+
+  /// True for any part of the same thing.
+  [[nodiscard]] bool isOf(const TouchKey& whole) const noexcept {
+    return sphere == whole.sphere && other == whole.other && obstacle == whole.obstacle;
+  }
 
   bool operator==(const TouchKey&) const = default;
 };

@@ -25,6 +25,12 @@ class TouchedFaces {
     return -1;
   }
 
+  /// True if a face of any part of a compound is remembered.
+  [[nodiscard]] bool holdsPartOf(const TouchKey& whole) const noexcept {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [&](const Entry& entry) { return entry.key.isOf(whole); });
+  }
+
   /// Deepest overlap [m].
   [[nodiscard]] double deepest() const noexcept {
     double gap = 0.0;

@@ -9,6 +9,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
+class CompoundParts;
 class ConvexPolyhedron;
 class TriangleMesh;
 
@@ -62,14 +63,20 @@ struct Plane {
   double offset = 0.0;            ///< [m]
 };
 
-/// A triangle surface, thickened by a skin on its outer side; for obstacles only. Copies share the
-/// surface, as with ConvexHull.
+/// A triangle surface, thickened by a skin on its outer side; for obstacles and parts of compounds.
+/// Copies share the surface, as with ConvexHull.
 struct Mesh {
   std::shared_ptr<const TriangleMesh> surface;  ///< not null
   double skin = 0.0;                            ///< [m], >= 0
 };
 
-using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Mesh, Cone>;
+/// Several shapes at fixed poses in one body. They may overlap, and each pushes by itself, as
+/// separate bodies do. Copies share the parts, as with ConvexHull.
+struct Compound {
+  std::shared_ptr<const CompoundParts> parts;  ///< not null
+};
+
+using Shape = std::variant<Sphere, Box, Capsule, Plane, Cylinder, ConvexHull, Mesh, Cone, Compound>;
 
 /// Radius of the sphere around the body's origin that holds the shape [m]; infinite for a plane.
 [[nodiscard]] double computeBoundingRadius(const Shape& shape) noexcept;
