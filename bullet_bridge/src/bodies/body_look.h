@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
+
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "bodies/equal_bits.h"
+#include "shapes/parts_look.h"
 
 namespace tandem {
 
@@ -15,6 +18,7 @@ struct BodyLook {
   int flags = 0;           ///< btCollisionObject::CollisionFlags
   int group = 0, mask = 0;
   const btCollisionShape* shape = nullptr;
+  std::uint64_t parts = 0;  ///< lookAtParts()
   btScalar inverse_mass = 0, margin = 0;
   btVector3 inverse_inertia{0, 0, 0}, scaling{1, 1, 1}, linear_factor{1, 1, 1},
       angular_factor{1, 1, 1};
@@ -29,6 +33,7 @@ struct BodyLook {
     }
     look.flags = body.getCollisionFlags();
     look.shape = body.getCollisionShape();
+    look.parts = lookAtParts(*look.shape);
     look.margin = look.shape->getMargin();
     look.scaling = look.shape->getLocalScaling();
     look.inverse_mass = body.getInvMass();
@@ -40,9 +45,10 @@ struct BodyLook {
 
   [[nodiscard]] bool operator==(const BodyLook& other) const noexcept {
     return broadphase_id == other.broadphase_id && flags == other.flags && group == other.group &&
-           mask == other.mask && shape == other.shape && inverse_mass == other.inverse_mass &&
-           margin == other.margin && equalBits(inverse_inertia, other.inverse_inertia) &&
-           equalBits(scaling, other.scaling) && equalBits(linear_factor, other.linear_factor) &&
+           mask == other.mask && shape == other.shape && parts == other.parts &&
+           inverse_mass == other.inverse_mass && margin == other.margin &&
+           equalBits(inverse_inertia, other.inverse_inertia) && equalBits(scaling, other.scaling) &&
+           equalBits(linear_factor, other.linear_factor) &&
            equalBits(angular_factor, other.angular_factor);
   }
 };

@@ -21,6 +21,7 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "coordination/src/geometry/triangle_mesh.h"
+#include "shapes/compound_form.h"
 #include "shapes/convex_shapes.h"
 #include "shapes/only_shape.h"
 #include "shapes/thick_hull.h"
@@ -127,7 +128,17 @@ std::optional<Shape> convertBare(const btCollisionShape& shape) {
 
 std::optional<Shape> convertShape(const btCollisionShape& shape) {
   const Bare bare = unwrap(shape);
-  return scaleAs(bare, convertBare(*bare.shape));
+  if (!hasChildren(*bare.shape)) return scaleAs(bare, convertBare(*bare.shape));
+  MovingForm form = makeMovingForm(*bare.shape, findForm);
+  if (form.unknown) form.shape.reset();
+  return std::move(form.shape);
+}
+
+std::optional<Shape> findForm(const btCollisionShape& shape) {
+  std::optional<Shape> own = convertShape(shape);
+  if (!own) own = sampleShape(shape);
+  if (!own) own = convertMesh(shape);
+  return own;
 }
 
 std::optional<Shape> sampleShape(const btCollisionShape& shape) {
@@ -154,21 +165,26 @@ std::optional<Shape> convertMesh(const btCollisionShape& shape) {
 }
 
 std::optional<Shape> findShareableShape(const btRigidBody& body) {
-  std::optional<Shape> shape = convertShape(*body.getCollisionShape());
-  if (shape && std::holds_alternative<Plane>(*shape)) shape.reset();
-  return shape;
+  const btCollisionShape& shape = *body.getCollisionShape();
+  if (!shape.isConvex() && !shape.isCompound()) return std::nullopt;
+  std::optional<Shape> own = convertShape(shape);
+  if (own && std::holds_alternative<Plane>(*own)) own.reset();
+  return own;
 }
 
 Shape getShareableShape(const btRigidBody& body) {
-  const std::optional<Shape> shape = findShareableShape(body);
-  if (!shape)
-    throw Error(
-        std::string(
-            "a shared object must be a box, sphere, capsule, cylinder, cone or convex hull, not "
-            "a ") +
-        body.getCollisionShape()->getName() +
-        "; give the body one of these shapes, or a compound of just one at its origin");
-  return *shape;
+  std::optional<Shape> own = findShareableShape(body);
+  if (own) return *std::move(own);
+  const btCollisionShape& shape = *body.getCollisionShape();
+  const MovingForm form = makeMovingForm(shape, findForm);
+  std::string name = shape.getName();
+  if (hasChildren(shape))
+    name += form.unknown ? std::string(" with a ") + form.unknown->getName() : " of nothing";
+  throw Error(
+      "a shared object must be a box, sphere, capsule, cylinder, cone, convex hull or a compound "
+      "of "
+      "shapes, not a " +
+      name + "; give the body one of these shapes");
 }
 
 }  // namespace tandem

@@ -6,6 +6,7 @@
 
 #include "tandem/bullet_bridge/shapes.h"
 
+#include "shapes/compound_form.h"
 #include "world/world_lookup.h"
 
 namespace tandem {
@@ -42,12 +43,16 @@ std::optional<Shape> KnownShapes::find(const btCollisionObject& object,
       return known->own;
     entries_.erase(known);
   }
-  std::optional<Shape> own = convertShape(shape);
-  if (!own) own = sampleShape(shape);
-  if (!own) own = convertMesh(shape);
+  std::optional<Shape> own = findForm(shape);
   entries_.push_back({&object, object.getCollisionShape(), &shape, shape.getLocalScaling(),
                       shape.getMargin(), bounds, own, object.getWorldArrayIndex()});
   return own;
+}
+
+std::optional<Shape> KnownShapes::findWhole(const btCollisionObject& object) {
+  return makeMovingForm(*object.getCollisionShape(),
+                        [&](const btCollisionShape& part) { return find(object, part); })
+      .shape;
 }
 
 void KnownShapes::forgetLost(const btCollisionWorld& world) {

@@ -21,6 +21,9 @@ class KnownShapes {
   [[nodiscard]] std::optional<Shape> find(const btCollisionObject& object,
                                           const btCollisionShape& shape);
 
+  /// The island's form of a moving object; of a compound without the parts that have none.
+  [[nodiscard]] std::optional<Shape> findWhole(const btCollisionObject& object);
+
   /// Once per host step: drops shapes whose object left the world or changed its shape.
   void forgetLost(const btCollisionWorld& world);
 

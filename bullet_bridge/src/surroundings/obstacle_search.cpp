@@ -4,12 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include <BulletCollision/CollisionShapes/btCompoundShape.h>
-#include <BulletCollision/Gimpact/btGImpactShape.h>
-
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bodies/filter_of.h"
+#include "shapes/compound_children.h"
 #include "shapes/only_shape.h"
 
 namespace tandem {
@@ -64,50 +62,23 @@ void sortAsAdded(std::vector<btCollisionObject*>& objects) {
             });
 }
 
-namespace {
-
-/// Calls `visit(child, pose)` for each child of a compound, of either kind that Bullet has. False
-/// if the shape is no compound.
-template <typename Visit>
-bool forEachChild(const btCollisionShape& shape, Visit visit) {
-  if (shape.isCompound()) {
-    const auto& compound = static_cast<const btCompoundShape&>(shape);
-    for (int i = 0; i < compound.getNumChildShapes(); ++i)
-      visit(*compound.getChildShape(i), compound.getChildTransform(i));
-    return true;
-  }
-  if (shape.getShapeType() != GIMPACT_SHAPE_PROXYTYPE) return false;
-  const auto& gimpact = static_cast<const btGImpactShapeInterface&>(shape);
-  if (gimpact.getGImpactShapeType() != CONST_GIMPACT_COMPOUND_SHAPE) return false;
-  const bool has_poses = gimpact.childrenHasTransform();
-  for (int i = 0; i < gimpact.getNumChildShapes(); ++i)
-    visit(*gimpact.getChildShape(i),
-          has_poses ? gimpact.getChildTransform(i) : btTransform::getIdentity());
-  return true;
-}
-
-}  // namespace
-
 void appendObstacles(const btCollisionObject& object, const btCollisionShape& shape,
                      const btTransform& pose, const std::vector<Region>& regions,
                      KnownShapes& known, int& part, std::vector<Obstacle>& obstacles) {
-  const bool is_compound =
-      forEachChild(shape, [&](const btCollisionShape& child, const btTransform& child_pose) {
-        appendObstacles(object, child, pose * child_pose, regions, known, part, obstacles);
-      });
-  if (is_compound) return;
-  ++part;
-  const Region bounds = computeRegion(shape, pose);
-  const bool is_near = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-    return mayReach(shape, pose, bounds, region);
+  forEachLeaf(shape, pose, [&](const btCollisionShape& leaf, const btTransform& leaf_pose) {
+    ++part;
+    const Region bounds = computeRegion(leaf, leaf_pose);
+    const bool is_near = std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+      return mayReach(leaf, leaf_pose, bounds, region);
+    });
+    if (!is_near) return;
+    const std::optional<Shape> own = known.find(object, leaf);
+    if (!own) return;
+    Obstacle obstacle{*own, fromBullet(leaf_pose.getOrigin()), fromBullet(leaf_pose.getRotation())};
+    obstacle.id = makeId(object, part);
+    obstacle.filter = filterOf(object);
+    obstacles.push_back(std::move(obstacle));
   });
-  if (!is_near) return;
-  const std::optional<Shape> own = known.find(object, shape);
-  if (!own) return;
-  Obstacle obstacle{*own, fromBullet(pose.getOrigin()), fromBullet(pose.getRotation())};
-  obstacle.id = makeId(object, part);
-  obstacle.filter = filterOf(object);
-  obstacles.push_back(std::move(obstacle));
 }
 
 void noteChanges(const std::vector<Obstacle>& before, std::vector<Obstacle>& now) {

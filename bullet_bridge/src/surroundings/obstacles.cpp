@@ -125,6 +125,10 @@ void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
   impl_->search.prepare();
 }
 
+std::optional<Shape> Obstacles::findForm(const btRigidBody& body) {
+  return impl_->known_shapes.findWhole(body);
+}
+
 void Obstacles::removeBody(BodyIndex index) {
   if (btCollisionObject* body = impl_->findBody(index)) impl_->remove(body);
   impl_->search.prepare();

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
+
+#include "tandem/coordination/shape.h"
 
 #include "coordination/src/island/contact_finder.h"
 #include "coordination/src/island/contact_tally.h"
@@ -48,6 +51,10 @@ class Obstacles final : public ContactFinder {
   /// neither convex nor compound (for kinematic bodies: a plane). Two kinematic bodies never touch.
   void addBody(BodyIndex index, btRigidBody& body);
 
+  /// Not in the tick. The form in which spheres feel a moving body of the host's world; nothing if
+  /// no part of its shape has one. A form that takes time is made once and kept.
+  [[nodiscard]] std::optional<Shape> findForm(const btRigidBody& body);
+
   /// Not in the tick. Frees the index; native contact is the host's again.
   void removeBody(BodyIndex index);
 
@@ -83,7 +90,7 @@ class Obstacles final : public ContactFinder {
   void shiftOrigin(const Vec3& offset_W) noexcept;
 
   /// Obstacles near the spheres, which tell what changed in the last commit(), of shapes that
-  /// convertShape() or convertMesh() supports, also as children of compounds.
+  /// findForm() supports; of compounds each part.
   [[nodiscard]] const std::vector<Obstacle>& nearSpheres() const noexcept;
 
   void lookAround(const std::vector<RigidState>& states, const std::vector<double>& reach,

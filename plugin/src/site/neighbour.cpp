@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_bridge/src/bodies/filter_of.h"
+#include "bullet_bridge/src/shapes/parts_look.h"
 
 namespace tandem {
 namespace {
@@ -31,7 +32,7 @@ void Neighbour::becomeEmpty() {
 bool Neighbour::hasChanged() const noexcept {
   if (driven)
     return !rigid->isKinematicObject() || rigid->getCollisionShape() != shape ||
-           !(filterOf(*rigid) == settings.filter);
+           lookAtParts(*shape) != parts || !(filterOf(*rigid) == settings.filter);
   return !bullet->isAsHeld() || !isMovedByForces(*rigid);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "bullet_bridge/src/bodies/driven_body.h"
@@ -15,6 +16,7 @@ namespace tandem {
 struct Neighbour {
   btRigidBody* rigid = nullptr;                        ///< null: the slot is empty
   const btCollisionShape* shape = nullptr;             ///< at its entry
+  std::uint64_t parts = 0;                             ///< lookAtParts() at its entry
   IslandBody settings;                                 ///< island body in the slot
   std::unique_ptr<HapticBody> bullet;                  ///< if dynamic; `body` points to it
   std::unique_ptr<DrivenBody> driven;                  ///< if kinematic

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tandem/bullet_bridge/shapes.h"
+#include "bullet_bridge/src/shapes/parts_look.h"
 
 // Runs in the host's thread: searches for what is near and promotes neighbours.
 // neighbours_coming.cpp applies the results where the ticks run.
@@ -225,10 +225,11 @@ void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step
   const BodyIndex index = neighbour.body.index;
   neighbour.rigid = &rigid;
   neighbour.shape = rigid.getCollisionShape();
+  neighbour.parts = lookAtParts(*neighbour.shape);
   neighbour.is_new = true;
   neighbour.settings = {};
   neighbour.settings.is_rigid = true;
-  const std::optional<Shape> shape = convertShape(*rigid.getCollisionShape());
+  const std::optional<Shape> shape = obstacles_.findForm(rigid);
   if (shape) neighbour.settings.shape = *shape;
   neighbour.settings.touches_spheres = shape.has_value();
   neighbour.settings.filter = filterOf(rigid);

@@ -17,8 +17,10 @@ namespace tandem {
 /// oval cylinder is round, as Bullet collides it.
 ///
 /// A compound of one child at its origin counts as the child, because some hosts wrap every shape.
-/// So does a 2-D or scaled shape. Nothing for other shapes: those of sampleShape() and
-/// convertMesh(), other compounds. Allocates; a hull of 4000 points takes some milliseconds.
+/// So does a 2-D or scaled shape. Other compounds, nested or GImpact's too, become a Compound of
+/// the forms that findForm() gives their children; nothing if a child has none or is a plane.
+/// Children without a surface (btEmptyShape) do not count. Nothing for other shapes: those of
+/// sampleShape() and convertMesh(). Allocates; a hull of 4000 points takes some milliseconds.
 [[nodiscard]] std::optional<Shape> convertShape(const btCollisionShape& shape);
 
 /// Hull of samples of any convex shape, for those that have no exact form: unequal spheres,
@@ -35,11 +37,15 @@ namespace tandem {
 /// side. A height field is free above, on the positive side of its up axis.
 [[nodiscard]] std::optional<Shape> convertMesh(const btCollisionShape& shape);
 
+/// The island's form of any shape: that of convertShape(), else sampleShape(), else convertMesh().
+/// Nothing for an empty shape, a signed distance field, a soft body. As slow as these.
+[[nodiscard]] std::optional<Shape> findForm(const btCollisionShape& shape);
+
 /// Form of a body's shape if a body with it can be shared; see getShareableShape().
 [[nodiscard]] std::optional<Shape> findShareableShape(const btRigidBody& body);
 
-/// Shape of a body that can be shared: box, sphere, capsule, cylinder, cone or convex hull, or a
-/// compound of one of them at its origin. Throws tandem::Error that names any other shape.
+/// Shape of a body that can be shared: box, sphere, capsule, cylinder, cone, convex hull, or a
+/// compound of shapes that have a form. Throws tandem::Error that names any other shape.
 [[nodiscard]] Shape getShareableShape(const btRigidBody& body);
 
 }  // namespace tandem

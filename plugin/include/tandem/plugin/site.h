@@ -134,7 +134,9 @@ class Site {
   /// `damping` b acts on this copy [N s/m]. All peers share the same objects in the same order,
   /// which identifies them, or by name. At most kMaxSharedObjects. With hand-off the body sleeps in
   /// Bullet while it rests and costs no more than any sleeping body; motion, pushes and hits wake
-  /// it. Throws tandem::Error with the reason for a body that cannot be shared.
+  /// it. Its shape is a box, sphere, capsule, cylinder, cone, convex hull, or a compound of any
+  /// shapes but planes; hand and proxies feel each part of it. Throws tandem::Error with the reason
+  /// for a body that cannot be shared.
   ObjectId share(btRigidBody& body, double damping = 0.0);
 
   /// Shares bodies by name, in any order: an object's id is the place of its name among all names
