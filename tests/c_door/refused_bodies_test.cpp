@@ -23,6 +23,24 @@ Case addCase(const char* name, const char* words,
   return {name, TANDEM_INVALID_ARGUMENT, words,
           [spoil](Scene& scene) { return add(scene, spoilBody(spoil)); }};
 }
+/// A compound of a cube and a part that `spoil` makes of another.
+Case compoundCase(const char* name, const char* words,
+                  const std::function<void(TandemShapePart&)>& spoil) {
+  return {name, TANDEM_INVALID_ARGUMENT, words, [spoil](Scene& scene) {
+            TandemShapePart parts[2]{};
+            for (TandemShapePart& part : parts) {
+              part.size[0] = part.size[1] = part.size[2] = 0.02;
+              part.orientation[3] = 1.0;
+            }
+            spoil(parts[1]);
+            const TandemBodySettings settings = tandem_default_body_settings();
+            TandemBody body = 77;
+            const TandemResult result =
+                tandem_world_add_compound(scene.bare, &settings, 2, parts, &body);
+            EXPECT_EQ(body, 77u);
+            return result;
+          }};
+}
 
 std::vector<Case> bodyCases() {
   return {
@@ -52,6 +70,20 @@ std::vector<Case> bodyCases() {
                 static const double flat[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
                 s.shape = TANDEM_HULL, s.points = flat, s.point_count = 4;
               }),
+      compoundCase("PartKind", "shape = 17", [](auto& part) { setNumber(part.shape, 17); }),
+      compoundCase("PartSize", "half_extents.y", [](auto& part) { part.size[1] = -1.0; }),
+      compoundCase("PartPlane", "a plane cannot be part",
+                   [](auto& part) { part.shape = TANDEM_PLANE; }),
+      compoundCase("PartPosition", "parts[1].position = (0, nan, 0): must be finite",
+                   [](auto& part) { part.position[1] = kNan; }),
+      compoundCase("PartOrientation", "parts[1].orientation = (0, 0, 0, 2): must be",
+                   [](auto& part) { part.orientation[3] = 2.0; }),
+      {"NoParts", TANDEM_INVALID_ARGUMENT, "a compound needs a shape",
+       [](Scene& scene) {
+         const TandemBodySettings settings = tandem_default_body_settings();
+         TandemBody body = 0;
+         return tandem_world_add_compound(scene.bare, &settings, 0, nullptr, &body);
+       }},
       {"HostsWorld", TANDEM_INVALID_ARGUMENT, "the world is the host's",
        [](Scene& scene) {
          const TandemBodySettings settings = tandem_default_body_settings();

@@ -7,6 +7,7 @@
 
 #include "tandem/plugin/key_file.h"
 
+#include "coordination/src/geometry/compound_parts.h"
 #include "preload/adaptor/preload_config.h"
 #include "preload/interposer/process.h"
 #include "program/process.h"
@@ -177,6 +178,12 @@ TEST(ShapeWords, AreThoseOfAShape) {
   EXPECT_EQ(toText(preload::describeShape(Capsule{0.05, 0.1, Axis::kX})), "capsule 0.05 0.2");
   EXPECT_EQ(toText(preload::describeShape(Cylinder{0.05, 0.1, Axis::kX})), "cylinder 0.05 0.2");
   EXPECT_EQ(toText(preload::describeShape(Cone{0.05, 0.1, Axis::kX, 0.01})), "cone 0.05 0.2");
+  const Compound compound = makeCompound({{Sphere{0.1}, Vec3(1.0, 0.0, 0.0)}, {Cone{0.05, 0.1}}});
+  EXPECT_EQ(toText(preload::describeShape(compound)), "compound");
+  const auto words = preload::parseShapeWords("compound");
+  ASSERT_TRUE(words);
+  EXPECT_TRUE(preload::matches(*words, preload::describeShape(compound)));
+  EXPECT_FALSE(preload::parseShapeWords("compound 1"));
   EXPECT_EQ(toText(preload::describeShape(Plane{})), "");
 }
 

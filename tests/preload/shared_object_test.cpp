@@ -60,6 +60,25 @@ TEST(SharedObject, WaitsUntilItIsThereAndLetsGoWhenItLeaves) {
   EXPECT_EQ(shared.site(), nullptr);
 }
 
+TEST(SharedObject, MayBeACompound) {
+  BulletRig rig;
+  rig.addCube(0.2, 0.02, Vec3(0.0, 0.5, 0.0));
+  auto& compound = rig.makeShape<btCompoundShape>();
+  auto& box = rig.makeShape<btBoxShape>(toBullet(Vec3(0.02, 0.01, 0.02)));
+  for (const double y : {-0.01, 0.01})
+    compound.addChildShape(toBullet(Vec3(0.0, y, 0.0), Quat::Identity()), &box);
+  btRigidBody& body = rig.addBody(compound, 0.2);
+  PreloadConfig config = makeConfig();
+  config.index.reset();
+  config.shape = preload::parseShapeWords("compound");
+  SharedObject shared(config);
+  shared.setWorld(rig.world);
+  for (int i = 0; i < 20; ++i) step(shared, rig);
+  ASSERT_NE(shared.site(), nullptr);
+  EXPECT_EQ(&shared.site()->objectBody(0), &body);
+  EXPECT_GT(body.getCenterOfMassPosition().x(), 0.01);
+}
+
 // A program takes its bodies out at its end, too: the next step tells whether it runs on.
 TEST(SharedObject, SaysThatItWasTakenOutInTheNextStepOnly) {
   BulletRig rig;

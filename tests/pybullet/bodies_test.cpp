@@ -138,6 +138,27 @@ TEST(Obstacle, MayBeOfSeveralPiecesOffItsCentre) {
   EXPECT_NEAR(pressed.host.engine.bodies.at(pressed.cube).state.p_W.z(), 0.02, 2e-4);
 }
 
+// A table of two legs stands on the floor; the hand presses its plate, whose middle is free.
+TEST(SharedBody, MayBeOfSeveralPiecesOffItsCentre) {
+  StubBody table = makeStubCube();
+  table.shape.clear();
+  const auto add = [&](const Vec3& size, const Vec3& at) {
+    b3::CollisionShapeData piece = makeStubShape(b3::kBox, size);
+    for (int i = 0; i < 3; ++i) piece.frame[i] = at[i];
+    table.shape.push_back(piece);
+  };
+  add({0.2, 0.1, 0.02}, {0.0, 0.0, 0.03});
+  for (const double x : {-0.09, 0.09}) add({0.02, 0.1, 0.06}, {x, 0.0, -0.01});
+  table.state.p_W = Vec3(0.0, 0.5, 0.04);
+  Pressed pressed;
+  const int number = pressed.host.engine.add(table);
+  pressed.host.command("share body=" + std::to_string(number));
+  pressed.host.command("obstacle body=" + std::to_string(pressed.floor));
+  pressed.host.step(120);
+  EXPECT_NEAR(pressed.host.engine.bodies.at(number).state.p_W.z(), 0.04, 3e-4);
+  EXPECT_NEAR(pressed.host.engine.bodies.at(number).state.p_W.y(), 0.5, 1e-4);
+}
+
 // Guests of Tandem's world touch only there, in any order of joining.
 TEST(NativeContact, IsStoppedBetweenAllThatTandemHas) {
   for (const bool connects_first : {true, false}) {

@@ -22,20 +22,20 @@ constexpr int kBad = -10, kOrder = -11, kServer = -12;
 
 class WrongCommand : public ::testing::TestWithParam<Wrong> {};
 
-// Body 0 is a cube, 1 a floor, 2 has joints, 3 maximal coordinates, 4 a mesh, 5 is off its centre,
-// 6 is soft.
+// Body 0 is a cube, 1 a floor, 2 has joints, 3 maximal coordinates, 4 a mesh, 5 has a mesh beside
+// a box, 6 is soft.
 TEST_P(WrongCommand, IsRefusedWithTheRemedy) {
   PluginHost host;
   StubBody jointed = makeStubCube(), maximal = makeStubCube(), mesh = makeStubCube(),
-           off = makeStubCube(), soft = makeStubCube();
+           mixed = makeStubCube(), soft = makeStubCube();
   jointed.links = 2;
   maximal.is_multibody = false;
   mesh.shape = {makeStubShape(b3::kMesh, Vec3::Ones())};
-  off.shape[0].frame[0] = 0.1;
+  mixed.shape.push_back(makeStubShape(b3::kMesh, Vec3::Ones()));
   soft.is_soft = true;
   soft.is_multibody = false;
   for (const StubBody& body :
-       {makeStubCube(), makeStubFloor(), jointed, maximal, mesh, off, soft}) {
+       {makeStubCube(), makeStubFloor(), jointed, maximal, mesh, mixed, soft}) {
     host.engine.add(body);
   }
   host.command(kFarHand);
@@ -73,8 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"share body=0 name=\"a b", kBad, "double quote"},
         Wrong{"share body=1", kServer, "static"}, Wrong{"share body=2", kServer, "2 links"},
         Wrong{"share body=3", kServer, "maximal coordinates"},
-        Wrong{"share body=4", kServer, "shape=hull"},
-        Wrong{"share body=5", kServer, "centre of mass"},
+        Wrong{"share body=4", kServer, "shape=hull"}, Wrong{"share body=5", kServer, "has a mesh"},
         Wrong{"share body=6", kServer, "body 6 is a soft body: Tandem can have rigid bodies only"},
         Wrong{"share body=6 shape=sphere size=1", kServer, "is a soft body"},
         Wrong{"obstacle body=6", kServer, "is a soft body"},

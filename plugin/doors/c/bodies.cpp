@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -6,6 +7,7 @@
 #include "bullet_bridge/src/world/world_access.h"
 #include "c/values.h"
 #include "c/world.h"
+#include "coordination/src/geometry/compound_parts.h"
 #include "coordination/src/geometry/convex_polyhedron.h"
 
 namespace tandem::c_door {
@@ -14,7 +16,16 @@ namespace {
 /// Marks settings made by tandem_default_body_settings().
 constexpr int kCookie = 0x54624f44;
 
-[[nodiscard]] Shape makeHull(const TandemBodySettings& settings) {
+[[nodiscard]] const TandemBodySettings& checkSettings(const TandemBodySettings* settings) {
+  if (checkPointer(settings, "settings").internal != kCookie)
+    throw std::invalid_argument(
+        "the body settings are not from tandem_default_body_settings(); begin with those");
+  return *settings;
+}
+
+/// A shape of TandemBodySettings or TandemShapePart.
+template <typename Settings>
+[[nodiscard]] Shape makeHull(const Settings& settings) {
   const double* points = &checkPointer(settings.points, "points");
   std::vector<Vec3> corners;
   corners.reserve(settings.point_count);
@@ -24,7 +35,8 @@ constexpr int kCookie = 0x54624f44;
                     0.0};
 }
 
-[[nodiscard]] Shape makeShape(const TandemBodySettings& settings) {
+template <typename Settings>
+[[nodiscard]] Shape makeShape(const Settings& settings) {
   const double* size = settings.size;
   const int kind = readNumber(settings.shape);
   switch (kind) {
@@ -47,18 +59,40 @@ constexpr int kCookie = 0x54624f44;
   }
 }
 
-[[nodiscard]] OwnBodySettings readSettings(const TandemBodySettings& settings) {
-  if (settings.internal != kCookie)
-    throw std::invalid_argument(
-        "the body settings are not from tandem_default_body_settings(); begin with those");
+[[nodiscard]] Shape makeShapes(std::size_t count, const TandemShapePart* parts) {
+  if (count > 0) checkPointer(parts, "parts");
+  std::vector<ShapePart> shapes;
+  shapes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    TandemState pose{};
+    std::copy_n(parts[i].position, 3, pose.position);
+    std::copy_n(parts[i].orientation, 4, pose.orientation);
+    const RigidState read = fromC({"parts", static_cast<std::ptrdiff_t>(i)}, pose);
+    shapes.push_back({makeShape(parts[i]), read.p_W, read.q_WB});
+  }
+  return makeCompound(shapes);
+}
+
+[[nodiscard]] OwnBodySettings readSettings(const TandemBodySettings& settings, const Shape& shape) {
   OwnBodySettings body;
-  body.shape = makeShape(settings);
+  body.shape = shape;
   body.mass = settings.mass;
   body.inertia = readVec3("inertia", settings.inertia);
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.start = fromC("start", settings.start);
   return body;
+}
+
+/// Adds a body to the world and returns its number.
+[[nodiscard]] TandemBody addBody(World& in, OwnWorld& own, const OwnBodySettings& settings) {
+  btRigidBody& rigid = own.add(settings);
+  try {
+    return in.number(rigid);
+  } catch (...) {
+    own.remove(rigid);
+    throw;
+  }
 }
 
 }  // namespace
@@ -88,13 +122,20 @@ TandemResult tandem_world_add_body(TandemWorld* world, const TandemBodySettings*
     World& in = open(world);
     OwnWorld& own = in.own("tandem_world_add_body()");
     auto& out = checkPointer(body, "body");
-    btRigidBody& rigid = own.add(readSettings(checkPointer(settings, "settings")));
-    try {
-      out = in.number(rigid);
-    } catch (...) {
-      own.remove(rigid);
-      throw;
-    }
+    const TandemBodySettings& wanted = checkSettings(settings);
+    out = addBody(in, own, readSettings(wanted, makeShape(wanted)));
+  });
+}
+
+TandemResult tandem_world_add_compound(TandemWorld* world, const TandemBodySettings* settings,
+                                       size_t part_count, const TandemShapePart* parts,
+                                       TandemBody* body) {
+  return guarded([&] {
+    World& in = open(world);
+    OwnWorld& own = in.own("tandem_world_add_compound()");
+    auto& out = checkPointer(body, "body");
+    const TandemBodySettings& wanted = checkSettings(settings);
+    out = addBody(in, own, readSettings(wanted, makeShapes(part_count, parts)));
   });
 }
 

@@ -138,7 +138,12 @@ class Session {
   void stopContact(int body_a, int body_b);
   void stopContactWithAll(int body);
   std::vector<Piece> findPieces(const BorrowedBody& body, const Piece* shape) const;
+  static void describeGuest(const BorrowedBody& body, const TandemState& state,
+                            TandemBodySettings& settings);
   TandemBody addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state);
+  TandemBody addGuest(const BorrowedBody& body, const std::vector<Piece>& pieces,
+                      const TandemState& state);
+  void finishGuest(TandemBody id, const BodyFacts& facts);
   void addMoving(BorrowedBody body, TandemBody id, const TandemState& state, int object);
   template <typename ShareGuest>
   int shareGuest(int body, double mass_share, const Piece* shape, ShareGuest share);

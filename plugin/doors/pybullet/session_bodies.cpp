@@ -48,20 +48,51 @@ std::vector<Piece> Session::findPieces(const BorrowedBody& body, const Piece* sh
   return readPieces(engine_, body.number(), body.before());
 }
 
-TandemBody Session::addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state) {
+void Session::describeGuest(const BorrowedBody& body, const TandemState& state,
+                            TandemBodySettings& settings) {
   const BodyFacts& facts = body.before();
-  TandemBodySettings& settings = piece.settings;
-  settings.points = piece.points.data();
-  settings.point_count = piece.points.size() / 3;
   settings.mass = facts.mass;
   std::copy_n(facts.inertia, 3, settings.inertia);
   settings.friction = facts.friction;
   settings.restitution = facts.restitution;
   settings.start = state;
+}
+
+TandemBody Session::addGuest(const BorrowedBody& body, Piece& piece, const TandemState& state) {
+  TandemBodySettings& settings = piece.settings;
+  settings.points = piece.points.data();
+  settings.point_count = piece.points.size() / 3;
+  describeGuest(body, state, settings);
   TandemBody id = TANDEM_NO_BODY;
   check(tandem_world_add_body(world_.get(), &settings, &id));
-  if (facts.rolling_friction > 0.0 || facts.spinning_friction > 0.0) tellDynamics(id, facts);
+  finishGuest(id, body.before());
   return id;
+}
+
+/// A guest of several pieces, or of one beside its centre of mass.
+TandemBody Session::addGuest(const BorrowedBody& body, const std::vector<Piece>& pieces,
+                             const TandemState& state) {
+  TandemBodySettings settings = tandem_default_body_settings();
+  describeGuest(body, state, settings);
+  std::vector<TandemShapePart> parts;
+  parts.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    TandemShapePart& part = parts.emplace_back();
+    part.shape = piece.settings.shape;
+    std::copy_n(piece.settings.size, 3, part.size);
+    part.points = piece.points.data();
+    part.point_count = piece.points.size() / 3;
+    std::copy_n(piece.position, 3, part.position);
+    std::copy_n(piece.orientation, 4, part.orientation);
+  }
+  TandemBody id = TANDEM_NO_BODY;
+  check(tandem_world_add_compound(world_.get(), &settings, parts.size(), parts.data(), &id));
+  finishGuest(id, body.before());
+  return id;
+}
+
+void Session::finishGuest(TandemBody id, const BodyFacts& facts) {
+  if (facts.rolling_friction > 0.0 || facts.spinning_friction > 0.0) tellDynamics(id, facts);
 }
 
 void Session::tellDynamics(TandemBody id, const BodyFacts& facts) {
@@ -90,14 +121,11 @@ int Session::shareGuest(int body, double mass_share, const Piece* shape, ShareGu
   BorrowedBody borrowed(engine_, body);
   checkShareableFacts(body, borrowed.before());
   std::vector<Piece> pieces = findPieces(borrowed, shape);
-  if (pieces.size() != 1 || !pieces[0].isCentred()) {
-    refuseBody(body,
-               "its shape is not one piece about its centre of mass; give shape=hull with the "
-               "points of its outline");
-  }
   TandemState state{};
   if (!engine_.readState(body, state)) refuseBody(body, "is not there");
-  const TandemBody id = addGuest(borrowed, pieces[0], state);
+  const bool is_plain = pieces.size() == 1 && pieces[0].isCentred();
+  const TandemBody id =
+      is_plain ? addGuest(borrowed, pieces[0], state) : addGuest(borrowed, pieces, state);
   std::uint32_t object = 0;
   if (const TandemResult result = share(id, object); result != TANDEM_OK) {
     const Refusal why(-static_cast<int>(result),

@@ -147,6 +147,24 @@ TandemBodySettings tandem_default_body_settings(void);
 TandemResult tandem_world_add_body(TandemWorld* world, const TandemBodySettings* settings,
                                    TandemBody* body);
 
+/* One of several shapes of a body. Shape, size and points are as in TandemBodySettings; no plane.
+ */
+typedef struct TandemShapePart {
+  TandemShapeKind shape;
+  double size[3];
+  const double* points;
+  size_t point_count;
+  double position[3];    /* of the shape's origin in the body [m] */
+  double orientation[4]; /* of the shape in the body: x, y, z, w, of length 1 */
+} TandemShapePart;
+
+/* Adds a body of `part_count` shapes to a world of Tandem's. They may overlap; each pushes by
+   itself. The body's origin is its centre of mass. The shape in `settings` does not count; with no
+   inertia it gets that of a box around all parts. [setup] */
+TandemResult tandem_world_add_compound(TandemWorld* world, const TandemBodySettings* settings,
+                                       size_t part_count, const TandemShapePart* parts,
+                                       TandemBody* body);
+
 /* Finds a body of the host's world by its btRigidBody. The host keeps it. [setup] */
 TandemResult tandem_world_find_body(TandemWorld* world, void* rigid_body, TandemBody* body);
 

@@ -28,7 +28,7 @@ void forEachMoving(const btDiscreteDynamicsWorld& world, Look look) {
 }
 
 ShapeWords describeBody(const btRigidBody& body) {
-  const std::optional<Shape> shape = convertShape(*body.getCollisionShape());
+  const std::optional<Shape> shape = findShareableShape(body);
   return shape ? describeShape(*shape) : ShapeWords{};
 }
 

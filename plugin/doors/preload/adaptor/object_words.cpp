@@ -10,7 +10,8 @@ namespace {
 
 const std::map<std::string, std::size_t>& sizesOfKinds() {
   static const std::map<std::string, std::size_t> sizes{
-      {"box", 3}, {"sphere", 1}, {"capsule", 2}, {"cylinder", 2}, {"cone", 2}, {"hull", 0}};
+      {"box", 3},  {"sphere", 1}, {"capsule", 2}, {"cylinder", 2},
+      {"cone", 2}, {"hull", 0},   {"compound", 0}};
   return sizes;
 }
 
@@ -44,6 +45,7 @@ ShapeWords describeShape(const Shape& shape) {
   if (const auto* cone = std::get_if<Cone>(&shape))
     return {"cone", {cone->radius, 2.0 * cone->half_length}};
   if (std::holds_alternative<ConvexHull>(shape)) return {"hull", {}};
+  if (std::holds_alternative<Compound>(shape)) return {"compound", {}};
   return {};
 }
 

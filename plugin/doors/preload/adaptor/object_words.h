@@ -11,7 +11,7 @@ namespace tandem::preload {
 
 /// A shape as written in a config: "box 0.1 0.1 0.2", "sphere 0.05", or just "box".
 struct ShapeWords {
-  std::string kind;           ///< box, sphere, capsule, cylinder, cone, hull
+  std::string kind;           ///< box, sphere, capsule, cylinder, cone, hull, compound
   std::vector<double> sizes;  ///< [m]; empty: any size
 };
 
@@ -20,7 +20,7 @@ struct ShapeWords {
 
 /// Describes a shape by its sizes. A box has three edges, a sphere its radius. A capsule has its
 /// radius and the distance of its spheres' centres, a cylinder or cone its radius and length. A
-/// hull has no size. Returns empty words for a shape that cannot be shared.
+/// hull or compound has no size. Returns empty words for a shape that cannot be shared.
 [[nodiscard]] ShapeWords describeShape(const Shape& shape);
 [[nodiscard]] std::string toText(const ShapeWords& words);
 
