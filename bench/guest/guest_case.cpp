@@ -50,8 +50,6 @@ void drawBodies(Draw& draw, GuestCase& one) {
   const int plain = one.shared + draw.count(1, 5);
   for (int i = 0; i < plain; ++i) {
     GuestPlan plan = drawBody(draw, i, one.is_planar);
-    // Only some shapes can be shared.
-    if (i < one.shared && draw.chance(0.9)) plan.shape = static_cast<GuestShape>(draw.count(0, 7));
     if (i > 0 && draw.chance(0.1)) {
       plan.shares_shape_with = i - 1;
       plan.shape = one.bodies.back().shape;

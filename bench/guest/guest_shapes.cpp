@@ -71,11 +71,28 @@ btCollisionShape& GuestWorld::makeOwnShape(GuestShape kind, double size, std::ui
     case GuestShape::kCompound:
       break;
   }
+  return makeCompound(draw, size);
+}
+
+/// A box with a ball, and at times more in a compound of its own, as convex decompositions and
+/// links of URDF have them.
+btCollisionShape& GuestWorld::makeCompound(Draw& draw, double size) {
+  const btScalar r = scalar(size), half = scalar(0.6 * size);
   auto compound = std::make_unique<btCompoundShape>();
   btTransform at = btTransform::getIdentity();
   compound->addChildShape(at, &keep(std::make_unique<btBoxShape>(btVector3(r, r, half))));
   at.setOrigin(btVector3(half, 0, half));
   compound->addChildShape(at, &keep(std::make_unique<btSphereShape>(half)));
+  if (draw.chance(0.5)) {
+    auto inner = std::make_unique<btCompoundShape>();
+    for (int i = draw.count(1, 6); i > 0; --i) {
+      btCollisionShape& hull = keep(makeHull(draw, 0.5 * size));
+      hull.setMargin(scalar(0.05 * size));
+      inner->addChildShape(toBullet(Vec3(0.5 * size * draw.direction()), draw.rotation()), &hull);
+    }
+    at.setOrigin(btVector3(-half, 0, half));
+    compound->addChildShape(at, &keep(std::move(inner)));
+  }
   return keep(std::move(compound));
 }
 

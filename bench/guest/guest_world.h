@@ -126,6 +126,7 @@ class GuestWorld {
 
   void makeFloor();
   [[nodiscard]] btCollisionShape& makeOwnShape(GuestShape kind, double size, std::uint64_t seed);
+  [[nodiscard]] btCollisionShape& makeCompound(Draw& draw, double size);
   void place(GuestBody& body, const Saved& state);
   [[nodiscard]] btCollisionShape& keep(std::unique_ptr<btCollisionShape> shape);
   static void inPreTick(btDynamicsWorld* world, btScalar dt);
