@@ -252,6 +252,20 @@ TEST(HapticBodyAttach, WarnsOfAMarginThatIsLargeForTheBody) {
   EXPECT_TRUE(mentions(HapticBody(rig.world, inside), "margin 0.01 m"));
 }
 
+TEST(HapticBodyAttach, WarnsOfSpheresSmallerThanTheirMargin) {
+  BulletRig rig;
+  const btVector3 centres[] = {btVector3(0, 0, 0), btVector3(btScalar(0.02), 0, 0)};
+  const btScalar radii[] = {btScalar(0.02), btScalar(0.01)};
+  auto& spheres = rig.makeShape<btMultiSphereShape>(centres, radii, 2);
+  EXPECT_TRUE(mentions(HapticBody(rig.world, rig.addBody(spheres, 0.1)),
+                       "margin 0.04 m is larger than the smallest sphere, 0.01 m"));
+  auto& compound = rig.makeShape<btCompoundShape>();
+  compound.addChildShape(btTransform::getIdentity(), &spheres);
+  EXPECT_TRUE(mentions(HapticBody(rig.world, rig.addBody(compound, 0.1)), "smallest sphere"));
+  spheres.setMargin(btScalar(0.01));
+  EXPECT_FALSE(mentions(HapticBody(rig.world, rig.addBody(spheres, 0.1)), "smallest sphere"));
+}
+
 TEST(HapticBodyAttach, WarnsOfNativeContactStiffnessOnly) {
   BulletRig rig;
   btRigidBody& cube = rig.addCube(0.3);

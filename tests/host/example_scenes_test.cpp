@@ -102,7 +102,8 @@ btRigidBody* shareOne(Site& site, ExampleHost& host) {
       site.share(*body);
       return body;
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("a shared object must be a box"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("a shared object must have a convex shape"),
+                std::string::npos)
           << error.what();
     }
   }

@@ -13,8 +13,7 @@
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/plugin/site.h"
 
-#include "bridge/bullet_rig.h"
-#include "support/fakes.h"
+#include "physics/hand_scene.h"
 #include "support/random.h"
 
 namespace tandem {
@@ -22,10 +21,11 @@ namespace {
 
 using test::BulletRig;
 using test::byWidth;
+using test::HandScene;
+using test::Role;
 
-constexpr double kRate = 240.0;        // of the host [Hz]
-constexpr double kStiffness = 2000.0;  // of contact [N/m]
-constexpr double kHeavy = 1e9;         // of a body that the hand cannot move [kg]
+constexpr double kRate = test::HandScene::kRate;            // of the host [Hz]
+constexpr double kStiffness = test::HandScene::kStiffness;  // of contact [N/m]
 constexpr std::uint64_t kSeed = 20260303;
 
 btCompoundShape& makeCompoundOf(BulletRig& rig,
@@ -48,52 +48,11 @@ btCompoundShape& makeL(BulletRig& rig) {
                               {&upright, at({-0.09, 0.0, 0.0})}});
 }
 
-enum class Role { kStanding, kKinematic, kNeighbour, kShared };
-
-/// A hand at one body, in a world without weight.
-struct HandScene {
-  BulletRig rig;
-  test::FakeDevice device;
-  std::unique_ptr<Site> site;
-  btRigidBody* body = nullptr;
-
-  HandScene(const Vec3& hand_W) : device(hand_W) {}
-
-  void start(btCollisionShape& shape, Role role, double mass) {
-    const bool is_fixed = role == Role::kStanding || role == Role::kKinematic;
-    body = &rig.addBody(shape, is_fixed ? 0.0 : mass);
-    if (role == Role::kKinematic)
-      body->setCollisionFlags(body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-    body->setActivationState(DISABLE_DEACTIVATION);
-    SiteSettings settings;
-    settings.peers = 1;
-    settings.contact = {kStiffness, 0.0};
-    settings.passivity.enabled = false;
-    site = std::make_unique<Site>(settings, rig.world, device);
-    if (role == Role::kShared) site->share(*body);
-    run(0.05);
-  }
-  void run(double duration) {
-    for (int i = 0; i < duration * kRate; ++i) rig.step(1.0 / kRate);
-  }
-  /// Moves the hand there in `duration` [s] and waits; the force then.
-  Vec3 press(const Vec3& to_W, double duration = 0.2) {
-    const Vec3 from_W = device.sample.hip.p_W;
-    const int steps = static_cast<int>(duration * kRate);
-    for (int i = 1; i <= steps; ++i) {
-      device.sample.hip = {from_W + (to_W - from_W) * i / steps, Vec3::Zero()};
-      rig.step(1.0 / kRate);
-    }
-    run(0.1);
-    return device.force_W;
-  }
-};
-
 TEST(MovingCompound, TheHandFeelsEachArmOfAnL) {
   for (const Role role : {Role::kStanding, Role::kKinematic, Role::kNeighbour, Role::kShared}) {
     SCOPED_TRACE(static_cast<int>(role));
     HandScene scene({0.05, 0.05, 0.0});
-    scene.start(makeL(scene.rig), role, kHeavy);
+    scene.start(makeL(scene.rig), role);
     const double rounding = byWidth(1e-5, 5e-3);
     EXPECT_LT((scene.press({0.05, 0.018, 0.0}) - Vec3(0.0, 4.0, 0.0)).norm(), rounding);
     EXPECT_LT(scene.press({0.05, 0.07, 0.0}).norm(), 1e-9);
@@ -158,7 +117,7 @@ TEST(MovingCompound, PushesAsAStandingOneDoes) {
       test::Random random(kSeed + static_cast<std::uint64_t>(i));
       std::vector<std::unique_ptr<btTriangleMesh>> meshes;
       HandScene scene(0.15 * random.direction());
-      scene.start(drawCompound(scene.rig, random, meshes), role, kHeavy);
+      scene.start(drawCompound(scene.rig, random, meshes), role);
       std::vector<Vec3>& found = forces.emplace_back();
       for (int k = 0; k < 4; ++k) found.push_back(scene.press(random.inCube(0.04)));
       scene.site.reset();
@@ -277,7 +236,7 @@ TEST(SharedCompound, FollowsWhatTheHostDoesToItsChildren) {
     btCompoundShape& compound =
         makeCompoundOf(scene.rig, {{&makeBox(scene.rig, {0.02, 0.02, 0.02}), at(Vec3::Zero())},
                                    {&makeBox(scene.rig, {0.02, 0.02, 0.02}), at({0.3, 0.0, 0.0})}});
-    scene.start(compound, role, kHeavy);
+    scene.start(compound, role);
     EXPECT_LT((scene.press({0.0, 0.029, 0.0}) - Vec3(0.0, 2.0, 0.0)).norm(), byWidth(1e-5, 5e-3));
     scene.press({0.0, 0.1, 0.0});
     compound.updateChildTransform(0, at({0.0, 0.01, 0.0}));

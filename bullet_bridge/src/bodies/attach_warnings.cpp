@@ -1,8 +1,11 @@
 #include "bodies/attach_warnings.h"
 
+#include <algorithm>
 #include <sstream>
 
-#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
+
+#include "shapes/compound_children.h"
 
 namespace tandem {
 namespace {
@@ -33,14 +36,22 @@ btScalar computeSmallestHalfExtent(const btCollisionShape& shape) {
   return half[half.minAxis()];
 }
 
+/// Bullet takes the margin off each sphere and adds it again, which no smaller sphere can bear.
+void warnOfSpheres(const btMultiSphereShape& shape, std::vector<std::string>& warnings) {
+  btScalar least = shape.getSphereCount() > 0 ? shape.getSphereRadius(0) : btScalar(0);
+  for (int i = 1; i < shape.getSphereCount(); ++i)
+    least = std::min(least, shape.getSphereRadius(i));
+  if (shape.getMargin() <= least) return;
+  std::ostringstream line;
+  line << "collision margin " << shape.getMargin() << " m is larger than the smallest sphere, "
+       << least << " m, of a " << shape.getName()
+       << ": Bullet collides it up to as much wrong; set a margin of that radius or less";
+  warnings.push_back(line.str());
+}
+
 void warnOfMargin(const btCollisionShape& shape, std::vector<std::string>& warnings) {
-  if (shape.isCompound()) {
-    const auto& compound = static_cast<const btCompoundShape&>(shape);
-    for (int i = 0; i < compound.getNumChildShapes(); ++i) {
-      warnOfMargin(*compound.getChildShape(i), warnings);
-    }
-    return;
-  }
+  if (shape.getShapeType() == MULTI_SPHERE_SHAPE_PROXYTYPE)
+    return warnOfSpheres(static_cast<const btMultiSphereShape&>(shape), warnings);
   if (!hasMarginOutside(shape)) return;
   const btScalar margin = shape.getMargin();
   const btScalar bare = computeSmallestHalfExtent(shape) - margin;
@@ -83,7 +94,9 @@ std::vector<std::string> describeSurprises(const btRigidBody& body, btScalar lin
         "below "
         "0.1 m/s; build the body without m_additionalDamping");
   }
-  warnOfMargin(*body.getCollisionShape(), warnings);
+  forEachLeaf(
+      *body.getCollisionShape(), btTransform::getIdentity(),
+      [&](const btCollisionShape& shape, const btTransform&) { warnOfMargin(shape, warnings); });
   if ((body.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING) != 0) {
     std::ostringstream line;
     line << "native contact stiffness " << body.getContactStiffness()

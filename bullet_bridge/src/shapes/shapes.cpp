@@ -168,6 +168,7 @@ std::optional<Shape> findShareableShape(const btRigidBody& body) {
   const btCollisionShape& shape = *body.getCollisionShape();
   if (!shape.isConvex() && !shape.isCompound()) return std::nullopt;
   std::optional<Shape> own = convertShape(shape);
+  if (!own) own = sampleShape(shape);
   if (own && std::holds_alternative<Plane>(*own)) own.reset();
   return own;
 }
@@ -181,10 +182,9 @@ Shape getShareableShape(const btRigidBody& body) {
   if (hasChildren(shape))
     name += form.unknown ? std::string(" with a ") + form.unknown->getName() : " of nothing";
   throw Error(
-      "a shared object must be a box, sphere, capsule, cylinder, cone, convex hull or a compound "
-      "of "
-      "shapes, not a " +
-      name + "; give the body one of these shapes");
+      "a shared object must have a convex shape, or a compound of shapes that the hand can feel, "
+      "not a " +
+      name + "; give the body such a shape");
 }
 
 }  // namespace tandem

@@ -44,8 +44,8 @@ namespace tandem {
 /// Form of a body's shape if a body with it can be shared; see getShareableShape().
 [[nodiscard]] std::optional<Shape> findShareableShape(const btRigidBody& body);
 
-/// Shape of a body that can be shared: box, sphere, capsule, cylinder, cone, convex hull, or a
-/// compound of shapes that have a form. Throws tandem::Error that names any other shape.
+/// Shape of a body that can be shared: that of any convex shape, or of a compound of shapes that
+/// all have a form. Throws tandem::Error that names any other shape.
 [[nodiscard]] Shape getShareableShape(const btRigidBody& body);
 
 }  // namespace tandem

@@ -125,18 +125,16 @@ class Site {
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
 
-  /// Shares a dynamic box, sphere, capsule, cylinder, cone or convex hull of the host's world. Its
-  /// mass and inertia become m/N of their value until the site ends. A body that hits it here in
-  /// Bullet therefore pushes it N times as easily: a body beyond max_neighbours, a multi-body, a
-  /// cloth. The hit's momentum is that of m/N; couplers share it with the other N - 1 copies until
-  /// all move as one mass m would.
+  /// Shares a dynamic body of the host's world, of any convex shape, or a compound of any shapes
+  /// but planes, of which hand and proxies feel each part. Its mass and inertia become m/N of their
+  /// value until the site ends. A body that hits it here in Bullet therefore pushes it N times as
+  /// easily: a body beyond max_neighbours, a multi-body, a cloth. The hit's momentum is that of
+  /// m/N; couplers share it with the other N - 1 copies until all move as one mass m would.
   ///
   /// `damping` b acts on this copy [N s/m]. All peers share the same objects in the same order,
   /// which identifies them, or by name. At most kMaxSharedObjects. With hand-off the body sleeps in
   /// Bullet while it rests and costs no more than any sleeping body; motion, pushes and hits wake
-  /// it. Its shape is a box, sphere, capsule, cylinder, cone, convex hull, or a compound of any
-  /// shapes but planes; hand and proxies feel each part of it. Throws tandem::Error with the reason
-  /// for a body that cannot be shared.
+  /// it. Throws tandem::Error with the reason for a body that cannot be shared.
   ObjectId share(btRigidBody& body, double damping = 0.0);
 
   /// Shares bodies by name, in any order: an object's id is the place of its name among all names
