@@ -37,6 +37,28 @@ struct PlanarBody {
   [[nodiscard]] Vec2 velocityAt(const Vec2& point) const { return v + w * turnQuarter(point - p); }
 };
 
+/// A joint of body `a` with body `b`, or with the plane itself. Its coordinate is the turn of `a`
+/// against `b`, counterclockwise, or the way of its pivot along `axis`; both from the start.
+struct PlanarJoint {
+  struct Limit {
+    double low = 0.0, high = 0.0;  ///< [rad or m]
+  };
+  struct Motor {
+    double speed = 0.0;  ///< wanted rate of the coordinate [rad/s or m/s]
+    double force = 0.0;  ///< the most that it gives [N m or N]
+  };
+
+  bool is_slider = false;  ///< else a hinge
+  std::size_t a = 0;
+  std::optional<std::size_t> b;  ///< none: the plane itself
+  Vec2 at_a = Vec2::Zero();      ///< pivot in the frame of `a` [m]
+  Vec2 at_b = Vec2::Zero();      ///< pivot in the frame of `b` [m]
+  Vec2 axis = Vec2::UnitX();     ///< way of a slider in the frame of `b`, of length 1
+  double turn = 0.0;             ///< of `a` against `b` at the start [rad]
+  std::optional<Limit> limit;
+  std::optional<Motor> motor;
+};
+
 /// A circle held by a spring-damper. It touches bodies by compliant contact without friction, and
 /// no other tool.
 struct PlanarTool {
@@ -57,6 +79,7 @@ struct PlanarScene {
   double contact_stiffness = 0.0, contact_damping = 0.0;  ///< between tool and body [N/m, N s/m]
   std::vector<PlanarBody> bodies;
   std::vector<PlanarTool> tools;
+  std::vector<PlanarJoint> joints;  ///< joined bodies do not touch each other
 };
 
 }  // namespace tandem::demos::bench

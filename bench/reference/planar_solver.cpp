@@ -27,6 +27,7 @@ bool areFarApart(const PlanarBody& a, const PlanarBody& b) {
 
 PlanarSolver::PlanarSolver(PlanarScene scene)
     : scene_(std::move(scene)),
+      joints_(scene_),
       tool_forces_(scene_.tools.size()),
       body_forces_(scene_.bodies.size()),
       body_torques_(scene_.bodies.size()),
@@ -38,6 +39,7 @@ void PlanarSolver::step(double h) {
   computeForces();
   kick(0.5 * h);
   findRows();
+  if (!joints_.empty()) joints_.look(scene_, h);
   solveVelocities(h);
   for (PlanarTool& tool : scene_.tools) tool.p += h * tool.v;
   for (PlanarBody& body : scene_.bodies) {
@@ -59,6 +61,7 @@ void PlanarSolver::step(double h) {
       scene_.bodies[b].w = body_w_[b];
     }
     kick(0.5 * h);
+    if (!joints_.empty()) joints_.project(scene_);
   }
 }
 
@@ -107,6 +110,7 @@ void PlanarSolver::findRows() {
       const PlanarBody& first = scene_.bodies[a];
       const PlanarBody& second = scene_.bodies[b];
       if ((first.mass == 0.0 && second.mass == 0.0) || areFarApart(first, second)) continue;
+      if (joints_.areJoined(scene_, a, b)) continue;
       addRows(a, b, computeManifold(first, second, kReach));
     }
   for (Row& row : rows_) warmStart(row);
@@ -185,8 +189,18 @@ void PlanarSolver::solveVelocities(double h) {
   for (const Row& row : rows_)
     applyImpulse(row,
                  row.normal_impulse * row.normal + row.tangent_impulse * turnQuarter(row.normal));
-  for (int i = 0; i < kMostSweeps; ++i)
-    if (sweep(h) < kSettled) return;
+  if (joints_.empty()) {
+    for (int i = 0; i < kMostSweeps; ++i)
+      if (sweep(h) < kSettled) return;
+    return;
+  }
+  joints_.warmStart(scene_);
+  joints_.solveLocks(scene_, h);
+  for (int i = 0; i < kMostSweeps; ++i) {
+    const double change = std::max(sweep(h), joints_.sweep(scene_, h));
+    joints_.solveLocks(scene_, h);
+    if (change < kSettled) return;
+  }
 }
 
 double PlanarSolver::normalImpulse(std::size_t a, std::size_t b) const {

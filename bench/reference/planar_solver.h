@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bench/reference/planar_contact.h"
+#include "bench/reference/planar_joints.h"
 
 namespace tandem::demos::bench {
 
@@ -12,7 +13,7 @@ namespace tandem::demos::bench {
 /// Leap-frog: half a kick of the smooth forces, rigid rows on the velocities in mid-step,
 /// positions, half a kick. Smooth forces are gravity, couplers and compliant contact of tools. A
 /// row lets a gap close in one step and no further. Existing overlap stays and is never pushed out,
-/// so nothing bounces.
+/// so nothing bounces. Joints hold at the end of each step (PlanarJoints).
 class PlanarSolver {
  public:
   explicit PlanarSolver(PlanarScene scene);
@@ -47,6 +48,7 @@ class PlanarSolver {
   void solveVelocities(double h);
 
   PlanarScene scene_;
+  PlanarJoints joints_;
   std::vector<Row> rows_, old_rows_;
   std::vector<Vec2> tool_forces_, body_forces_;
   std::vector<double> body_torques_;
