@@ -68,6 +68,7 @@ AccuracyRun runOnce(const BenchScene& scene, const Method& method, int host_rate
                     const ReferenceRun& reference) {
   AccuracyRun run;
   run.method = method.name();
+  run.is_bullet_alone = method.isBulletAlone();
   run.host_rate = host_rate;
   try {
     const auto simulation = method.start(scene, host_rate);

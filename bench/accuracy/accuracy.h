@@ -23,9 +23,10 @@ struct RunErrors {
 /// One method on one scene at one host rate.
 struct AccuracyRun {
   std::string method;
-  int host_rate = 0;      ///< [Hz]
-  std::string reason;     ///< why it could not run; empty if it did
-  bool diverged = false;  ///< left all bounds; then there are no errors and no time
+  bool is_bullet_alone = false;  ///< Method::isBulletAlone()
+  int host_rate = 0;             ///< [Hz]
+  std::string reason;            ///< why it could not run; empty if it did
+  bool diverged = false;         ///< left all bounds; then there are no errors and no time
   RunErrors errors;
   double us_per_second = 0.0;  ///< run time per simulated second [us], median of the repeats
 

@@ -56,6 +56,38 @@ std::string cell(const AccuracyRun& run, double least) {
                      number(run.errors.force), run.us_per_second);
 }
 
+/// The most exact of Bullet's own ways at the haptic rate.
+const AccuracyRun* findBestOfBullet(const SceneAccuracy& scene) {
+  const AccuracyRun* best = nullptr;
+  for (const AccuracyRun& run : scene.runs)
+    if (run.is_bullet_alone && run.isGood() && run.host_rate == kTargetRate &&
+        (!best || run.errors.position() < best->errors.position()))
+      best = &run;
+  return best;
+}
+
+/// Hand-off at each rate beside that way: factors of run time and errors.
+std::string comparison(const SceneAccuracy& scene) {
+  const AccuracyRun* bullet = findBestOfBullet(scene);
+  if (!bullet) return "";
+  std::string text;
+  for (const int rate : hostRatesOf(scene)) {
+    const AccuracyRun* run = findRun(scene, "plugin handoff", rate);
+    if (!run || !run->isGood()) continue;
+    const auto part = [](double ours, double theirs) {
+      return number(ours / std::max(theirs, kRounding));
+    };
+    text += fmt::format(
+        "  plugin handoff at {} Hz beside {} at {} Hz: run time x {}, position x {}", rate,
+        bullet->method, kTargetRate, part(run->us_per_second, bullet->us_per_second),
+        part(run->errors.position(), bullet->errors.position()));
+    if (bullet->errors.force > 0.0)
+      text += fmt::format(", force x {}", part(run->errors.force, bullet->errors.force));
+    text += '\n';
+  }
+  return text;
+}
+
 /// Reasons why methods cannot run this scene, each once.
 std::string notes(const SceneAccuracy& scene) {
   std::string text;
@@ -110,6 +142,7 @@ std::string makeAccuracyTable(const std::vector<SceneAccuracy>& scenes) {
     text += fmt::format("  reference: {}; itself good to {} mm, {} N\n", scene.reference,
                         number(1e3 * scene.reference_errors.position()),
                         number(scene.reference_errors.force));
+    text += comparison(scene);
     text += notes(scene);
   }
   return text;

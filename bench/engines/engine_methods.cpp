@@ -21,4 +21,8 @@ void refuseBelts(const BenchScene& scene) {
     if (body.isBelt()) throw NotApplicable("belts are not built for this engine");
 }
 
+void refuseJoints(const BenchScene& scene) {
+  if (!scene.joints.empty()) throw NotApplicable("joints are not built for this engine");
+}
+
 }  // namespace tandem::demos::bench

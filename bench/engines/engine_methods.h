@@ -14,6 +14,9 @@ namespace tandem::demos::bench {
 /// Throws NotApplicable for a scene with a belt: these engines' bodies without mass stand still.
 void refuseBelts(const BenchScene& scene);
 
+/// Throws NotApplicable for a scene with joints.
+void refuseJoints(const BenchScene& scene);
+
 /// @name Factories, one for each engine that is built, defined in the file with its name.
 /// @{
 [[nodiscard]] std::unique_ptr<Method> makeMujoco();

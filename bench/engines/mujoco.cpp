@@ -184,6 +184,7 @@ class MujocoMethod final : public Method {
   std::string name() const override { return "MuJoCo"; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     refuseBelts(scene);
+    refuseJoints(scene);
     return std::make_unique<MujocoSimulation>(scene, host_rate);
   }
 };

@@ -1,7 +1,7 @@
 // ODE: couplers are forces at the start of each step. Tool contact is ODE's own compliant contact
 // joint: ERP = h K / (h K + B), CFM = 1 / (h K + B). That is implicit Euler. Bodies use its rigid
-// contact with friction (dWorldStep: the direct solver). All else is the default of Debian's
-// libode.
+// contact with friction (dWorldStep: the direct solver). Joints are its hinges and sliders. All
+// else is the default of Debian's libode.
 
 #include <array>
 
@@ -37,6 +37,7 @@ class OdeSimulation final : public Simulation {
     dWorldSetGravity(world_, g_W.x(), g_W.y(), g_W.z());
     for (const BenchTool& tool : scene.tools) addTool(tool);
     for (const BenchBody& body : scene.bodies) addBody(body);
+    for (const BenchJoint& joint : scene.joints) addJoint(joint);
   }
   ~OdeSimulation() override {
     dJointGroupDestroy(contacts_);
@@ -126,12 +127,40 @@ class OdeSimulation final : public Simulation {
     }
   }
 
+  void addJoint(const BenchJoint& joint) {
+    const dBodyID a = bodies_[joint.a], b = joint.b ? bodies_[*joint.b] : nullptr;
+    const Vec3& p_W = joint.pivot_W;
+    const bool is_hinge = joint.kind == BenchJointKind::kHinge;
+    const dJointID made =
+        is_hinge ? dJointCreateHinge(world_, nullptr) : dJointCreateSlider(world_, nullptr);
+    dJointAttach(made, a, b);
+    const auto set = [&](int parameter, double value) {
+      is_hinge ? dJointSetHingeParam(made, parameter, value)
+               : dJointSetSliderParam(made, parameter, value);
+    };
+    if (is_hinge) {
+      dJointSetHingeAnchor(made, p_W.x(), p_W.y(), p_W.z());
+      dJointSetHingeAxis(made, 0, 1, 0);
+    } else {
+      dJointSetSliderAxis(made, joint.axis_W.x(), joint.axis_W.y(), joint.axis_W.z());
+    }
+    if (joint.limit) {
+      set(dParamLoStop, joint.limit->low);
+      set(dParamHiStop, joint.limit->high);
+    }
+    if (joint.motor) {
+      set(dParamVel, joint.motor->speed);
+      set(dParamFMax, joint.motor->force);
+    }
+  }
+
   static bool isTool(dBodyID body) { return body && dBodyGetData(body); }
 
   void meet(dGeomID a, dGeomID b) {
     const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
     if (!body_a && !body_b) return;
     if (isTool(body_a) && isTool(body_b)) return;
+    if (body_a && body_b && dAreConnectedExcluding(body_a, body_b, dJointTypeContact)) return;
     const bool is_soft = isTool(body_a) || isTool(body_b);
     std::array<dContactGeom, 8> points;
     const int count = dCollide(a, b, static_cast<int>(points.size()), points.data(),

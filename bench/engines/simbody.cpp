@@ -171,6 +171,7 @@ class SimbodyMethod final : public Method {
  public:
   std::string name() const override { return "Simbody"; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
+    refuseJoints(scene);
     if (!scene.is_smooth)
       throw NotApplicable("Simbody has no rigid contact of boxes, only of listed points and edges");
     return std::make_unique<SimbodySimulation>(scene, host_rate);

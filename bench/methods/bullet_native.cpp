@@ -58,6 +58,7 @@ class BulletNativeMethod final : public Method {
   BulletNativeMethod(std::string name, NativeContact contact, NativeCouplerKind coupler)
       : name_(std::move(name)), contact_(contact), coupler_(coupler) {}
   std::string name() const override { return name_; }
+  bool isBulletAlone() const override { return true; }
 
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     if (contact_ == NativeContact::kRigid && scene.bodies.empty())

@@ -38,6 +38,7 @@ BulletScene::BulletScene(const BenchScene& scene, const BulletSceneOptions& opti
     bodies_.back()->setLinearFactor(btVector3(1, 0, 1));
     bodies_.back()->setAngularFactor(btVector3(0, 1, 0));
   }
+  joints_ = std::make_unique<BulletJoints>(scene, world_, bodies_);
   if (!options.has_tools) return;
   const int mask = options.tools_touch ? btBroadphaseProxy::AllFilter ^ kToolGroup : 0;
   for (const BenchTool& tool : scene.tools) {
@@ -54,6 +55,7 @@ BulletScene::BulletScene(const BenchScene& scene, const BulletSceneOptions& opti
 }
 
 BulletScene::~BulletScene() {
+  joints_.reset();
   for (const auto* list : {&tools_, &bodies_})
     for (const auto& body : *list) world_.removeRigidBody(body.get());
 }
@@ -85,6 +87,7 @@ void BulletScene::step(double h) {
     const Vec3 p_W = body.start.p_W + time_ * body.start.v_W;
     bodies_[b]->setCenterOfMassTransform(toBullet(p_W, body.start.q_WB));
   }
+  joints_->setStep(h);
   world_.stepSimulation(static_cast<btScalar>(h), 0);
 }
 

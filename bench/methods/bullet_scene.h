@@ -5,6 +5,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "bench/methods/bullet_joints.h"
 #include "bench/methods/method.h"
 
 namespace tandem::demos::bench {
@@ -53,6 +54,7 @@ class BulletScene {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> tools_, bodies_;
+  std::unique_ptr<BulletJoints> joints_;
   double time_ = 0.0;  ///< of steps [s]
 };
 

@@ -18,6 +18,7 @@ class ForceInjection final : public Simulation {
 class ForceInjectionMethod final : public Method {
  public:
   std::string name() const override { return "force injection"; }
+  bool isBulletAlone() const override { return true; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     return std::make_unique<ForceInjection>(scene, host_rate);
   }

@@ -52,6 +52,8 @@ class Method {
  public:
   virtual ~Method() = default;
   [[nodiscard]] virtual std::string name() const = 0;
+  /// True for what a host can do with Bullet alone; the table sets hand-off beside the best of it.
+  [[nodiscard]] virtual bool isBulletAlone() const { return false; }
 
   /// Sets a scene up at `host_rate` [Hz] steps per second. Throws NotApplicable, or the engine's
   /// exception, if it cannot. The message becomes the reason in the table.

@@ -80,6 +80,7 @@ class SmallWorld final : public Simulation {
 class SmallWorldMethod final : public Method {
  public:
   std::string name() const override { return "small Bullet world"; }
+  bool isBulletAlone() const override { return true; }
   std::unique_ptr<Simulation> start(const BenchScene& scene, int host_rate) const override {
     return std::make_unique<SmallWorld>(scene, host_rate);
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <Eigen/Geometry>
+
 #include "bench/reference/planar_solver.h"
 
 namespace tandem::demos::bench {
@@ -34,6 +36,31 @@ PlanarBody makeBody(const BenchScene& scene, const BenchBody& body) {
     planar.normal = toPlane(scene, std::get<PlaneShape>(body.shape).normal_W);
   }
   return planar;
+}
+
+Vec2 toFrame(const PlanarBody& body, const Vec2& p) {
+  return Eigen::Rotation2Dd(-body.angle) * (p - body.p);
+}
+
+PlanarJoint makeJoint(const BenchScene& scene, const BenchJoint& joint, const PlanarScene& planar) {
+  const PlanarBody plane;
+  const PlanarBody &a = planar.bodies[joint.a], &b = joint.b ? planar.bodies[*joint.b] : plane;
+  const Vec2 pivot = toPlane(scene, joint.pivot_W);
+  PlanarJoint made;
+  made.is_slider = joint.kind == BenchJointKind::kSlider;
+  made.a = joint.a;
+  made.b = joint.b;
+  made.at_a = toFrame(a, pivot);
+  made.at_b = toFrame(b, pivot);
+  made.axis = Eigen::Rotation2Dd(-b.angle) * toPlane(scene, joint.axis_W);
+  made.turn = a.angle - b.angle;
+  // A turn about y is clockwise.
+  if (joint.limit)
+    made.limit = made.is_slider ? PlanarJoint::Limit{joint.limit->low, joint.limit->high}
+                                : PlanarJoint::Limit{-joint.limit->high, -joint.limit->low};
+  if (joint.motor)
+    made.motor = {made.is_slider ? joint.motor->speed : -joint.motor->speed, joint.motor->force};
+  return made;
 }
 
 void setTargets(const BenchScene& scene, double t, PlanarScene& planar) {
@@ -79,6 +106,8 @@ PlanarScene makePlanarScene(const BenchScene& scene) {
     circle.force = toPlane(scene, tool.f_W);
     planar.tools.push_back(circle);
   }
+  for (const BenchJoint& joint : scene.joints)
+    planar.joints.push_back(makeJoint(scene, joint, planar));
   setTargets(scene, 0.0, planar);
   return planar;
 }

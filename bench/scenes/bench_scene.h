@@ -46,6 +46,29 @@ struct BenchBody {
   [[nodiscard]] bool isBelt() const { return isStatic() && start.v_W != Vec3::Zero(); }
 };
 
+enum class BenchJointKind { kHinge, kSlider };
+
+/// An ideal joint that leaves body `a` one coordinate against body `b`, or against the world: its
+/// turn about y [rad], or its way along an axis [m]. Coordinates are 0 at the start. Joined bodies
+/// do not touch each other. A limit has restitution 0.
+struct BenchJoint {
+  struct Limit {
+    double low = 0.0, high = 0.0;  ///< [rad or m]
+  };
+  struct Motor {
+    double speed = 0.0;  ///< wanted rate of the coordinate [rad/s or m/s]
+    double force = 0.0;  ///< the most that it gives [N m or N]
+  };
+
+  BenchJointKind kind = BenchJointKind::kHinge;
+  std::size_t a = 0;             ///< index of a body that moves
+  std::optional<std::size_t> b;  ///< index of another body; none: the world
+  Vec3 pivot_W = Vec3::Zero();   ///< where the joint is at the start [m]
+  Vec3 axis_W = Vec3::UnitX();   ///< way of a slider at the start, of length 1
+  std::optional<Limit> limit;
+  std::optional<Motor> motor;
+};
+
 /// A sphere that a user holds by a spring-damper, like the plugin's remote dynamic proxy. It does
 /// not rotate, feels no gravity, and touches bodies by the scene's compliant contact only. Its
 /// contact force is max(0, K overlap + B overlap') along the normal, without friction. Tools do not
@@ -69,6 +92,7 @@ struct BenchScene {
   CouplerGains contact{2000.0, 10.0};  ///< tool to bodies, in total per touching pair
   std::vector<BenchTool> tools;
   std::vector<BenchBody> bodies;
+  std::vector<BenchJoint> joints;
 
   /// Every active contact is compliant, and no body rotates. The reference is then the
   /// event-located one, else the fine-stepped planar one.

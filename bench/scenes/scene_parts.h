@@ -41,5 +41,7 @@ struct Leg {
 
 /// Scenes of many or of very unequal bodies.
 [[nodiscard]] std::vector<BenchScene> makePiles();
+/// Scenes of bodies in joints.
+[[nodiscard]] std::vector<BenchScene> makeJoined();
 
 }  // namespace tandem::demos::bench

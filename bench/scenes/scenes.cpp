@@ -138,7 +138,8 @@ std::vector<BenchScene> makeScenes() {
                                     makeRow(),
                                     makeSqueeze(),
                                     makeStack()};
-  for (BenchScene& scene : makePiles()) scenes.push_back(std::move(scene));
+  for (auto* make : {makePiles, makeJoined})
+    for (BenchScene& scene : make()) scenes.push_back(std::move(scene));
   return scenes;
 }
 

@@ -47,6 +47,7 @@ class Methods : public ::testing::TestWithParam<const char*> {
 
   /// True for scenes that a method cannot run, or treats like another method.
   [[nodiscard]] bool mayRefuse(const BenchScene& scene) const {
+    if (!scene.joints.empty() && (is("MuJoCo") || is("Simbody"))) return true;
     if (is("Bullet 6DofSpring2") || is("Bullet Point2Point")) return !scene.tools[0].device;
     if (is("Bullet rigid")) return scene.bodies.empty();
     return is("Simbody") && !scene.is_smooth;
@@ -170,6 +171,73 @@ TEST_P(Methods, SpinBodiesFreely) {
   if (!end) return;
   const Quat expected(Eigen::AngleAxisd(5.0 * scene.duration, Vec3::UnitZ()));
   EXPECT_LT(end->bodies[0].q_WB.angularDistance(expected), rounding(1e-3, 1e-3));
+}
+
+/// A beam of 0.2 m and 0.5 kg along x, with its end at the origin.
+BenchBody makeBeam() {
+  BenchBody beam = makeCube(0.5, Vec3(0.1, 0, 0));
+  beam.shape = BoxShape{Vec3(0.1, 0.02, 0.02)};
+  return beam;
+}
+
+/// Moment of the beam about a hinge at its end [kg m^2].
+const double kMomentAtEnd = computeInertia(makeBeam()).y() + 0.5 * 0.01;
+
+// A beam falls from the horizontal onto the limit of its hinge, which has no bounce.
+TEST_P(Methods, FallOnTheLimitOfAHinge) {
+  BenchScene scene = makeScene(Vec3(1, 0, 0), 1.5);
+  scene.gravity_W = Vec3(0, 0, -kGravity);
+  scene.bodies = {makeBeam()};
+  scene.joints.resize(1);
+  scene.joints[0].limit = {-1.0, 0.5};
+  const auto end = run(scene);
+  if (!end) return;
+  const Quat expected(Eigen::AngleAxisd(0.5, Vec3::UnitY()));
+  EXPECT_LT(end->bodies[0].q_WB.angularDistance(expected), 5e-3);
+  EXPECT_LT((end->bodies[0].p_W - expected * Vec3(0.1, 0, 0)).norm(), 1e-3);
+  EXPECT_LT(end->bodies[0].w_W.norm(), 2e-2);
+}
+
+// A motor of 0.2 N m brings the beam to 2 rad/s in 2 J / 0.2 s, and keeps it there.
+TEST_P(Methods, DriveAHinge) {
+  constexpr double kSpeed = 2.0, kTorque = 0.2;
+  BenchScene scene = makeScene(Vec3(1, 0, 0), 0.3);
+  scene.bodies = {makeBeam()};
+  scene.joints.resize(1);
+  scene.joints[0].motor = {kSpeed, kTorque};
+  const auto end = run(scene);
+  if (!end) return;
+  const double angle = kSpeed * (scene.duration - 0.5 * kSpeed * kMomentAtEnd / kTorque);
+  const Quat expected(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  EXPECT_LT(end->bodies[0].q_WB.angularDistance(expected), 1e-2);
+  EXPECT_NEAR(end->bodies[0].w_W.y(), kSpeed, 1e-2);
+}
+
+// One body drives another along a slider, until their limit stops both. Nothing else holds them.
+TEST_P(Methods, DriveASliderToItsLimit) {
+  constexpr double kSpeed = 0.3, kForce = 2.0, kWay = 0.06;
+  BenchScene scene = makeScene(Vec3(1, 0, 0), 0.15);
+  scene.bodies = {makeCube(0.1, Vec3::Zero()), makeCube(0.2, Vec3(0.06, 0, 0))};
+  scene.joints.resize(1);
+  BenchJoint& slider = scene.joints[0];
+  slider.kind = BenchJointKind::kSlider;
+  slider.a = 1;
+  slider.b = 0;
+  slider.pivot_W = Vec3(0.03, 0, 0);
+  slider.motor = {kSpeed, kForce};
+  slider.limit = {-kWay, kWay};
+  const auto before = run(scene);
+  if (!before) return;
+  const auto apart = [](const SceneState& state) {
+    return (state.bodies[1].p_W - state.bodies[0].p_W).x() - 0.06;
+  };
+  // The motor moves the mass of both, one against the other.
+  const double mass = 0.1 * 0.2 / 0.3;
+  EXPECT_NEAR(apart(*before), kSpeed * (scene.duration - 0.5 * kSpeed * mass / kForce), 1e-3);
+  EXPECT_NEAR((0.1 * before->bodies[0].v_W + 0.2 * before->bodies[1].v_W).norm(), 0.0,
+              rounding(1e-9, 1e-6));
+  scene.duration = 0.5;
+  EXPECT_NEAR(apart(*run(scene)), kWay, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Methods,

@@ -69,7 +69,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanarReferenceInBullet,
                                            BulletCase{"row", 2e-5}, BulletCase{"squeeze", 2e-5},
                                            BulletCase{"stack", 1e-4}, BulletCase{"row16", 5e-5},
                                            BulletCase{"tower9", 6e-5}, BulletCase{"tower18", 3e-4},
-                                           BulletCase{"heavy", 5e-5}, BulletCase{"conveyor", 5e-5}),
+                                           BulletCase{"heavy", 5e-5}, BulletCase{"conveyor", 5e-5},
+                                           BulletCase{"pendulum", 4e-5}, BulletCase{"door", 2e-5},
+                                           BulletCase{"chain5", 3e-5}, BulletCase{"stop", 3e-5},
+                                           BulletCase{"drawer", 2e-5}),
                          [](const auto& one) { return std::string(one.param.scene); });
 
 TEST_P(PlanarReferenceInBullet, Agrees) {

@@ -6,6 +6,7 @@
 
 #include "bench/reference/planar_reference.h"
 #include "bench/reference/smooth_reference.h"
+#include "bench/scenes/touch_geometry.h"
 
 namespace tandem::demos::bench {
 namespace {
@@ -121,6 +122,43 @@ TEST_P(RigidScene, PlanarReferenceConverges) {
   const ReferenceRun fine = runPlanarReference(scene, scene.bodies.size() > 6 ? 96000 : 192000);
   EXPECT_LT(difference(scene, coarse, middle), 2e-5);
   EXPECT_LT(difference(scene, middle, fine), 1e-5);
+}
+
+class JointScene : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, JointScene,
+                         ::testing::Values("pendulum", "door", "chain5", "stop", "drawer"),
+                         [](const auto& one) { return std::string(one.param); });
+
+// Order one where a tool or a limit is met, order two between.
+TEST_P(JointScene, PlanarReferenceConverges) {
+  const BenchScene& scene = findScene(GetParam());
+  const ReferenceRun coarse = runPlanarReference(scene, 24000);
+  const ReferenceRun middle = runPlanarReference(scene, 48000);
+  EXPECT_LT(difference(scene, coarse, middle), 1e-5);
+  EXPECT_LT(difference(scene, middle, runPlanarReference(scene, 192000)), 5e-6);
+}
+
+// They are about what their names say: the tool meets a body, and a limit is reached.
+TEST_P(JointScene, ToolsMeetABodyAndLimitsAreReached) {
+  const BenchScene& scene = findScene(GetParam());
+  const ReferenceRun run = runPlanarReference(scene, 24000);
+  const BenchJoint& joint = scene.joints[0];
+  double pushed = 0.0, nearest = HUGE_VAL;
+  for (const SceneState& state : run.states) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      pushed = std::max(pushed, computeTouch(scene.bodies[b], state.bodies[b], state.tools[0].p_W,
+                                             scene.tools[0].radius)
+                                    .overlap);
+    if (!joint.limit) continue;
+    const RigidState& a = state.bodies[joint.a];
+    const double at =
+        joint.kind == BenchJointKind::kHinge ? 2.0 * std::atan2(a.q_WB.y(), a.q_WB.w()) : a.p_W.x();
+    nearest = std::min(nearest, joint.limit->high - at);
+  }
+  EXPECT_GT(pushed, 5e-4);  // 1 N
+  if (joint.limit) {
+    EXPECT_NEAR(nearest, 0.0, 1e-9);
+  }
 }
 
 }  // namespace
