@@ -104,6 +104,22 @@ TEST(Timeline, IsExactBetweenMomentsForASteadyForce) {
   }
 }
 
+// A pendulum's pin would open if its turn were interpolated less exactly than its place.
+TEST(Timeline, IsExactBetweenMomentsForASteadyTorque) {
+  constexpr double kTorque = 3e-3;  // [N m]
+  MovingBody rig(0.0);
+  rig.island.setExternalWrench(rig.body, Vec3::Zero(), Vec3(0, 0, kTorque));
+  rig.timeline.announce(0.016, 0.016);
+  rig.runUntilTick(50);
+  const double a = kTorque / rig.island.body(rig.body).inertia_B.z();
+  for (const double time : {0.0163, 0.0251, 0.0319, 0.0321, 0.0485, 0.0491, 0.0499, 0.05}) {
+    const RigidState state = rig.timeline.stateAt(rig.body, time);
+    const Quat turned(Eigen::AngleAxisd(a * time * time / 2.0, Vec3::UnitZ()));
+    EXPECT_LT(state.q_WB.angularDistance(turned), 1e-9) << time;
+    EXPECT_NEAR(state.w_W.z(), a * time, 1e-9) << time;
+  }
+}
+
 // x = A sin(w t). Half way between two kept moments around a turning point, a cubic is off by w^4
 // h^4 / 384 A.
 TEST(Timeline, IsACubicBetweenMomentsOfAnOscillation) {
@@ -135,6 +151,50 @@ TEST(Timeline, KeepsNoEndInLostTime) {
   EXPECT_NEAR(rig.keptX(0.016), 0.016, 1e-15);
   // The body has not moved meanwhile.
   EXPECT_NEAR(rig.island.state(rig.body).p_W.x(), 0.02, 1e-15);
+}
+
+// A cubic between two equal states with a velocity would go back and forth.
+TEST(Timeline, StandsInLostTime) {
+  MovingBody rig(1.0);
+  rig.timeline.announce(0.016, 0.016);
+  rig.runUntilTick(20);
+  rig.timeline.lose(0.1);
+  rig.tick = 100;
+  for (const int ticks : {0, 1, 5}) {
+    rig.runUntilTick(100 + ticks);
+    for (const double time : {0.0201, 0.03, 0.05, 0.0999}) {
+      const RigidState state = rig.timeline.stateAt(rig.body, time);
+      EXPECT_NEAR(state.p_W.x(), 0.02, 1e-15) << time;
+      EXPECT_NEAR(state.v_W.x(), 1.0, 1e-15) << time;
+    }
+    EXPECT_NEAR(rig.timeline.stateAt(rig.body, 0.0185).p_W.x(), 0.0185, 1e-15);
+  }
+  EXPECT_NEAR(rig.timeline.stateAt(rig.body, 0.1005).p_W.x(), 0.0205, 1e-15);
+}
+
+// A live host's first step may end before the tick that its haptic thread has reached.
+TEST(Timeline, KnowsTheFirstTicksToo) {
+  constexpr double kForce = 3.0;  // [N]
+  MovingBody rig(0.2);
+  rig.island.setExternalWrench(rig.body, Vec3(kForce, 0, 0), Vec3::Zero());
+  rig.timeline.begin(0.0, 0.0);
+  rig.runUntilTick(30);
+  for (const double time : {0.0, 0.0015, 0.016, 0.0285}) {
+    const RigidState state = rig.timeline.stateAt(rig.body, time);
+    EXPECT_NEAR(state.p_W.x(), 0.2 * time + kForce / kMass * time * time / 2.0, 1e-14) << time;
+    EXPECT_NEAR(state.v_W.x(), 0.2 + kForce / kMass * time, 1e-12) << time;
+  }
+}
+
+// Before the first kept moment a turning body has turned less.
+TEST(Timeline, TurnsABodyBackToBeforeAllMoments) {
+  MovingBody rig(0.0);
+  RigidState state = rig.island.state(rig.body);
+  state.w_W = Vec3(0, 0, 2.0);
+  rig.island.setState(rig.body, state);
+  rig.runUntilTick(3);
+  const Quat turned(Eigen::AngleAxisd(2.0 * 1.5e-3, Vec3::UnitZ()));
+  EXPECT_LT(rig.timeline.stateAt(rig.body, 1.5e-3).q_WB.angularDistance(turned), 1e-9);
 }
 
 TEST(Timeline, AnnouncesTheFirstEndAfterTheIsland) {

@@ -11,7 +11,7 @@ namespace tandem {
 
 /// States of all island bodies at the ends of host steps. Such a moment may lie inside a tick, and
 /// a late host asks for it long after. Keeps as many of the latest moments as there is room for.
-/// Moments of an island at rest share one copy.
+/// Moments of an island at rest share one copy. A moment after lost time is that of all of it.
 class Snapshots {
  public:
   Snapshots() : ring_(8) {}
@@ -37,8 +37,10 @@ class Snapshots {
   [[nodiscard]] std::size_t room() const noexcept { return ring_.size(); }
 
   /// Returns the vector to fill with the states at `time` [s]; overwrites the oldest.
-  std::vector<RigidState>& add(double time) noexcept {
-    Snapshot& s = next(time);
+  std::vector<RigidState>& add(double time) noexcept { return add(time, time); }
+  /// The same for states that have stood since the time `since` [s].
+  std::vector<RigidState>& add(double time, double since) noexcept {
+    Snapshot& s = next(time, since);
     s.is_rest = false;
     return s.states;
   }
@@ -50,7 +52,7 @@ class Snapshots {
   }
 
   /// Adds the states of the latest rest as those at `time` [s].
-  void addRest(double time) noexcept { next(time).is_rest = true; }
+  void addRest(double time) noexcept { next(time, time).is_rest = true; }
 
   /// The earliest kept moment later than `time` [s]; infinity if there is none.
   [[nodiscard]] double nextAfter(double time) const noexcept {
@@ -71,9 +73,9 @@ class Snapshots {
     return nullptr;
   }
 
-  /// A kept moment; `states` is null if there is none.
+  /// A kept moment; `states` is null if there is none. They stood from `since` to `time`.
   struct Moment {
-    double time = 0.0;
+    double time = 0.0, since = 0.0;
     const std::vector<RigidState>* states = nullptr;
   };
   /// The latest kept moment up to `time`, and the earliest one after it.
@@ -104,7 +106,7 @@ class Snapshots {
  private:
   static constexpr double kNeverKept = -1e300;
   struct Snapshot {
-    double time = kNeverKept;
+    double time = kNeverKept, since = kNeverKept;
     bool is_rest = false;
     std::vector<RigidState> states;
   };
@@ -116,12 +118,13 @@ class Snapshots {
       if (s.time > kNeverKept && counts(s.time) && (!best || better(s.time, best->time))) best = &s;
     if (!best) return {};
     giveOwnStates(*best);
-    return {best->time, &best->states};
+    return {best->time, best->since, &best->states};
   }
 
-  Snapshot& next(double time) noexcept {
+  Snapshot& next(double time, double since) noexcept {
     newest_ = (newest_ + 1) % ring_.size();
     ring_[newest_].time = time;
+    ring_[newest_].since = since;
     return ring_[newest_];
   }
 

@@ -6,6 +6,21 @@
 namespace tandem {
 namespace {
 
+/// Rotation vector of a rotation [rad].
+Vec3 toVector(const Quat& q) noexcept {
+  const double s = q.vec().norm();
+  // Near no rotation the quotient goes to 2.
+  if (s < 1e-9) return std::copysign(2.0, q.w()) * q.vec();
+  return 2.0 * std::atan2(std::copysign(s, q.w()), std::abs(q.w())) / s * q.vec();
+}
+
+Quat toRotation(const Vec3& vector) noexcept {
+  const double angle = vector.norm();
+  if (angle < 1e-12) return Quat(1.0, 0.5 * vector.x(), 0.5 * vector.y(), 0.5 * vector.z());
+  const Vec3 part = std::sin(0.5 * angle) / angle * vector;
+  return Quat(std::cos(0.5 * angle), part.x(), part.y(), part.z());
+}
+
 /// Cubic Hermite interpolation between two states h apart [s]. The relative error is about w^4 h^4
 /// / 384.
 RigidState interpolate(const RigidState& a, double a_time, const RigidState& b, double b_time,
@@ -13,17 +28,28 @@ RigidState interpolate(const RigidState& a, double a_time, const RigidState& b, 
   const double h = b_time - a_time;
   if (!(h > 0.0)) return b;
   const double s = (time - a_time) / h, s2 = s * s, s3 = s2 * s;
+  const double from_a = s3 - 2 * s2 + s, from_b = s3 - s2;  // weights of rates
   RigidState state;
-  state.p_W = (2 * s3 - 3 * s2 + 1) * a.p_W + (s3 - 2 * s2 + s) * h * a.v_W +
-              (3 * s2 - 2 * s3) * b.p_W + (s3 - s2) * h * b.v_W;
+  state.p_W = (2 * s3 - 3 * s2 + 1) * a.p_W + from_a * h * a.v_W + (3 * s2 - 2 * s3) * b.p_W +
+              from_b * h * b.v_W;
   state.v_W = (6 * s2 - 6 * s) / h * (a.p_W - b.p_W) + (3 * s2 - 4 * s + 1) * a.v_W +
               (3 * s2 - 2 * s) * b.v_W;
-  state.q_WB = a.q_WB.slerp(s, b.q_WB);
-  state.w_W = (1 - s) * a.w_W + s * b.w_W;
+  // A steady turn from a to b, and a cubic for what the rates differ from it.
+  const Vec3 turn_W = toVector(b.q_WB * a.q_WB.conjugate()), mean_W = turn_W / h;
+  const Vec3 more_a_W = a.w_W - mean_W, more_b_W = b.w_W - mean_W;
+  const Quat beside_W = toRotation(h * (from_a * more_a_W + from_b * more_b_W));
+  state.q_WB = (beside_W * toRotation(s * turn_W) * a.q_WB).normalized();
+  state.w_W = beside_W * mean_W + (3 * s2 - 4 * s + 1) * more_a_W + (3 * s2 - 2 * s) * more_b_W;
   return state;
 }
 
 }  // namespace
+
+RigidState computeStart(RigidState end, double dt) noexcept {
+  end.p_W -= dt * end.v_W;
+  end.q_WB = (toRotation(-dt * end.w_W) * end.q_WB).normalized();
+  return end;
+}
 
 Timeline::Timeline(Island& island, double period, double host_step) noexcept
     : island_(island),
@@ -42,6 +68,7 @@ void Timeline::setBodyCount(std::size_t count) {
 void Timeline::begin(double now, double host_shift) noexcept {
   start_ = time_ = now;
   step_end_ += host_shift;
+  keepStates(now, now);
 }
 
 void Timeline::keepStart() noexcept {
@@ -60,13 +87,15 @@ void Timeline::moveTo(double until) noexcept {
     time_ = until;
   }
   if (step_end_ > time_ + kSameTime) return;
-  keepStates(step_end_);
+  keepStates(step_end_, step_end_);
   island_.cutContacts(host_step_);
   step_end_ = host_step_ > 0.0 ? step_end_ + host_step_ : kNever;
 }
 
 void Timeline::lose(double until) noexcept {
-  time_ = until;
+  if (!island_.isAsleep()) keepStates(time_, until);
+  time_ = tick_start_ = until;
+  keepStart();
   if (host_step_ > 0.0 && step_end_ < until)
     step_end_ += std::ceil((until - step_end_) / host_step_) * host_step_;
 }
@@ -94,12 +123,12 @@ void Timeline::put(BodyIndex body, const RigidState& state) noexcept {
   setStart(body, computeStart(state, time_ - tick_start_));
 }
 
-void Timeline::keepStates(double time) noexcept {
+void Timeline::keepStates(double since, double time) noexcept {
   const auto copy = [&](std::vector<RigidState>& states) {
     for (std::size_t b = 0; b < states.size(); ++b)
       states[b] = island_.state(static_cast<BodyIndex>(b));
   };
-  if (!island_.isAsleep()) return copy(snapshots_.add(time));
+  if (!island_.isAsleep()) return copy(snapshots_.add(time, since));
   if (!snapshot_rest_.holds(island_)) {
     copy(snapshots_.startRest());
     snapshot_rest_.set(island_);
@@ -114,9 +143,10 @@ RigidState Timeline::stateAt(BodyIndex body, double time) noexcept {
   const RigidState& start = start_states_[place];
   if (time >= tick_start_) return interpolate(start, tick_start_, now, time_, time);
   const Snapshots::Moment from = snapshots_.latestUntil(time), to = snapshots_.earliestAfter(time);
-  const bool is_kept = to.states && to.time < tick_start_;
+  const bool is_kept = to.states && (to.time < tick_start_ || to.since < to.time);
   const RigidState& after = is_kept ? (*to.states)[place] : start;
-  const double end = is_kept ? to.time : tick_start_;
+  const double end = is_kept ? to.since : tick_start_;
+  if (time >= end) return after;
   if (from.states) return interpolate((*from.states)[place], from.time, after, end, time);
   return computeStart(after, std::min(end - time, period_));
 }

@@ -29,7 +29,8 @@ class Timeline {
   void makeRoom(std::size_t moments) { snapshots_.makeRoom(moments); }
   [[nodiscard]] std::size_t room() const noexcept { return snapshots_.room(); }
 
-  /// The first tick is at `now`. The host's clock is shifted by `host_shift` [s].
+  /// The first tick is at `now`; its states are kept. The host's clock is shifted by `host_shift`
+  /// [s].
   void begin(double now, double host_shift) noexcept;
   void startTick(double now) noexcept { tick_start_ = now; }
   void endTick() noexcept { ++ticks_; }
@@ -53,7 +54,7 @@ class Timeline {
   void moveTo(double until) noexcept;
   /// Moves only the time: Bullet moves the bodies.
   void passTo(double until) noexcept { time_ = until; }
-  /// Skips lost time: no host step ends in it.
+  /// Skips lost time: no host step ends in it, and whoever asks for it gets the states of its end.
   void lose(double until) noexcept;
 
   /// Announces the end of a host step of length `step` [s]; further ends follow at that interval.
@@ -118,7 +119,8 @@ class Timeline {
   }
 
  private:
-  void keepStates(double time) noexcept;
+  /// Keeps the present states as those of all times from `since` to `time`.
+  void keepStates(double since, double time) noexcept;
 
   Island& island_;
   double period_, host_step_;
@@ -132,9 +134,6 @@ class Timeline {
 };
 
 /// State of a body `dt` before `end`, for steady motion.
-[[nodiscard]] inline RigidState computeStart(RigidState end, double dt) noexcept {
-  end.p_W -= dt * end.v_W;
-  return end;
-}
+[[nodiscard]] RigidState computeStart(RigidState end, double dt) noexcept;
 
 }  // namespace tandem
