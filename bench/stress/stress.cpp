@@ -22,11 +22,19 @@ constexpr double kMostDeviation = sizeof(btScalar) == sizeof(double) ? 2e-5 : 2e
 /// Way beyond the speed limit that counts as rounding [m].
 constexpr double kLeastJump = 1e-9;
 
+/// Way by which a joint may open, besides rounding of the host's coordinates [m].
+constexpr double kMostPinGap = 1e-6;
+
+/// The case that is run as number `slot`.
+std::uint64_t findCase(const StressOptions& options, std::uint64_t slot) {
+  return slot < options.cases ? slot : kFirstJoinedCase + slot - options.cases;
+}
+
 }  // namespace
 
 std::string_view nameOf(StressFailure failure) {
-  constexpr std::string_view kNames[] = {"crash", "not_finite", "energy",
-                                         "jump",  "explosion",  "reference"};
+  constexpr std::string_view kNames[] = {"crash",     "not_finite", "energy", "jump",
+                                         "explosion", "reference",  "pin"};
   return kNames[static_cast<int>(failure)];
 }
 
@@ -39,6 +47,7 @@ std::vector<StressFailure> findFailures(const StressOutcome& outcome) {
   if (outcome.is_stable && !(outcome.growth <= kMostGrowth))
     failures.push_back(StressFailure::kExplosion);
   if (!(outcome.deviation <= kMostDeviation)) failures.push_back(StressFailure::kReference);
+  if (!(outcome.pin_gap <= kMostPinGap)) failures.push_back(StressFailure::kPin);
   return failures;
 }
 
@@ -53,15 +62,22 @@ StressResult measureStress(const StressOptions& options, const StressProgress& p
   result.options = options;
   const auto start = std::chrono::steady_clock::now();
   result.outcomes = runInWorkers<StressOutcome>(
-      options.cases, options.workers,
-      [&](std::uint64_t index) { return runStressCase(drawStressCase(options.seed, index)); },
-      [&](std::uint64_t index) {
+      options.cases + options.joined_cases, options.workers,
+      [&](std::uint64_t slot) {
+        StressOutcome outcome =
+            runStressCase(drawStressCase(options.seed, findCase(options, slot)));
+        outcome.index = slot;
+        return outcome;
+      },
+      [&](std::uint64_t slot) {
         StressOutcome outcome;
         outcome.crashed = true;
-        outcome.kind = static_cast<std::int32_t>(drawStressCase(options.seed, index).kind);
+        outcome.kind =
+            static_cast<std::int32_t>(drawStressCase(options.seed, findCase(options, slot)).kind);
         return outcome;
       },
       [&](double share) { progress("cases", 0.9 * share); });
+  for (StressOutcome& outcome : result.outcomes) outcome.index = findCase(options, outcome.index);
   result.maps = makeStabilityMaps(options.quick, [&](std::string_view what, double share) {
     progress(what, 0.9 + 0.1 * share);
   });

@@ -12,8 +12,8 @@
 namespace tandem::demos::bench {
 
 /// Kinds of failure of a case.
-enum class StressFailure { kCrash, kNotFinite, kEnergy, kJump, kExplosion, kReference };
-inline constexpr int kStressFailureCount = 6;
+enum class StressFailure { kCrash, kNotFinite, kEnergy, kJump, kExplosion, kReference, kPin };
+inline constexpr int kStressFailureCount = 7;
 [[nodiscard]] std::string_view nameOf(StressFailure failure);
 
 /// All failures of a case; empty if it is good.
@@ -22,6 +22,7 @@ inline constexpr int kStressFailureCount = 6;
 struct StressOptions {
   std::uint64_t seed = 1;
   std::uint64_t cases = 20000;
+  std::uint64_t joined_cases = 1000;  ///< besides, of kJoined
   bool quick = false;
   int workers = 2;  ///< number of processes
 };

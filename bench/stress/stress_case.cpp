@@ -271,6 +271,45 @@ void drawNeighbours(Draw& draw, StressCase& one, double size) {
   }
 }
 
+/// A straight chain of one to six links hangs at rest or swings as one about its pin. Links have
+/// similar weights. The hand and a remote user come to the shared one, or are far away.
+void drawJoined(Draw& draw, StressCase& one) {
+  one.network = {};
+  one.angular.reset();
+  if (!draw.chance(0.1)) one.gravity_W = -9.81 * Vec3::UnitZ();
+  const auto links = static_cast<std::size_t>(draw.count(1, 6));
+  const double length = draw.log(1e-2, 1.0), mass = drawMass(draw);
+  one.radius = length * draw.even(0.05, 0.3);
+  const Vec3 along = draw.direction(), axis = along.cross(draw.direction()).normalized();
+  const bool is_hinged = draw.chance(0.5);
+  const double speed = draw.chance(0.5) ? 0.0 : draw.even(-1.0, 1.0) * std::sqrt(9.81 / length);
+  const auto shared = static_cast<std::size_t>(draw.count(0, static_cast<int>(links) - 1));
+  for (std::size_t i = 0; i < links; ++i) {
+    const double k = static_cast<double>(i);
+    StressBody link;
+    link.shape = Box{0.5 * length * Vec3(1.0, draw.even(0.05, 0.3), draw.even(0.05, 0.3))};
+    link.mass = mass * draw.log(0.2, 5.0);
+    link.is_shared = i == shared;
+    link.start.p_W = one.origin_W + (k + 0.5) * length * along;
+    link.start.q_WB = Quat::FromTwoVectors(Vec3::UnitX(), along);
+    link.start.w_W = speed * axis;
+    link.start.v_W = speed * axis.cross(link.start.p_W - one.origin_W);
+    one.bodies.push_back(link);
+    StressJoint joint;
+    joint.a = i;
+    if (i > 0) joint.b = i - 1;
+    joint.pin_W = one.origin_W + k * length * along;
+    if (is_hinged) joint.axis_W = axis;
+    one.joints.push_back(joint);
+  }
+  for (int user = 0; user < 2; ++user) {
+    one.users.push_back(drawComer(draw, one.bodies[shared], one.radius, length));
+    if (draw.chance(0.5)) continue;
+    one.users.back().path = {};
+    one.users.back().path.start_W = one.origin_W + 100.0 * (1 + user) * length * Vec3(1, 1, 1);
+  }
+}
+
 /// Draws numbers that analysis calls stable: see isAnalysedStable().
 void calmDown(Draw& draw, StressCase& one) {
   one.network = {};
@@ -293,8 +332,8 @@ void calmDown(Draw& draw, StressCase& one) {
 }  // namespace
 
 std::string_view nameOf(StressKind kind) {
-  constexpr std::string_view kNames[] = {"two_sites", "guided", "paper",
-                                         "scripted",  "rigid",  "neighbours"};
+  constexpr std::string_view kNames[] = {"two_sites", "guided",     "paper", "scripted",
+                                         "rigid",     "neighbours", "joined"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -318,6 +357,12 @@ StressCase drawStressCase(std::uint64_t seed, std::uint64_t index) {
   one.index = index;
   const double size = draw.log(1e-3, 1.0);
   drawCommon(draw, one, size);
+  if (index >= kFirstJoinedCase) {
+    one.kind = StressKind::kJoined;
+    drawJoined(draw, one);
+    one.duration = 0.25;
+    return one;
+  }
   const double part = draw.even(0.0, 1.0);
   if (part < 0.25) {
     one.kind = StressKind::kTwoSites;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -21,8 +22,9 @@ enum class StressKind {
   kScripted,    ///< one site; remote users are scripts, shared body and obstacles are free
   kRigid,       ///< cube pushed about on a floor with friction, among static boxes
   kNeighbours,  ///< the same among the host's own boxes; several shared bodies
+  kJoined,      ///< pendulums and chains of the host's joints, one link of them shared
 };
-inline constexpr int kStressKindCount = 6;
+inline constexpr int kStressKindCount = 7;
 [[nodiscard]] std::string_view nameOf(StressKind kind);
 
 /// A body of the host's world.
@@ -31,6 +33,14 @@ struct StressBody {
   double mass = 0.0;  ///< mass of this copy [kg]; 0: static
   bool is_shared = false;
   RigidState start;
+};
+
+/// A joint of body `a` with the body before it in a chain, or of the first with the world.
+struct StressJoint {
+  std::size_t a = 0;
+  std::optional<std::size_t> b;  ///< none: the world
+  Vec3 pin_W = Vec3::Zero();     ///< at the start [m]
+  std::optional<Vec3> axis_W;    ///< of a hinge; none: a ball
 };
 
 /// Motion of a scripted user from `start_W`: even, to and fro, or by leaps.
@@ -70,8 +80,12 @@ struct StressCase {
   std::optional<Vec3> guide;
   std::string_view scheme = "remote_dynamic_proxy";
   std::vector<StressBody> bodies;
-  std::vector<StressUser> users;  ///< the local one, then the remote ones
+  std::vector<StressJoint> joints;  ///< bodies of a scene with joints pass through each other
+  std::vector<StressUser> users;    ///< the local one, then the remote ones
 };
+
+/// Cases from this index on are of kJoined; those before are of all other kinds.
+inline constexpr std::uint64_t kFirstJoinedCase = 100000000;
 
 /// Case `index` of a seed. Equal arguments give equal cases.
 [[nodiscard]] StressCase drawStressCase(std::uint64_t seed, std::uint64_t index);

@@ -20,6 +20,9 @@ using namespace bench;
 
 constexpr std::uint64_t kCases = 20000, kQuickCases = 1000, kMostCases = 10000000;
 
+/// For so many other cases there is one of bodies in joints.
+constexpr std::uint64_t kCasesPerJoined = 20;
+
 /// Approximate number of printed rows of an account.
 constexpr std::size_t kRows = 40;
 
@@ -49,6 +52,7 @@ void printCase(const StressCase& one, const StressOutcome& outcome,
   fmt::print("\n{}\n", findFailures(outcome).empty() ? "good" : "failed");
   fmt::print("largest energy {:.4g} J, off by {:.2e} of it, {:.2e} allowed\n", outcome.peak,
              outcome.unaccounted, outcome.allowed);
+  if (!one.joints.empty()) fmt::print("joints open by {:.2e} m at most\n", outcome.pin_gap);
 }
 
 /// `tandem bench stress`: random cases, each with an energy account.
@@ -57,7 +61,7 @@ class StressCommand final : public Command {
   void declare(Arguments& arguments) override {
     arguments.flag("--json", output_.json, "print stress.json to stdout");
     arguments.flag("--quick", quick_, "1000 cases, a coarser map");
-    arguments.option("--cases", cases_, "so many cases");
+    arguments.option("--cases", cases_, "so many cases, and a twentieth more with joints");
     arguments.option("--seed", seed_, "another seed, other cases");
     arguments.option("--case", one_, "this case alone, with its account");
     arguments.option("--out", output_.folder,
@@ -98,6 +102,7 @@ class StressCommand final : public Command {
     options.cases = cases_.value_or(quick_ ? kQuickCases : kCases);
     if (options.cases < 1 || options.cases > kMostCases)
       throw UsageError(fmt::format("--cases {}: must be 1 to {}", options.cases, kMostCases));
+    options.joined_cases = (options.cases + kCasesPerJoined - 1) / kCasesPerJoined;
     return options;
   }
 

@@ -14,7 +14,7 @@ struct KindSummary {
               failed = 0;
   std::size_t failures[kStressFailureCount] = {};
   double worst_unaccounted = 0.0, worst_growth = 0.0, worst_jump = 0.0, simulated = 0.0;
-  double worst_deviation = 0.0;
+  double worst_deviation = 0.0, worst_pin_gap = 0.0;
   std::uint64_t worst_case = 0;  ///< case with the worst energy error
   double worst_strict = 0.0;     ///< unaccounted, in cases that allow only kEnergyTolerance
 
@@ -40,6 +40,7 @@ struct KindSummary {
     if (outcome.is_stable) worst_growth = std::max(worst_growth, outcome.growth);
     worst_jump = std::max(worst_jump, outcome.jump);
     worst_deviation = std::max(worst_deviation, outcome.deviation);
+    worst_pin_gap = std::max(worst_pin_gap, outcome.pin_gap);
   }
 };
 
@@ -65,7 +66,8 @@ nlohmann::json makeSummaryJson(const KindSummary& summary) {
                          {"worst_unaccounted_case", summary.worst_case},
                          {"worst_growth", summary.worst_growth},
                          {"worst_jump", summary.worst_jump},
-                         {"worst_deviation", summary.worst_deviation}};
+                         {"worst_deviation", summary.worst_deviation},
+                         {"worst_pin_gap", summary.worst_pin_gap}};
   for (int f = 0; f < kStressFailureCount; ++f)
     json["failures"][std::string(nameOf(static_cast<StressFailure>(f)))] = summary.failures[f];
   return json;
@@ -86,7 +88,8 @@ nlohmann::json makeOutcomeJson(const StressOutcome& outcome) {
           {"peak", outcome.peak},
           {"jump", outcome.jump},
           {"growth", outcome.growth},
-          {"deviation", outcome.deviation}};
+          {"deviation", outcome.deviation},
+          {"pin_gap", outcome.pin_gap}};
 }
 
 std::string row(std::string_view name, const KindSummary& summary) {
@@ -159,6 +162,7 @@ std::string makeStressTable(const StressResult& result) {
       "{:.1f} s simulated in {:.0f} s, seed {}; in {} cases a contact was found late, {} ended "
       "early\n",
       all.simulated, result.seconds, result.options.seed, all.late, all.cut);
+  text += fmt::format("joints opened by {:.1e} m at most\n", all.worst_pin_gap);
   int listed = 0;
   for (const StressOutcome& outcome : result.outcomes) {
     const auto failures = findFailures(outcome);

@@ -98,6 +98,7 @@ class StressRun {
     outcome.start_energy += account.startStock().sum();
     outcome.end_energy += account.stock().sum();
     outcome.peak = std::max(outcome.peak, account.peak());
+    outcome.pin_gap = std::max(outcome.pin_gap, site.pinGap());
     if (account.worstJump() > outcome.jump) {
       outcome.jump = account.worstJump();
       outcome.jump_time = account.worstJumpTime();
@@ -118,6 +119,7 @@ class StressRun {
     const EnergyAccount& account = site.account();
     double allowed = std::max(kEnergyTolerance, 100.0 * account.rounding() / account.peak());
     allowed += account.doubt() / account.peak();
+    if (case_.kind == StressKind::kJoined) return std::max(allowed, kJoinedTolerance);
     if (case_.kind != StressKind::kRigid && case_.kind != StressKind::kNeighbours) return allowed;
     // Rigid contact is first order in the inner step.
     if (site.island().counters().rigid_points == 0) return allowed;

@@ -9,6 +9,8 @@ namespace tandem::demos::bench {
 
 /// Part of the largest energy by which an account may be off.
 inline constexpr double kEnergyTolerance = 1e-6;
+/// The same for bodies in joints.
+inline constexpr double kJoinedTolerance = 1e-4;
 
 /// Outcome of a case. A plain value, so that a worker process can pass it as bytes.
 struct StressOutcome {
@@ -28,6 +30,7 @@ struct StressOutcome {
   double growth = 0.0;            ///< closed loop: largest energy over energy input [1]
   double deviation = 0.0;     ///< paper's case: distance to the reference over the largest way [1]
   double host_contact = 0.0;  ///< spring energy that appeared in a host step, as part of the peak
+  double pin_gap = 0.0;       ///< largest distance of a joint's two points in the host's world [m]
   double work_in = 0.0;       ///< work of hands and targets [J]
   double start_energy = 0.0, end_energy = 0.0;  ///< [J]
   double seconds = 0.0;                         ///< run time [s]

@@ -59,6 +59,19 @@ class ScriptedLink final : public Link {
   StatePacket packet_;
 };
 
+/// Turn in an inner step beyond which a pin may open [rad].
+constexpr double kMostTurn = 0.3;
+
+/// Links of chains collide with all but each other.
+constexpr int kLinkGroup = 1 << 8;
+
+btVector3 toFrame(const btRigidBody& body, const btVector3& p_W) {
+  return body.getCenterOfMassTransform().inverse() * p_W;
+}
+btVector3 turnToFrame(const btRigidBody& body, const btVector3& n_W) {
+  return body.getCenterOfMassTransform().getBasis().transpose() * n_W;
+}
+
 PeerId peerOf(std::size_t user) { return PeerId{static_cast<std::uint32_t>(user) + 1}; }
 
 std::unique_ptr<btCollisionShape> makeShape(const Shape& shape) {
@@ -80,6 +93,7 @@ StressSite::StressSite(const StressCase& one, std::size_t self, const std::vecto
     : case_(one), user_(one.users[self]), self_(self), watch_(findScheme(one.scheme)) {
   world_.setGravity(toBullet(one.gravity_W));
   for (const StressBody& body : one.bodies) addBody(body);
+  for (const StressJoint& joint : one.joints) addJoint(joint);
   const double overlap = findRigidOverlap();
   makeDevice();
   site_ = std::make_unique<Site>(makeSettings(), world_, *device_);
@@ -100,6 +114,7 @@ StressSite::StressSite(const StressCase& one, std::size_t self, const std::vecto
 
 StressSite::~StressSite() {
   site_.reset();
+  for (const auto& joint : joints_) world_.removeConstraint(joint.get());
   for (const auto& body : bodies_) world_.removeRigidBody(body.get());
 }
 
@@ -115,7 +130,47 @@ void StressSite::addBody(const StressBody& body) {
   btRigidBody& rigid = *bodies_.back();
   rigid.setLinearVelocity(toBullet(body.start.v_W));
   rigid.setAngularVelocity(toBullet(body.start.w_W));
-  world_.addRigidBody(&rigid);
+  if (case_.joints.empty()) return world_.addRigidBody(&rigid);
+  rigid.setSleepingThresholds(0, 0);
+  world_.addRigidBody(&rigid, kLinkGroup, btBroadphaseProxy::AllFilter ^ kLinkGroup);
+}
+
+void StressSite::addJoint(const StressJoint& joint) {
+  btRigidBody& a = *bodies_[joint.a];
+  btRigidBody* b = joint.b ? bodies_[*joint.b].get() : nullptr;
+  const btVector3 pin_W = toBullet(joint.pin_W), at_A = toFrame(a, pin_W);
+  if (joint.axis_W) {
+    const btVector3 axis_W = toBullet(*joint.axis_W);
+    joints_.push_back(b ? std::make_unique<btHingeConstraint>(a, *b, at_A, toFrame(*b, pin_W),
+                                                              turnToFrame(a, axis_W),
+                                                              turnToFrame(*b, axis_W))
+                        : std::make_unique<btHingeConstraint>(a, at_A, turnToFrame(a, axis_W)));
+  } else {
+    joints_.push_back(b ? std::make_unique<btPoint2PointConstraint>(a, *b, at_A, toFrame(*b, pin_W))
+                        : std::make_unique<btPoint2PointConstraint>(a, at_A));
+  }
+  world_.addConstraint(joints_.back().get(), true);
+}
+
+bool StressSite::spinsWildly() const {
+  for (BodyIndex b = 0; b < island().bodyCount(); ++b)
+    if (island().state(b).w_W.norm() * SiteSettings{}.inner_step > kMostTurn) return true;
+  return false;
+}
+
+double StressSite::measurePins() const {
+  double largest = 0.0;
+  for (const StressJoint& joint : case_.joints) {
+    const auto place = [&](std::size_t body) {
+      const RigidState now = stateOf(*bodies_[body]), &start = case_.bodies[body].start;
+      return Vec3(now.p_W + now.q_WB * (start.q_WB.conjugate() * (joint.pin_W - start.p_W)));
+    };
+    const Vec3 other_W = joint.b ? place(*joint.b) : joint.pin_W;
+    // Of the host's coordinates, in pose and frames; a float has a grain of 60 um at 1 km.
+    const double rounding = 4.0 * SIMD_EPSILON * (joint.pin_W.norm() + 1.0);
+    largest = std::max(largest, (place(joint.a) - other_W).norm() - rounding);
+  }
+  return largest;
 }
 
 /// Deepest overlap of the world's bodies at the start [m].
@@ -202,9 +257,11 @@ void StressSite::tick(std::uint64_t tick) {
     handle_W_ = handle_W;
   }
   account_->look(end);
+  measures_pins_ = measures_pins_ && !spinsWildly();
   while (static_cast<double>(host_steps_ + 1) * case_.host_step <= end + 1e-9) {
     world_.stepSimulation(static_cast<btScalar>(case_.host_step), 0);
     ++host_steps_;
+    if (measures_pins_) pin_gap_ = std::max(pin_gap_, measurePins());
     account_->lookAfterHost(end);
   }
 }

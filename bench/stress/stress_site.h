@@ -32,6 +32,9 @@ class StressSite {
   [[nodiscard]] Site& site() { return *site_; }
   /// True if the site's state, its force and all of the world's bodies are finite.
   [[nodiscard]] bool isFinite() const;
+  /// Largest distance so far of a joint's two points in the host's world, after its steps [m]. No
+  /// longer measured once a link has turned by more than 0.3 rad in an inner step.
+  [[nodiscard]] double pinGap() const { return pin_gap_; }
   /// Kinetic energy of a simulated device [J], and the hand's energy input without what it took
   /// back.
   [[nodiscard]] double deviceEnergy() const;
@@ -47,6 +50,9 @@ class StressSite {
   void connect(const std::vector<Link*>& links);
   [[nodiscard]] SiteSettings makeSettings() const;
   void addBody(const StressBody& body);
+  void addJoint(const StressJoint& joint);
+  [[nodiscard]] bool spinsWildly() const;
+  [[nodiscard]] double measurePins() const;
 
   const StressCase& case_;
   const StressUser& user_;
@@ -58,6 +64,7 @@ class StressSite {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   std::unique_ptr<HapticDevice> device_;
   const SimulatedDevice* simulated_ = nullptr;
   IslandWatch watch_;
@@ -67,6 +74,8 @@ class StressSite {
   std::unique_ptr<EnergyAccount> account_;
   Vec3 handle_W_ = Vec3::Zero();
   double hand_work_ = 0.0;
+  double pin_gap_ = 0.0;
+  bool measures_pins_ = true;
   std::uint64_t host_steps_ = 0;
 };
 

@@ -234,6 +234,7 @@ TEST(StressCase, CoversWhatItShould) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const StressCase one = drawStressCase(1, i);
     ++kinds[static_cast<int>(one.kind)];
+    ++kinds[static_cast<int>(drawStressCase(1, kFirstJoinedCase + i).kind)];
     softest = std::min(softest, one.contact.stiffness);
     stiffest = std::max(stiffest, one.contact.stiffness);
     lightest = std::min(lightest, one.proxy_mass);
@@ -252,6 +253,32 @@ TEST(StressCase, CoversWhatItShould) {
   EXPECT_GT(farthest, 900.0);
   EXPECT_GT(longest, 0.9);
   for (const int count : kinds) EXPECT_GT(count, 50);
+}
+
+// Cases of joints have numbers of their own, so that those of a seed stay what they were.
+TEST(StressCase, JointsAreDrawnBesideTheOthers) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    EXPECT_TRUE(drawStressCase(1, i).joints.empty()) << i;
+    const StressCase one = drawStressCase(1, kFirstJoinedCase + i);
+    EXPECT_EQ(one.kind, StressKind::kJoined);
+    EXPECT_EQ(one.joints.size(), one.bodies.size());
+  }
+}
+
+TEST(StressCase, BodiesInJointsKeepTheLaws) {
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const StressOutcome outcome = runStressCase(drawStressCase(3, kFirstJoinedCase + i));
+    EXPECT_TRUE(findFailures(outcome).empty()) << i;
+    EXPECT_FALSE(outcome.refused) << i;
+  }
+}
+
+TEST(StressCase, SeeAJointThatOpens) {
+  StressOutcome outcome;
+  outcome.pin_gap = 0.9e-6;
+  EXPECT_TRUE(findFailures(outcome).empty());
+  outcome.pin_gap = 1.1e-6;
+  EXPECT_EQ(findFailures(outcome), std::vector<StressFailure>{StressFailure::kPin});
 }
 
 }  // namespace
