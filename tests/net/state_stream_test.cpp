@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "coordination/src/wire/wire_sealing.h"
+
 namespace tandem::net {
 namespace {
 
