@@ -108,9 +108,7 @@ bool ContactSolver::settle() noexcept {
     if (!(measureLargest(x_) < kLost)) return false;
     const Modes modes = chooseModes();
     const double residual = measureResidual();
-    // Great impulses leave no less than their rounding.
-    const bool is_rounding = residual < kNearlySettled && residual > 0.5 * residual_before;
-    if ((residual > kSmallResidual && !is_rounding) || modes.are_forced) {
+    if (residual > kSmallResidual || modes.are_forced) {
       // Sliding is not linear: its direction follows the slip.
       is_factored = !modes.have_changed && residual < 0.1 * residual_before;
       residual_before = residual;
