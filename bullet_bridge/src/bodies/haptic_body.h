@@ -8,29 +8,13 @@
 #include "tandem/coordination/types.h"
 
 #include "bodies/body_look.h"
+#include "bodies/host_body.h"
 #include "bodies/momentum.h"
 
 class btDiscreteDynamicsWorld;
 
 #pragma GCC visibility push(default)
 namespace tandem {
-
-/// Changes that the host or its solver made to a body outside the island.
-struct HostChange {
-  Vec3 impulse_W = Vec3::Zero();          ///< linear momentum given [N s]
-  Vec3 angular_impulse_W = Vec3::Zero();  ///< angular momentum about the centre of mass [N m s]
-  Vec3 f_W = Vec3::Zero();                ///< part of it from a force over the whole step [N]
-  Vec3 t_W = Vec3::Zero();                ///< part of it from a torque over the whole step [N m]
-  bool moved = false;                     ///< the host set a new pose
-  Vec3 offset_W = Vec3::Zero();           ///< displacement of the centre of mass [m]
-  Quat rotation_W = Quat::Identity();     ///< rotation of the body, in W
-};
-
-[[nodiscard]] inline bool isFinite(const HostChange& change) noexcept {
-  return change.f_W.allFinite() && change.t_W.allFinite() && change.impulse_W.allFinite() &&
-         change.angular_impulse_W.allFinite() && change.offset_W.allFinite() &&
-         change.rotation_W.coeffs().allFinite();
-}
 
 /// Permission for Bullet to put a held body to sleep.
 enum class Sleep {
@@ -52,7 +36,7 @@ enum class Sleep {
 /// Between handOff() and restore() Bullet's gyroscopic term is off, because the island has rotated
 /// the body already. All functions except constructor and destructor are real-time safe. All are
 /// for the thread that steps the world.
-class HapticBody {
+class HapticBody final : public HostBody {
  public:
   /// Throws tandem::Error if the body is not in the world, is static or kinematic, or has no mass.
   /// Also throws if `mass_share` is not in (0, 1].
@@ -62,14 +46,13 @@ class HapticBody {
   /// Throws as checkAttachable() does.
   HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double mass_share = 1.0,
              Sleep sleep = Sleep::kNever);
-  ~HapticBody();
-  HapticBody(const HapticBody&) = delete;
-  HapticBody& operator=(const HapticBody&) = delete;
+  ~HapticBody() override;
 
+  [[nodiscard]] HapticBody* asRigid() noexcept override { return this; }
   [[nodiscard]] btRigidBody& body() const noexcept { return body_; }
   /// The body was deleted: the destructor restores nothing, not even a body made at its address.
   void noteDeletion() noexcept { is_gone_ = true; }
-  [[nodiscard]] bool isInWorld() const noexcept;
+  [[nodiscard]] bool isInWorld() const noexcept override;
   [[nodiscard]] double mass() const noexcept;  ///< of this copy [kg]
   /// Principal moments of this copy, in B [kg m^2]; 0 about an axis that Bullet keeps fixed.
   [[nodiscard]] Vec3 inertia() const noexcept;
@@ -78,8 +61,8 @@ class HapticBody {
   [[nodiscard]] Vec3 linearFactor() const noexcept;
   [[nodiscard]] Vec3 angularFactor() const noexcept;
   /// Weight of this copy as Bullet applies it, in W [N]; 0 along axes with zero linear factor.
-  [[nodiscard]] Vec3 gravityForce() const noexcept;
-  [[nodiscard]] RigidState state() const noexcept;  ///< present state of the btRigidBody
+  [[nodiscard]] Vec3 gravityForce() const noexcept override;
+  [[nodiscard]] RigidState state() const noexcept override;  ///< present state of the btRigidBody
   /// Bullet's built-in damping d, v *= (1 - d)^dt, as the host set it last; it is off during this
   /// object's life.
   [[nodiscard]] double linearDamping() const noexcept;
@@ -92,26 +75,28 @@ class HapticBody {
 
   /// Warnings for the user, one line each. They concern built-in damping that is off or stays on, a
   /// large collision margin, and native contact stiffness that the island ignores.
-  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept override {
+    return warnings_;
+  }
 
   /// Pre-tick. Forces and torques by the host in this step (without gravity) times dt. Also changes
   /// of velocity and pose by the host since the last restore(), remember() or takeHostChanges().
   /// Non-finite changes are dropped. As in Bullet, forces on a sleeping body are lost, and its
   /// velocity counts once the host wakes it.
-  [[nodiscard]] HostChange takeHostChanges(double dt) noexcept;
+  [[nodiscard]] HostChange takeHostChanges(double dt) noexcept override;
 
   /// Pre-tick. Sets the velocities that carry the body to `end` in one step of dt [s], whatever
   /// forces Bullet is about to add. Wakes a sleeping body if `end` is too far from its rest
   /// position. `end` may hold impulses that Bullet's solver is foreseen to give: Bullet starts
   /// without them, and finds them itself. `foreseen` is their mean over the step: it led the body
   /// to `end`.
-  void handOff(const RigidState& end, double dt, const Momentum& foreseen = {}) noexcept;
+  void handOff(const RigidState& end, double dt, const Momentum& foreseen = {}) noexcept override;
 
   /// Post-tick. Returns the impulses of Bullet's solver (contact with moving neighbours, joints),
   /// the foreseen ones too, and how the pose that it led to differs from the `end` of handOff().
   /// Then sets pose and velocity to this `end`, in the order that keeps motion state and
   /// interpolation right.
-  HostChange restore() noexcept;
+  HostChange restore() noexcept override;
 
   /// Centre of mass while Bullet's solver acted in the last step, in W [m].
   [[nodiscard]] const Vec3& solvedAt() const noexcept { return handed_.p_W_start; }
@@ -124,51 +109,51 @@ class HapticBody {
 
   /// Post-tick, after restore() or wakeIfHit(). Sets the state that the island made of the solver's
   /// change instead of the `end` of handOff().
-  void place(const RigidState& state) noexcept;
+  void place(const RigidState& state) noexcept override;
 
   /// True if `state` is that of the last handOff() within 1e-12 m (and 1e-12 of the quaternion). It
   /// must also be slower than 1e-9 m/s and rad/s. With Sleep::kAsHost a parked body stands until it
   /// must be woken.
-  [[nodiscard]] bool standsAt(const RigidState& state) const noexcept;
+  [[nodiscard]] bool standsAt(const RigidState& state) const noexcept override;
 
   /// Post-tick, after restore(). Puts a standing body to sleep in Bullet. It needs no handOff() and
   /// restore() until unpark() or wakeIfHit().
-  void park() noexcept;
-  [[nodiscard]] bool isParked() const noexcept { return parked_; }
+  void park() noexcept override;
+  [[nodiscard]] bool isParked() const noexcept override { return parked_; }
   /// True if Bullet has the body asleep. Post-tick: false also for a parked body whose broadphase
   /// box overlaps that of an awake one.
-  [[nodiscard]] bool isAsleep() const noexcept { return !body_.isActive(); }
+  [[nodiscard]] bool isAsleep() const noexcept override { return !body_.isActive(); }
 
   /// Pre-tick. False once the host has woken, moved, pushed or changed a parked body or its weight.
-  [[nodiscard]] bool isUndisturbed() const noexcept;
+  [[nodiscard]] bool isUndisturbed() const noexcept override;
   /// True if the world's gravity changed since the body was parked: Bullet updates awake bodies
   /// only. unpark() makes up for it.
-  [[nodiscard]] bool hasMissedWorldGravity() const noexcept;
+  [[nodiscard]] bool hasMissedWorldGravity() const noexcept override;
 
   /// Pre-tick. Wakes the body, with its weight for this step; takeHostChanges() and handOff() may
   /// follow.
-  void unpark() noexcept;
+  void unpark() noexcept override;
 
   /// Post-tick. If something hit a parked body, unparks it where it stood and returns true with the
   /// impulses in `change`. A body that Bullet woke only for an awake neighbour goes back to sleep.
-  [[nodiscard]] bool wakeIfHit(HostChange& change) noexcept;
+  [[nodiscard]] bool wakeIfHit(HostChange& change) noexcept override;
 
   /// Pre-tick, impulse mode: applies the impulse of a force and torque over dt [s].
-  void applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexcept;
+  void applyWrench(const Vec3& f_W, const Vec3& t_W, double dt) noexcept override;
 
   /// Adds momentum at once, whatever the factors: the island has applied them already.
-  void addMomentum(const Vec3& linear_W, const Vec3& angular_W) noexcept;
+  void addMomentum(const Vec3& linear_W, const Vec3& angular_W) noexcept override;
 
   /// Stores the present state, so that only later changes by the host are reported.
-  void remember() noexcept;
+  void remember() noexcept override;
 
   /// The host has moved the body by `offset_W` [m], with all else in its world: that is no change.
-  void shiftOrigin(const Vec3& offset_W) noexcept;
+  void shiftOrigin(const Vec3& offset_W) noexcept override;
   /// Puts the body where it was left, unless the host has moved it there. After shiftOrigin().
   void putBack() noexcept;
 
   /// Sets pose and velocity at once (for a body whose state is prescribed).
-  void setState(const RigidState& state) noexcept;
+  void setState(const RigidState& state) noexcept override;
 
  private:
   struct Original {

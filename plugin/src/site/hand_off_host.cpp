@@ -123,7 +123,7 @@ void HandOffStep::giveBack() {
 /// Reads how the host changed its bodies for its coming step.
 void HandOffStep::lookAtBodies(double dt) noexcept {
   site_.bodies.forEachPresent([&](SiteBody& body) {
-    HapticBody& bullet = *body.bullet;
+    HostBody& bullet = *body.bullet;
     if (bullet.isParked()) {
       if (bullet.isUndisturbed() && !bullet.hasMissedWorldGravity()) return;
       site_.rest.unpark(body);
@@ -157,7 +157,7 @@ void HandOffStep::handOff(double dt) noexcept {
     if (btRigidBody* rigid = peer.proxy.findRigid())
       setNativeGhost(*rigid, peer.proxy.body.step.is_ghost);
   site_.bodies.forEachPresent([&](SiteBody& body) {
-    HapticBody& bullet = *body.bullet;
+    HostBody& bullet = *body.bullet;
     body.step.stands = bullet.standsAt(body.step.end);
     if (bullet.isParked()) {
       if (body.step.stands) return;
@@ -204,7 +204,7 @@ void HandOffStep::takeBack(double dt) {
 void HandOffStep::restore(SiteBody& body) noexcept {
   HostChange& change = body.step.shift;
   change = {};
-  HapticBody& bullet = *body.bullet;
+  HostBody& bullet = *body.bullet;
   body.step.was_parked = bullet.isParked();
   body.step.was_near_awake = body.step.was_parked && !bullet.isAsleep();
   if (!body.step.was_parked) {

@@ -65,7 +65,8 @@ void Press::show(double dt) {
   if (contacts_.empty()) return;
   std::fill(held_.begin(), held_.end(), SupportBody{});
   bodies_.forEachPresent([&](SiteBody& body) {
-    held_[static_cast<std::size_t>(body.index)] = {body.bullet, &body.step.shift};
+    if (const HapticBody* rigid = body.bullet->asRigid())
+      held_[static_cast<std::size_t>(body.index)] = {rigid, &body.step.shift};
   });
   const auto held = [&](BodyIndex body) {
     return body == kStanding ? SupportBody{} : held_[static_cast<std::size_t>(body)];

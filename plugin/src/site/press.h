@@ -35,7 +35,8 @@ class Press {
   void finish(double dt) noexcept { rows_.finish(dt); }
   /// Momentum that Bullet's view of supports gave to a body in the last step. The island has these.
   [[nodiscard]] SupportRows::Given computeSupport(const SiteBody& body) const noexcept {
-    return rows_.computeGiven(*body.bullet);
+    const HapticBody* rigid = body.bullet->asRigid();
+    return rigid ? rows_.computeGiven(*rigid) : SupportRows::Given{};
   }
   /// Post-tick, after the search. Notes which bodies may be pressed in the next step of `dt` [s].
   void look(double dt);

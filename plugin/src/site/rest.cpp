@@ -51,7 +51,7 @@ void Rest::fallQuiet(const Bodies& bodies) {
   may_be_quiet_ = is_marked_;
   if (!may_be_quiet_) return;
   sleepers_.clear();
-  bodies.forEach([&](const SiteBody& body) { sleepers_.push_back(body.bullet); });
+  bodies.forEach([&](const SiteBody& body) { sleepers_.push_back(body.bullet->asRigid()); });
   may_be_quiet_ = looks_.remember(sleepers_);
   if (!may_be_quiet_) return;
   watch_.remember(sleepers_, hand_W_, hip_radius_ + kWatchMargin);

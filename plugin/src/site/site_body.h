@@ -84,9 +84,9 @@ inline void readBody(const HapticBody& bullet, IslandBody& own) noexcept {
   own.start = bullet.state();
 }
 
-/// A btRigidBody whose motion the island decides.
+/// A body of the host whose motion the island decides.
 struct SiteBody {
-  HapticBody* bullet = nullptr;  ///< null while not held, and after the host's world
+  HostBody* bullet = nullptr;  ///< null while not held, and after the host's world
   BodyIndex index = 0;
   bool is_held = false;     ///< the island moves it; may change for neighbours
   bool is_leaving = false;  ///< about to be given back; for the host's thread

@@ -26,7 +26,8 @@ void Site::Impl::shiftOrigin(const Vec3& offset_W) {
   });
   // Proxies are in the host's world, but hosts know only of their own bodies.
   for (Peer& peer : peers)
-    if (peer.proxy.body.bullet && peer.proxy.findRigid()) peer.proxy.body.bullet->putBack();
+    if (peer.proxy.body.bullet && peer.proxy.findRigid())
+      peer.proxy.body.bullet->asRigid()->putBack();
 }
 
 }  // namespace tandem

@@ -108,7 +108,8 @@ class Surroundings {
   }
   /// True if a moving object that the island does not hold may touch the body within `horizon` [s].
   [[nodiscard]] bool isStrangerNear(const SiteBody& body, double horizon) const {
-    return search_.isStrangerNear(body.bullet->body(), horizon);
+    const HapticBody* rigid = body.bullet->asRigid();
+    return rigid && search_.isStrangerNear(rigid->body(), horizon);
   }
   /// Around Bullet's step, which must not see the contacts that are shown to the host.
   void hideContacts() noexcept { obstacles_.hideContacts(); }
