@@ -12,8 +12,10 @@ constexpr double kTurn = 2.0 * M_PI;
 
 constexpr double kMostForce = 1e12;  // of a motor without bound [N or N m]
 
-/// Kinds of rows of one axis; numbers of rows are 6 kind + axis.
-enum RowKind { kHold = 0, kHighLimit = 1, kDrive = 2, kElastic = 3 };
+/// A drive that damps faster than this holds its speed [1/s].
+constexpr double kFastestDrive = 2e3;
+
+int numberOf(JointRowKind kind, int axis) { return 6 * static_cast<int>(kind) + axis; }
 
 /// The angle, a turn more or less, that is nearest to its range.
 double moveToRange(double angle, double low, double high) {
@@ -51,17 +53,20 @@ class RowWriter {
   void writeAxis(int i, const JointCoordinate& coordinate, const JointAxis& axis) {
     JointRow row = makeRow(coordinate);
     double q = axis.sense * coordinate.way;
+    if (axis.counts_turns && i >= 3) q = axis.near + std::remainder(q - axis.near, kTurn);
     if (axis.isLocked()) {
       writeLock(i, row, coordinate.way - axis.sense * axis.low, axis);
     } else if (!axis.isFree()) {
-      if (i >= 3 && axis.high < HUGE_VAL) q = moveToRange(q, axis.low, axis.high);
-      writeLimit(6 * kHold + i, axis.sense, row, q - axis.low, axis);
-      writeLimit(6 * kHighLimit + i, -axis.sense, row, axis.high - q, axis);
+      if (i >= 3 && axis.high < HUGE_VAL && !axis.counts_turns)
+        q = moveToRange(q, axis.low, axis.high);
+      writeLimit(numberOf(JointRowKind::kHold, i), axis.sense, row, q - axis.low, axis);
+      writeLimit(numberOf(JointRowKind::kHighLimit, i), -axis.sense, row, axis.high - q, axis);
     }
     // Motors and springs act along axes of unit length.
     if (i >= 3) scaleRow(row, 1.0 / std::max(row.turn_a_W.norm(), 1e-9));
     if (axis.motor != JointMotor::kNone && !axis.isLocked()) writeMotor(i, row, q, axis);
     if (axis.has_spring) writeSpring(i, row, q, axis);
+    if (axis.push != 0.0 && !axis.isLocked()) writePush(i, row, axis);
   }
 
   /// Both ends get a linear row's force at the same point, so no angular momentum is made. That
@@ -81,7 +86,7 @@ class RowWriter {
   }
 
   void writeLock(int i, JointRow row, double way, const JointAxis& axis) {
-    row.number = 6 * kHold + i;
+    row.number = numberOf(JointRowKind::kHold, i);
     row.way = i >= 3 ? std::remainder(way, kTurn) : way;
     if (axis.hold_force < HUGE_VAL) {
       // A bounded pin pulls as Bullet's does: a part of the way per step of the host.
@@ -109,7 +114,7 @@ class RowWriter {
 
   void writeMotor(int i, JointRow row, double q, const JointAxis& axis) {
     row.law = JointLaw::kMotor;
-    row.number = 6 * kDrive + i;
+    row.number = numberOf(JointRowKind::kDrive, i);
     row.high = std::clamp(axis.force, 0.0, kMostForce);
     row.low = -row.high;
     switch (axis.motor) {
@@ -136,13 +141,42 @@ class RowWriter {
         row.speed = -axis.gain * q;
         row.low = 0.0;
         break;
+      case JointMotor::kDrive:
+        drive(row, q, axis);
+        break;
     }
+    rows_.push_back(row);
+  }
+
+  /// Bullet mends a share s of the error of the speed in a step of the host, and a part of the way:
+  ///
+  ///   v' = v + s (speed - v) + gain (target - q)
+  ///
+  /// Here v has what other forces give in the step. So this is a spring and a damper on the mass
+  /// that the joint moves, with 1 / (1 - s) of these gains. With s = 1 it is a speed that is held.
+  void drive(JointRow& row, double q, const JointAxis& axis) {
+    const double rest = 1.0 - axis.share, by_way = axis.gain * (axis.target - q);
+    if (axis.share > kFastestDrive * joint_.host_dt * rest) {
+      const double speed = axis.speed + by_way / std::min(axis.share, 1.0);
+      row.speed = axis.sense * std::clamp(speed, -axis.most, axis.most);
+      return;
+    }
+    const double u = axis.sense * computeSpeed(row);
+    const double error = axis.share * (axis.speed - u) + by_way;
+    const double force = axis.mass * error / (rest * joint_.host_dt);
+    row.low = row.high = axis.sense * std::clamp(force, -row.high, row.high);
+  }
+
+  void writePush(int i, JointRow row, const JointAxis& axis) {
+    row.law = JointLaw::kMotor;
+    row.number = numberOf(JointRowKind::kElastic, i);
+    row.low = row.high = axis.sense * axis.push;
     rows_.push_back(row);
   }
 
   void writeSpring(int i, JointRow row, double q, const JointAxis& axis) {
     if (axis.stiffness <= 0.0 && axis.damping <= 0.0) return;
-    row.number = 6 * kElastic + i;
+    row.number = numberOf(JointRowKind::kElastic, i);
     row.way = axis.sense * (q - axis.rest);
     row.stiffness = axis.stiffness;
     row.damping = axis.damping;

@@ -7,6 +7,14 @@
 
 namespace tandem {
 
+/// Kind of a row of one axis. Numbers of rows are 6 kind + axis.
+enum class JointRowKind {
+  kHold = 0,       ///< locked, or the lower limit
+  kHighLimit = 1,  ///< the upper limit
+  kDrive = 2,      ///< a motor
+  kElastic = 3,    ///< a spring, or a force that acts whatever the motor does
+};
+
 /// Private copy of a joint of the host's: it gives the joint's rows at any poses, and needs neither
 /// the host's joint nor its bodies for that.
 ///
@@ -22,6 +30,9 @@ class JointCopy {
 
   /// Copies a joint of a known type, which it only reads. In the host's thread.
   JointCopy(btTypedConstraint& host, const HostSolver& solver) noexcept { refresh(host, solver); }
+
+  /// A joint that has been read out already.
+  explicit JointCopy(const JointSettings& joint) noexcept : joint_(joint) {}
 
   /// Copies it again, once per host step: motors, limits and targets may be new. In the host's
   /// thread.
@@ -41,6 +52,9 @@ class JointCopy {
   }
   [[nodiscard]] bool isEnabled() const noexcept { return joint_.is_enabled; }
   [[nodiscard]] const JointSettings& settings() const noexcept { return joint_; }
+  [[nodiscard]] static JointRowKind kindOf(const JointRow& row) noexcept {
+    return static_cast<JointRowKind>(row.number / 6);
+  }
 
   static constexpr double kLimitReach = 0.01;     ///< [m or rad]
   static constexpr double kLimitTime = 1 / 60.0;  ///< [s]

@@ -30,6 +30,7 @@ enum class JointMotor : std::uint8_t {
   kServo,   ///< brings the coordinate to `target`, at most at `speed`
   kSpring,  ///< btGeneric6DofSpringConstraint's: its greatest force is that of the spring
   kTurn,    ///< a cone twist joint's: turns the angle that is left away, and never brakes
+  kDrive,   ///< a multi-body's: to `speed`, with a part of the way to `target`
 };
 
 /// A coordinate of a joint, and all that acts along it. Coordinates are as Bullet tells
@@ -48,9 +49,18 @@ struct JointAxis {
   double target = 0.0;  ///< of a servo [m or rad]
   double gain = 0.0;    ///< speed per error of a servo or turn [1/s]; speed per force of a spring
 
+  // Of a drive, which mends `share` of the error of its speed in a step of the host.
+  double share = 1.0;
+  double most = HUGE_VAL;  ///< greatest speed that it wants [m/s or rad/s]
+  double mass = 0.0;       ///< that it moves [kg or kg m^2]
+  double push = 0.0;       ///< force that acts whatever the motor does [N or N m]
+
   bool has_spring = false;
   double stiffness = 0.0, damping = 0.0;
   double rest = 0.0;  ///< coordinate without force
+
+  bool counts_turns = false;  ///< an angle's whole turns count, too
+  double near = 0.0;          ///< angle that they bring it nearest to [rad]
 
   [[nodiscard]] bool isLocked() const noexcept { return low == high; }
   [[nodiscard]] bool isFree() const noexcept { return low > high; }

@@ -4,9 +4,14 @@
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "arms/arm_model.h"
+#include "arms/arm_watch.h"
 #include "bodies/body_look.h"
 #include "bodies/filter_of.h"
 #include "surroundings/regions.h"
@@ -34,14 +39,18 @@ double computeGap(const NeighbourSeed& a, const NeighbourSeed& b) {
   return apart.norm();
 }
 
+NeighbourSeed makeSeed(const btCollisionObject& object, const Vec3& v_W) {
+  const Region box = computeRegion(*object.getCollisionShape(), object.getWorldTransform());
+  return {fromBullet(box.low), fromBullet(box.high), v_W, {}};
+}
+
 NeighbourSeed makeSeed(const btRigidBody& body) {
-  const Region box = computeRegion(*body.getCollisionShape(), body.getWorldTransform());
-  return {fromBullet(box.low), fromBullet(box.high), fromBullet(body.getLinearVelocity()), {}};
+  return makeSeed(body, fromBullet(body.getLinearVelocity()));
 }
 
 /// Highest speed of a point of the body from its rotation [m/s].
-double computeTurningSpeed(const btRigidBody& body, const NeighbourSeed& seed) {
-  return fromBullet(body.getAngularVelocity()).norm() * 0.5 * (seed.high_W - seed.low_W).norm();
+double computeTurningSpeed(const Vec3& w_W, const NeighbourSeed& seed) {
+  return w_W.norm() * 0.5 * (seed.high_W - seed.low_W).norm();
 }
 
 template <typename Visit>
@@ -65,23 +74,27 @@ bool hasPlainContact(const btRigidBody& body) {
 }
 
 template <typename Body>
-bool contains(const std::vector<Body*>& bodies, const btRigidBody* body) {
+bool contains(const std::vector<Body*>& bodies, const Body* body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
 }
 
 }  // namespace
 
 NeighbourSearch::NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity)
-    : host_(host), capacity_(capacity), joints_(host) {}
+    : host_(host), arms_host_(asMultiBodyWorld(host)), capacity_(capacity), joints_(host) {}
 
 const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<NeighbourSeed>& seeds,
                                                        double horizon) {
   held_.swap(found_);
+  held_arms_.swap(found_arms_);
   found_.clear();
+  found_arms_.clear();
+  arms_.clear();
+  taken_ = 0;
   joints_.look([&](const btRigidBody& body) { return isExcluded(body) || mayBeHeld(body); });
   wave_ = seeds;
   takeChainsOfExcluded();
-  while (!wave_.empty() && found_.size() < capacity_) {
+  while (!wave_.empty() && taken_ < capacity_) {
     candidates_.clear();
     for (const NeighbourSeed& seed : wave_) findAround(seed, horizon);
     wave_.clear();
@@ -96,29 +109,29 @@ void NeighbourSearch::visitNear(const NeighbourSeed& seed, double horizon, Take 
   const double widest = kHysteresis * computeDistance(seed.v_W.norm() + kFastestComer, horizon);
   const Vec3 skin = Vec3::Constant(widest);
   Visitor visitor([&](btCollisionObject* object) {
-    btRigidBody* body = btRigidBody::upcast(object);
-    if (body == nullptr || !mayBeNeighbour(*body) || contains(found_, body)) return;
-    if (seed.filter && !seed.filter->meets(filterOf(*body))) return;
-    const NeighbourSeed other = makeSeed(*body);
-    const double speed = (seed.v_W - other.v_W).norm() + computeTurningSpeed(*body, other);
+    if (isFound(*object) || !mayBeFound(*object)) return;
+    if (seed.filter && !seed.filter->meets(filterOf(*object))) return;
+    const RigidState& now = readVelocities(*object);
+    const NeighbourSeed other = makeSeed(*object, now.v_W);
+    const double speed = (seed.v_W - other.v_W).norm() + computeTurningSpeed(now.w_W, other);
     const double gap = computeGap(seed, other);
-    const double stay = contains(held_, body) ? kHysteresis : 1.0;
-    if (gap < stay * computeDistance(speed, horizon)) take(*body, gap);
+    const double stay = wasHeld(*object) ? kHysteresis : 1.0;
+    if (gap < stay * computeDistance(speed, horizon)) take(*object, gap);
   });
   host_.getBroadphase()->aabbTest(toBullet(Vec3(seed.low_W - skin)),
                                   toBullet(Vec3(seed.high_W + skin)), visitor);
 }
 
 void NeighbourSearch::findAround(const NeighbourSeed& seed, double horizon) {
-  visitNear(seed, horizon, [&](btRigidBody& body, double gap) {
-    candidates_.push_back({&body, gap});
+  visitNear(seed, horizon, [&](btCollisionObject& object, double gap) {
+    candidates_.push_back({&object, gap});
   });
 }
 
 bool NeighbourSearch::isAnythingComing(const NeighbourSeed& seed, double horizon) const {
-  if (found_.size() == capacity_) return false;
+  if (taken_ == capacity_) return false;
   bool comes = false;
-  visitNear(seed, horizon, [&](const btRigidBody&, double) { comes = true; });
+  visitNear(seed, horizon, [&](const btCollisionObject&, double) { comes = true; });
   return comes;
 }
 
@@ -133,7 +146,9 @@ bool NeighbourSearch::leavesJointsOf(const btRigidBody& body) const {
 bool NeighbourSearch::isStranger(const btCollisionObject& object) const {
   if (object.isStaticObject() || !object.hasContactResponse()) return false;
   const btRigidBody* body = btRigidBody::upcast(&object);
-  if (body == nullptr) return object.getInternalType() == btCollisionObject::CO_FEATHERSTONE_LINK;
+  if (const btMultiBody* arm = multiBodyOf(object))
+    return !isGround(object) && !contains(found_arms_, arm);
+  if (body == nullptr) return false;
   return !contains(found_, body) && !isExcluded(*body);
 }
 
@@ -159,13 +174,20 @@ bool NeighbourSearch::isStrangerNear(const btRigidBody& body, double horizon) co
 void NeighbourSearch::takeNearest() {
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     if (a.gap != b.gap) return a.gap < b.gap;
-    return a.body->getWorldArrayIndex() < b.body->getWorldArrayIndex();
+    return a.object->getWorldArrayIndex() < b.object->getWorldArrayIndex();
   });
   for (const Candidate& candidate : candidates_) {
-    if (found_.size() == capacity_) return;
-    if (contains(found_, candidate.body) || !hasRoomFor(*candidate.body)) continue;
-    take(*candidate.body);
-    joints_.visitChainOf(*candidate.body, [&](btRigidBody& body) {
+    if (taken_ == capacity_) return;
+    if (isFound(*candidate.object)) continue;
+    btRigidBody* rigid = btRigidBody::upcast(candidate.object);
+    if (rigid == nullptr) {
+      const Arm* arm = findArm(*candidate.object);
+      if (taken_ + arm->places <= capacity_) takeArm(*arm);
+      continue;
+    }
+    if (!hasRoomFor(*rigid)) continue;
+    take(*rigid);
+    joints_.visitChainOf(*rigid, [&](btRigidBody& body) {
       if (!contains(found_, &body) && !isExcluded(body)) take(body);
     });
   }
@@ -173,8 +195,85 @@ void NeighbourSearch::takeNearest() {
 
 void NeighbourSearch::take(btRigidBody& body) {
   found_.push_back(&body);
+  ++taken_;
   // A kinematic body passes no push on.
   if (!body.isKinematicObject()) wave_.push_back(makeSeed(body));
+}
+
+/// All links pass a push on.
+void NeighbourSearch::takeArm(const Arm& arm) {
+  found_arms_.push_back(arm.body);
+  taken_ += arm.places;
+  for (int link = -1; link < arm.body->getNumLinks(); ++link) {
+    const btCollisionObject* collider =
+        link < 0 ? arm.body->getBaseCollider() : arm.body->getLinkCollider(link);
+    if (collider && !isGround(*collider) && collider->hasContactResponse())
+      wave_.push_back(makeSeed(*collider, readVelocities(*collider).v_W));
+  }
+}
+
+/// Null: the object is no link of a multi-body that the island could hold.
+const NeighbourSearch::Arm* NeighbourSearch::findArm(const btCollisionObject& object) const {
+  btMultiBody* body = multiBodyOf(object);
+  if (body == nullptr || arms_host_ == nullptr) return nullptr;
+  auto known =
+      std::find_if(arms_.begin(), arms_.end(), [&](const Arm& arm) { return arm.body == body; });
+  if (known == arms_.end()) known = arms_.insert(known, readArm(*body));
+  return known->places > 0 ? &*known : nullptr;
+}
+
+NeighbourSearch::Arm NeighbourSearch::readArm(btMultiBody& body) const {
+  Arm arm{&body};
+  arm.why_not = findObstacleToHold(*arms_host_, body);
+  if (arm.why_not) return arm;
+  const ArmModel model(body);
+  const std::size_t places = model.countBodies();
+  arm.moves = places > 0;
+  if (places > capacity_) return arm;
+  arm.places = places;
+  ArmCoordinates coordinates;
+  ArmModel::read(body, coordinates);
+  arm.states.resize(model.size());
+  model.findLinks(coordinates, arm.states);
+  return arm;
+}
+
+void NeighbourSearch::explainArms(std::vector<std::string>& lines) const {
+  // Compares addresses only: the host may have deleted them.
+  for (const Arm& arm : arms_) {
+    if (contains(found_arms_, arm.body) || !arm.moves) continue;
+    const char* why = arm.why_not ? arm.why_not : "its links have no room; raise max_neighbours";
+    lines.push_back(std::string("a multi-body nearby stays Bullet's, at the host's rate: ") + why);
+  }
+}
+
+/// Velocities of a rigid body, or of a link with this collider.
+const RigidState& NeighbourSearch::readVelocities(const btCollisionObject& object) const {
+  if (const Arm* arm = findArm(object)) {
+    const int link = static_cast<const btMultiBodyLinkCollider&>(object).m_link;
+    return arm->states[static_cast<std::size_t>(link + 1)];
+  }
+  velocities_ = {};
+  if (const btRigidBody* body = btRigidBody::upcast(&object)) {
+    velocities_.v_W = fromBullet(body->getLinearVelocity());
+    velocities_.w_W = fromBullet(body->getAngularVelocity());
+  }
+  return velocities_;
+}
+
+bool NeighbourSearch::isFound(const btCollisionObject& object) const {
+  if (const btRigidBody* body = btRigidBody::upcast(&object)) return contains(found_, body);
+  return contains(found_arms_, multiBodyOf(object));
+}
+
+bool NeighbourSearch::wasHeld(const btCollisionObject& object) const {
+  if (const btRigidBody* body = btRigidBody::upcast(&object)) return contains(held_, body);
+  return contains(held_arms_, multiBodyOf(object));
+}
+
+bool NeighbourSearch::mayBeFound(const btCollisionObject& object) const {
+  if (const btRigidBody* body = btRigidBody::upcast(&object)) return mayBeNeighbour(*body);
+  return object.hasContactResponse() && findArm(object) && !isGround(object);
 }
 
 /// The island holds their bodies whatever is near: they need their joints.
@@ -193,7 +292,7 @@ bool NeighbourSearch::hasRoomFor(const btRigidBody& body) const {
   joints_.visitChainOf(body, [&](const btRigidBody& mate) {
     if (!contains(found_, &mate) && !isExcluded(mate)) ++count;
   });
-  return found_.size() + count <= capacity_;
+  return taken_ + count <= capacity_;
 }
 
 bool NeighbourSearch::isExcluded(const btRigidBody& body) const {

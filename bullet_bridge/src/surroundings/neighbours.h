@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tandem/coordination/types.h"
@@ -12,6 +13,8 @@
 
 class btCollisionObject;
 class btDiscreteDynamicsWorld;
+class btMultiBody;
+class btMultiBodyDynamicsWorld;
 class btRigidBody;
 
 #pragma GCC visibility push(default)
@@ -37,10 +40,10 @@ struct NeighbourSeed {
 /// contact.
 ///
 /// Bodies in joints come with all of their chain, or not at all (JointGraph); so do the chains of
-/// excluded bodies. Kinematic bodies of any shape but a plane are taken too; the chain ends at
-/// them. Left out are static bodies, and dynamic bodies of shapes neither convex nor compound. So
-/// are bodies without contact response or with simulation disabled. For the thread that steps the
-/// host's world.
+/// excluded bodies, and multi-bodies: each of their links that moves takes a place. Kinematic
+/// bodies of any shape but a plane are taken too; the chain ends at them. Left out are static
+/// bodies, and dynamic bodies of shapes neither convex nor compound. So are bodies without contact
+/// response or with simulation disabled. For the thread that steps the host's world.
 class NeighbourSearch {
  public:
   /// `host` must outlive this object.
@@ -58,6 +61,12 @@ class NeighbourSearch {
   /// result is valid until the next call.
   const std::vector<btRigidBody*>& find(const std::vector<NeighbourSeed>& seeds, double horizon);
 
+  /// Multi-bodies that the last find() has found, to be held whole.
+  [[nodiscard]] const std::vector<btMultiBody*>& arms() const noexcept { return found_arms_; }
+
+  /// Adds a line for each multi-body that was near at the last find() and stays Bullet's.
+  void explainArms(std::vector<std::string>& lines) const;
+
   /// True if a body that the last find() did not report has come near the seed: the next find()
   /// would report it. Joints are those of the last find().
   [[nodiscard]] bool isAnythingComing(const NeighbourSeed& seed, double horizon) const;
@@ -74,9 +83,18 @@ class NeighbourSearch {
   [[nodiscard]] bool isAnythingDriven() const;
 
  private:
+  /// A rigid body, or a link's collider.
   struct Candidate {
-    btRigidBody* body;
+    btCollisionObject* object;
     double gap;
+  };
+  /// A multi-body of the host's world.
+  struct Arm {
+    btMultiBody* body;
+    std::size_t places = 0;               ///< that it takes; 0: the island cannot hold it
+    bool moves = true;                    ///< false: all of it is fixed
+    const char* why_not = nullptr;        ///< it cannot be held; null: it has too many links
+    std::vector<RigidState> states = {};  ///< of base and links
   };
 
   template <typename Take>
@@ -84,18 +102,30 @@ class NeighbourSearch {
   void findAround(const NeighbourSeed& seed, double horizon);
   void takeNearest();
   void take(btRigidBody& body);
+  void takeArm(const Arm& arm);
+  [[nodiscard]] Arm readArm(btMultiBody& body) const;
+  [[nodiscard]] const Arm* findArm(const btCollisionObject& object) const;
+  [[nodiscard]] const RigidState& readVelocities(const btCollisionObject& object) const;
+  [[nodiscard]] bool isFound(const btCollisionObject& object) const;
+  [[nodiscard]] bool wasHeld(const btCollisionObject& object) const;
   void takeChainsOfExcluded();
   [[nodiscard]] bool hasRoomFor(const btRigidBody& body) const;
   [[nodiscard]] bool isExcluded(const btRigidBody& body) const;
   [[nodiscard]] bool mayBeHeld(const btRigidBody& body) const;
   [[nodiscard]] bool mayBeNeighbour(const btRigidBody& body) const;
+  [[nodiscard]] bool mayBeFound(const btCollisionObject& object) const;
   [[nodiscard]] bool isStranger(const btCollisionObject& object) const;
 
   btDiscreteDynamicsWorld& host_;
+  btMultiBodyDynamicsWorld* arms_host_;  ///< the same; null: it can have no multi-bodies
   std::size_t capacity_;
   JointGraph joints_;
   std::vector<const btRigidBody*> excluded_;
   std::vector<btRigidBody*> held_, found_;
+  mutable std::vector<Arm> arms_;  ///< that came near since the last find() began
+  mutable RigidState velocities_;  ///< working memory of readVelocities()
+  std::vector<btMultiBody*> held_arms_, found_arms_;
+  std::size_t taken_ = 0;  ///< places of all that is found
   std::vector<NeighbourSeed> wave_;
   std::vector<Candidate> candidates_;
 };

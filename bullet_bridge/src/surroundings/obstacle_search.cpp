@@ -6,6 +6,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "arms/arm_watch.h"
 #include "bodies/filter_of.h"
 #include "shapes/compound_children.h"
 #include "shapes/only_shape.h"
@@ -14,6 +15,7 @@ namespace tandem {
 namespace {
 
 bool isObstacle(const btCollisionObject& object) {
+  if (isGround(object)) return object.hasContactResponse();
   const int type = object.getInternalType();
   return (type == btCollisionObject::CO_COLLISION_OBJECT ||
           type == btCollisionObject::CO_RIGID_BODY) &&

@@ -10,8 +10,9 @@
 
 namespace tandem {
 
-/// Adds to `found` each static object with contact response that may reach into the region, once.
-/// Moving, kinematic, ghost and soft objects are skipped. Uses the world's broadphase.
+/// Adds to `found` each static object with contact response that may reach into the region, once;
+/// also the fixed base of a multi-body. Moving, kinematic, ghost and soft objects are skipped. Uses
+/// the world's broadphase.
 void findStaticObjects(btCollisionWorld& world, const Region& region,
                        std::vector<btCollisionObject*>& found);
 

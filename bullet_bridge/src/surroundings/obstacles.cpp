@@ -32,8 +32,9 @@ bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btCollisionObject& a,
 }
 
 /// True if the original of `copy` stores the contact filter of the pair: a standing object, else
-/// the later body.
+/// the later body. A link of a multi-body cannot.
 bool isKeeper(const PrivateCopy& copy, const PrivateCopy& other) {
+  if (copy.may_keep_filters != other.may_keep_filters) return copy.may_keep_filters;
   return copy.index == kStanding || (other.index != kStanding && copy.index > other.index);
 }
 
@@ -72,6 +73,8 @@ struct Obstacles::Impl {
       if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
       // A shape that cannot be copied stays Bullet's, and so do points that a callback changes.
       if (!a.isWhole() || !b.isWhole() || a.asks_host || b.asks_host) return false;
+      // So does that of two links.
+      if (!a.may_keep_filters && !b.may_keep_filters) return false;
       // If forces move neither body, neither can be pushed.
       if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
         return false;
@@ -108,7 +111,7 @@ Obstacles::~Obstacles() {
   impl_->filters.removeLate();
 }
 
-void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
+void Obstacles::addBody(BodyIndex index, btCollisionObject& body) {
   if (impl_->findBody(index) != nullptr)
     throw Error("island body " + std::to_string(index) + " has a rigid body already; add it once");
   const bool is_driven = body.isKinematicObject();
@@ -125,7 +128,7 @@ void Obstacles::addBody(BodyIndex index, btRigidBody& body) {
   impl_->search.prepare();
 }
 
-std::optional<Shape> Obstacles::findForm(const btRigidBody& body) {
+std::optional<Shape> Obstacles::findForm(const btCollisionObject& body) {
   return impl_->known_shapes.findWhole(body);
 }
 

@@ -11,8 +11,8 @@
 #include "coordination/src/island/contact_tally.h"
 #include "coordination/src/island/island.h"
 
+class btCollisionObject;
 class btDiscreteDynamicsWorld;
-class btRigidBody;
 
 #pragma GCC visibility push(default)
 namespace tandem {
@@ -30,6 +30,7 @@ namespace tandem {
 /// any moment.
 ///
 /// Native contact of an island body with a candidate or another island body is filtered meanwhile.
+/// Between two links of multi-bodies it stays Bullet's: they have no list of ignored objects.
 /// It stays Bullet's for shapes that cannot be copied (convex classes of the host's own, signed
 /// distance fields), and for objects whose contact points the host changes in
 /// `gContactAddedCallback`. Kinematic objects are no candidates: they can be bodies. Bullet's
@@ -49,11 +50,11 @@ class Obstacles final : public ContactFinder {
   /// Not in the tick. Makes `body` of the host's world the island body `index`. Throws
   /// tandem::Error if the index has a body already, or the body is static. Also throws for a shape
   /// neither convex nor compound (for kinematic bodies: a plane). Two kinematic bodies never touch.
-  void addBody(BodyIndex index, btRigidBody& body);
+  void addBody(BodyIndex index, btCollisionObject& body);
 
   /// Not in the tick. The form in which spheres feel a moving body of the host's world; nothing if
   /// no part of its shape has one. A form that takes time is made once and kept.
-  [[nodiscard]] std::optional<Shape> findForm(const btRigidBody& body);
+  [[nodiscard]] std::optional<Shape> findForm(const btCollisionObject& body);
 
   /// Not in the tick. Frees the index; native contact is the host's again.
   void removeBody(BodyIndex index);

@@ -57,6 +57,7 @@ bool appendParts(const btCollisionShape& shape, const btTransform& pose, std::ve
 
 PrivateCopy::PrivateCopy(btCollisionObject& host_object, BodyIndex body)
     : original(&host_object),
+      may_keep_filters(host_object.getInternalType() != btCollisionObject::CO_FEATHERSTONE_LINK),
       look(ShapeLook::of(*host_object.getCollisionShape())),
       surface(Surface::of(host_object)),
       index(body),

@@ -82,6 +82,7 @@ struct PrivateCopy {
   [[nodiscard]] bool hasNewFilters() noexcept;
 
   btCollisionObject* original;  ///< the host may have deleted it: compare, do not read
+  bool may_keep_filters;        ///< false: a link of a multi-body asks no list of ignored objects
   ShapeLook look;
   Surface surface;              ///< as last read
   bool is_new_surface = false;  ///< it changed when last read

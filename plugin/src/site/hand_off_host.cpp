@@ -61,6 +61,7 @@ void HandOffStep::after(double dt) noexcept {
   site_.bodies.forEachPresent([](SiteBody& body) {
     if (body.step.shift.moved) body.bullet->place(body.step.end);
   });
+  site_.surroundings.placeArms();
   giveBack();
   lookFarther();
   site_.surroundings.showContacts();
@@ -122,6 +123,7 @@ void HandOffStep::giveBack() {
 
 /// Reads how the host changed its bodies for its coming step.
 void HandOffStep::lookAtBodies(double dt) noexcept {
+  site_.surroundings.lookAtArms();
   site_.bodies.forEachPresent([&](SiteBody& body) {
     HostBody& bullet = *body.bullet;
     if (bullet.isParked()) {
@@ -167,6 +169,7 @@ void HandOffStep::handOff(double dt) noexcept {
     bullet.handOff(body.step.end, dt, body.step.foreseen.mean);
     ++site_.log.counters.bodies_handed_off;
   });
+  site_.surroundings.handOffArms(dt);
 }
 
 /// Shows Bullet where peers' resets put objects: what is around is searched there.
@@ -183,6 +186,7 @@ void HandOffStep::showPuts() noexcept {
 
 /// Reads what Bullet's solver did: joints, and contact with bodies that the island does not hold.
 void HandOffStep::takeBack(double dt) {
+  site_.surroundings.restoreArms();
   site_.bodies.forEachPresent([&](SiteBody& body) { restore(body); });
   site_.press.finish(dt);
   site_.bodies.forEachPresent([&](SiteBody& body) {

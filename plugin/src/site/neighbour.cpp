@@ -19,6 +19,8 @@ double computeDecay(double damping) {
 
 void Neighbour::becomeEmpty() {
   rigid = nullptr;
+  link = nullptr;
+  object = nullptr;
   shape = nullptr;
   settings = {};
   bullet.reset();
@@ -30,6 +32,7 @@ void Neighbour::becomeEmpty() {
 }
 
 bool Neighbour::hasChanged() const noexcept {
+  if (link) return !link->arm().isAsHeld();
   if (driven)
     return !rigid->isKinematicObject() || rigid->getCollisionShape() != shape ||
            lookAtParts(*shape) != parts || !(filterOf(*rigid) == settings.filter);
@@ -37,14 +40,16 @@ bool Neighbour::hasChanged() const noexcept {
 }
 
 void Neighbour::lookAtDamping() noexcept {
+  if (link) link->arm().readDamping(linear_damping, angular_damping);
   if (!bullet) return;
   linear_damping = bullet->linearDamping();
   angular_damping = bullet->angularDamping();
 }
 
 bool Neighbour::followDamping() noexcept {
-  const double damping = settings.mass * computeDecay(linear_damping);
-  const double angular = computeDecay(angular_damping);
+  // A multi-body's damping is a rate, a rigid body's a share of the velocity that is left.
+  const double damping = settings.mass * (link ? linear_damping : computeDecay(linear_damping));
+  const double angular = link ? angular_damping : computeDecay(angular_damping);
   if (damping == settings.damping && angular == settings.angular_damping) return false;
   settings.damping = damping;
   settings.angular_damping = angular;

@@ -82,10 +82,10 @@ void Surroundings::takeNewcomers() noexcept {
     if (!neighbour.is_new) continue;
     neighbour.is_new = false;
     SiteBody& body = neighbour.body;
-    body.is_held = neighbour.bullet != nullptr;
+    body.is_held = body.bullet != nullptr;
     if (neighbour.driven) neighbour.settings.start = neighbour.driven->at(timeline_.time());
     island_.fill(body.index, neighbour.settings);
-    if (neighbour.bullet) {
+    if (body.is_held) {
       body.seen = neighbour.settings.start;
       forces_.setWeight(body, body.step.f_gravity_W);
       newcomers_.push_back(body.index);

@@ -73,7 +73,9 @@ std::vector<std::string> Site::Impl::warnings() const {
     if (!body.bullet) return;
     all.insert(all.end(), body.bullet->warnings().begin(), body.bullet->warnings().end());
   });
-  if (!has_given_back_) objects.explain(all);
+  if (has_given_back_) return all;
+  objects.explain(all);
+  surroundings.explain(all);
   return all;
 }
 

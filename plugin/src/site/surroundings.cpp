@@ -70,15 +70,19 @@ void Surroundings::makeRoom() {
 }
 
 int Surroundings::neighbourCount() const noexcept {
-  const auto is_filled = [](const Neighbour& neighbour) { return neighbour.rigid != nullptr; };
+  const auto is_filled = [](const Neighbour& neighbour) { return !neighbour.isEmpty(); };
   return static_cast<int>(std::count_if(neighbours_.begin(), neighbours_.end(), is_filled));
 }
 
 void Surroundings::findMissing() {
   restoreReturned();
   for (Neighbour& neighbour : neighbours_) {
-    if (!neighbour.rigid || neighbour.body.is_leaving) continue;
+    if (neighbour.isEmpty() || neighbour.body.is_leaving) continue;
     if (neighbour.isInWorld() && !neighbour.hasChanged()) continue;
+    if (neighbour.link) {
+      leaveArm(neighbour.link->arm());
+      continue;
+    }
     neighbour.body.step.forgetReaction();
     leave(neighbour);
   }
@@ -196,17 +200,37 @@ void Surroundings::lookForNeighbours(double horizon, double step_end, bool every
     if (std::find(near.begin(), near.end(), neighbour.rigid) != near.end()) continue;
     leave(neighbour);
   }
+  const std::vector<btMultiBody*>& near_arms = search_.arms();
+  for (const auto& arm : arms_)
+    if (is_whole && !isLeaving(*arm) &&
+        std::find(near_arms.begin(), near_arms.end(), &arm->body()) == near_arms.end())
+      leaveArm(*arm);
   for (btRigidBody* rigid : near) {
     const auto holds = [&](const Neighbour& neighbour) { return neighbour.rigid == rigid; };
     if (std::any_of(neighbours_.begin(), neighbours_.end(), holds)) continue;
-    const auto slot = std::find_if(neighbours_.begin(), neighbours_.end(),
-                                   [](const Neighbour& neighbour) { return !neighbour.rigid; });
-    if (slot != neighbours_.end()) promote(*rigid, *slot, step_end);
+    if (Neighbour* slot = findEmpty()) promote(*rigid, *slot, step_end);
+  }
+  for (btMultiBody* body : near_arms) {
+    const auto holds = [&](const auto& arm) { return &arm->body() == body; };
+    if (std::none_of(arms_.begin(), arms_.end(), holds)) promoteArm(*body);
   }
 }
 
+Neighbour* Surroundings::findEmpty() noexcept {
+  const auto slot = std::find_if(neighbours_.begin(), neighbours_.end(),
+                                 [](const Neighbour& neighbour) { return neighbour.isEmpty(); });
+  return slot == neighbours_.end() ? nullptr : &*slot;
+}
+
 void Surroundings::lookForJoints() {
-  joints_.look([&](const btRigidBody& rigid) { return findHeld(rigid); });
+  members_.clear();
+  for (const auto& arm : arms_) {
+    if (isLeaving(*arm)) continue;
+    for (const Neighbour& neighbour : neighbours_)
+      if (neighbour.link && &neighbour.link->arm() == arm.get())
+        members_.push_back({neighbour.link, neighbour.body.index});
+  }
+  joints_.look([&](const btRigidBody& rigid) { return findHeld(rigid); }, members_);
 }
 
 /// The island's body of a btRigidBody, if the island holds it after the next take().
@@ -224,15 +248,12 @@ void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step
   ++log_.counters.promoted;
   const BodyIndex index = neighbour.body.index;
   neighbour.rigid = &rigid;
+  neighbour.object = &rigid;
   neighbour.shape = rigid.getCollisionShape();
   neighbour.parts = lookAtParts(*neighbour.shape);
   neighbour.is_new = true;
   neighbour.settings = {};
-  neighbour.settings.is_rigid = true;
-  const std::optional<Shape> shape = obstacles_.findForm(rigid);
-  if (shape) neighbour.settings.shape = *shape;
-  neighbour.settings.touches_spheres = shape.has_value();
-  neighbour.settings.filter = filterOf(rigid);
+  setContact(neighbour, rigid);
   if (rigid.isKinematicObject()) {
     neighbour.driven = std::make_unique<DrivenBody>(world_, rigid, step_end);
     neighbour.settings.motion = neighbour.driven->motion();
@@ -243,6 +264,64 @@ void Surroundings::promote(btRigidBody& rigid, Neighbour& neighbour, double step
   mirror_.set(index, neighbour.settings.start, true);
   obstacles_.addBody(index, rigid);
   filterProxies(rigid, true, true);
+}
+
+void Surroundings::setContact(Neighbour& neighbour, btCollisionObject& collider) {
+  const std::optional<Shape> shape = obstacles_.findForm(collider);
+  if (shape) neighbour.settings.shape = *shape;
+  neighbour.settings.is_rigid = true;
+  neighbour.settings.touches_spheres = shape.has_value() && collider.hasContactResponse();
+  neighbour.settings.filter = filterOf(collider);
+}
+
+/// Fills a slot for each link of a multi-body that moves, if there are enough.
+void Surroundings::promoteArm(btMultiBody& body) {
+  auto* world = asMultiBodyWorld(world_);
+  const auto empty = static_cast<std::size_t>(
+      std::count_if(neighbours_.begin(), neighbours_.end(),
+                    [](const Neighbour& neighbour) { return neighbour.isEmpty(); }));
+  if (!world || ArmModel(body).countBodies() > empty) return;
+  arms_.push_back(std::make_unique<HostArm>(*world, body));
+  HostArm& arm = *arms_.back();
+  arm.remember();
+  for (const auto& link : arm.links()) {
+    ++log_.counters.promoted;
+    Neighbour& neighbour = *findEmpty();
+    const BodyIndex index = neighbour.body.index;
+    neighbour.link = link.get();
+    neighbour.is_new = true;
+    neighbour.settings = {};
+    neighbour.settings.touches_spheres = false;
+    neighbour.settings.mass = link->mass();
+    neighbour.settings.inertia_B = link->inertia();
+    neighbour.settings.start = link->state();
+    neighbour.body.bullet = link.get();
+    neighbour.body.step.f_gravity_W = link->gravityForce();
+    neighbour.lookAtDamping();
+    neighbour.followDamping();
+    mirror_.set(index, neighbour.settings.start, true);
+    btCollisionObject* collider = link->collider();
+    neighbour.object = collider;
+    if (!collider) continue;
+    setContact(neighbour, *collider);
+    if (collider->hasContactResponse()) obstacles_.addBody(index, *collider);
+    filterProxies(*collider, true, true);
+  }
+}
+
+bool Surroundings::isLeaving(const HostArm& arm) const noexcept {
+  return std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
+    return neighbour.link && &neighbour.link->arm() == &arm && neighbour.body.is_leaving;
+  });
+}
+
+void Surroundings::leaveArm(const HostArm& arm) {
+  const bool is_present = arm.isInWorld();
+  for (Neighbour& neighbour : neighbours_) {
+    if (!neighbour.link || &neighbour.link->arm() != &arm || neighbour.body.is_leaving) continue;
+    if (!is_present) neighbour.body.step.forgetReaction();
+    leave(neighbour);
+  }
 }
 
 void Surroundings::hold(btRigidBody& rigid, Neighbour& neighbour) {
@@ -256,14 +335,14 @@ void Surroundings::hold(btRigidBody& rigid, Neighbour& neighbour) {
 }
 
 /// Proxies touch a body that the island holds in the island, else in Bullet.
-void Surroundings::filterProxies(btRigidBody& rigid, bool is_present, bool is_held) {
+void Surroundings::filterProxies(btCollisionObject& object, bool is_present, bool is_held) {
   for (Peer& peer : peers_) {
     if (!peer.proxy.sphere || !peer.proxy.sphere->isAlive()) continue;
     btRigidBody& proxy = peer.proxy.sphere->rigid();
     if (is_present) {
-      filterNativeContact(world_, proxy, rigid, is_held);
+      filterNativeContact(world_, proxy, object, is_held);
     } else {
-      proxy.setIgnoreCollisionCheck(&rigid, false);
+      proxy.setIgnoreCollisionCheck(&object, false);
     }
   }
 }
@@ -272,14 +351,14 @@ void Surroundings::filterProxies(btRigidBody& rigid, bool is_present, bool is_he
 void Surroundings::leave(Neighbour& neighbour) {
   neighbour.body.is_leaving = true;
   leaving_.push_back(&neighbour);
-  filterProxies(*neighbour.rigid, neighbour.isInWorld(), false);
+  if (neighbour.object) filterProxies(*neighbour.object, neighbour.isInWorld(), false);
   obstacles_.removeBody(neighbour.body.index);
   mirror_.set(neighbour.body.index, RigidState{}, false);
 }
 
 void Surroundings::leaveAll() {
   for (Neighbour& neighbour : neighbours_) {
-    if (!neighbour.rigid || neighbour.body.is_leaving) continue;
+    if (neighbour.isEmpty() || neighbour.body.is_leaving) continue;
     leave(neighbour);
   }
 }
@@ -305,17 +384,50 @@ bool Surroundings::isNeighbour(const btRigidBody& rigid) const noexcept {
 void Surroundings::giveBack() {
   for (Neighbour* neighbour : leaving_) {
     ++log_.counters.demoted;
-    if (neighbour->bullet && neighbour->isInWorld())
-      neighbour->bullet->addMomentum(neighbour->owed.linear_W, neighbour->owed.angular_W);
+    if (neighbour->body.bullet && neighbour->isInWorld())
+      neighbour->body.bullet->addMomentum(neighbour->owed.linear_W, neighbour->owed.angular_W);
     away_.release(std::move(neighbour->bullet));
     neighbour->becomeEmpty();
   }
   leaving_.clear();
+  std::erase_if(arms_, [&](const auto& arm) {
+    return std::none_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
+      return neighbour.link && &neighbour.link->arm() == arm.get();
+    });
+  });
 }
 
 void Surroundings::lookAtDamping() noexcept {
   for (Neighbour& neighbour : neighbours_)
     if (!neighbour.body.is_leaving) neighbour.lookAtDamping();
+}
+
+void Surroundings::lookAtArms() noexcept {
+  for (const auto& arm : arms_)
+    if (isActing(*arm)) arm->look();
+}
+
+void Surroundings::handOffArms(double dt) noexcept {
+  for (const auto& arm : arms_)
+    if (isActing(*arm)) arm->handOff(dt);
+}
+
+void Surroundings::restoreArms() noexcept {
+  for (const auto& arm : arms_)
+    if (isActing(*arm)) arm->restore();
+}
+
+void Surroundings::placeArms() noexcept {
+  for (const auto& arm : arms_)
+    if (isActing(*arm)) arm->place();
+}
+
+/// True if the island holds the arm, and is not about to give it back.
+bool Surroundings::isActing(const HostArm& arm) const noexcept {
+  return std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
+    return neighbour.link && &neighbour.link->arm() == &arm && neighbour.body.is_held &&
+           !neighbour.body.is_leaving;
+  });
 }
 
 void Surroundings::lookAtDriven(double step_end) noexcept {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_bridge/src/arms/world_joints.h"
 #include "bullet_bridge/src/bodies/away_bodies.h"
-#include "bullet_bridge/src/joints/host_joints.h"
 #include "bullet_bridge/src/surroundings/neighbours.h"
 #include "bullet_bridge/src/surroundings/obstacles.h"
 #include "site/host_forces.h"
@@ -39,7 +39,7 @@ class Surroundings {
   /// @name Set-up.
   /// @{
   [[nodiscard]] ContactFinder& contactFinder() noexcept { return obstacles_; }
-  [[nodiscard]] HostJoints& joints() noexcept { return joints_; }
+  [[nodiscard]] WorldJoints& joints() noexcept { return joints_; }
   /// Adds slots for neighbours to the island.
   void addSlots(int count);
   void addSphere(BodyIndex index, double radius) { obstacles_.addSphere(index, radius); }
@@ -94,6 +94,13 @@ class Surroundings {
   /// All neighbours leave.
   void leaveAll();
   void lookAtDamping() noexcept;
+  /// Around those of single bodies: what concerns all links of a multi-body at once (HostArm).
+  /// @{
+  void lookAtArms() noexcept;
+  void handOffArms(double dt) noexcept;
+  void restoreArms() noexcept;
+  void placeArms() noexcept;
+  /// @}
   /// Reads the poses of kinematic bodies for the host's step that ends at `step_end` [s].
   void lookAtDriven(double step_end) noexcept;
   /// False: look() takes no neighbours.
@@ -106,6 +113,8 @@ class Surroundings {
   [[nodiscard]] bool leavesJointsOf(const btRigidBody& rigid) const {
     return search_.leavesJointsOf(rigid);
   }
+  /// Adds lines about multi-bodies that the island cannot hold.
+  void explain(std::vector<std::string>& lines) const { search_.explainArms(lines); }
   /// True if a moving object that the island does not hold may touch the body within `horizon` [s].
   [[nodiscard]] bool isStrangerNear(const SiteBody& body, double horizon) const {
     const HapticBody* rigid = body.bullet->asRigid();
@@ -171,8 +180,14 @@ class Surroundings {
   void collectSeeds(bool everywhere);
   [[nodiscard]] bool isTurnOfFullLook() noexcept;
   void promote(btRigidBody& rigid, Neighbour& neighbour, double step_end);
+  void promoteArm(btMultiBody& arm);
+  void setContact(Neighbour& neighbour, btCollisionObject& collider);
+  void leaveArm(const HostArm& arm);
+  [[nodiscard]] bool isLeaving(const HostArm& arm) const noexcept;
+  [[nodiscard]] bool isActing(const HostArm& arm) const noexcept;
+  [[nodiscard]] Neighbour* findEmpty() noexcept;
   void hold(btRigidBody& rigid, Neighbour& neighbour);
-  void filterProxies(btRigidBody& rigid, bool is_present, bool is_held);
+  void filterProxies(btCollisionObject& object, bool is_present, bool is_held);
   void leave(Neighbour& neighbour);
   void takeOut(Neighbour& neighbour) noexcept;
   void takeNewcomers() noexcept;
@@ -193,10 +208,12 @@ class Surroundings {
   Obstacles obstacles_;
   AwayBodies away_;
   NeighbourSearch search_;
-  HostJoints joints_;
-  std::vector<Neighbour> neighbours_;  ///< one per slot of the island
+  WorldJoints joints_;
+  std::vector<std::unique_ptr<HostArm>> arms_;  ///< that the island holds, or will
+  std::vector<Neighbour> neighbours_;           ///< one per slot of the island
   Mirror mirror_;
   std::vector<NeighbourSeed> seeds_;
+  std::vector<ArmJoints::Member> members_;
   std::vector<ContactSum> contacts_;  ///< of the last host step
   std::vector<char> still_;           ///< by body: nothing moves it
   std::vector<Neighbour*> leaving_;   ///< removed, changed, or no longer near

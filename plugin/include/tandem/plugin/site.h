@@ -113,8 +113,8 @@ struct Grip {
 /// With nothing shared and nobody connected the hand feels the bodies of the world, and pushes the
 /// moving ones. While it is near none of those, or SiteSettings::hand_feels_moving_bodies is false,
 /// the host's simulation is the same to the bit. Native models add the hand as a body, though. The
-/// island never takes multi-bodies, soft bodies and bodies in joints. Shared bodies meet those in
-/// Bullet; the hand does not feel them.
+/// island takes bodies in joints and multi-bodies whole, or not at all; warnings() says why not. It
+/// never takes soft bodies: shared bodies meet those in Bullet, and the hand does not feel them.
 class Site {
  public:
   /// Throws std::invalid_argument for settings out of range. Throws tandem::Error if the device
@@ -128,8 +128,8 @@ class Site {
   /// Shares a dynamic body of the host's world, of any convex shape, or a compound of any shapes
   /// but planes, of which hand and proxies feel each part. Its mass and inertia become m/N of their
   /// value until the site ends. A body that hits it here in Bullet therefore pushes it N times as
-  /// easily: a body beyond max_neighbours, a multi-body, a cloth. The hit's momentum is that of
-  /// m/N; couplers share it with the other N - 1 copies until all move as one mass m would.
+  /// easily: a body beyond max_neighbours, a cloth. The hit's momentum is that of m/N; couplers
+  /// share it with the other N - 1 copies until all move as one mass m would.
   ///
   /// `damping` b acts on this copy [N s/m]. All peers share the same objects in the same order,
   /// which identifies them, or by name. At most kMaxSharedObjects. With hand-off the body sleeps in

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <vector>
+
+#include <LinearMath/btScalar.h>
+
+#include "arms/host_arm.h"
+#include "coordination/src/island/joint_source.h"
+#include "joints/joint_copy.h"
+
+class btMultiBodyConstraint;
+class btMultiBodyDynamicsWorld;
+
+#pragma GCC visibility push(default)
+namespace tandem {
+
+/// The joints of multi-bodies that the island holds, with their motors and limits.
+///
+/// Motors and limits of the host's world are without force while Bullet's solver runs, and the host
+/// finds them as it left them. Torques that the host gives a joint act along it for a host step.
+/// Functions and threads are those of HostJoints.
+class ArmJoints final : public JointSource {
+ public:
+  /// A body of the island that is a link of an arm.
+  struct Member {
+    const LinkBody* link = nullptr;
+    BodyIndex index = 0;
+  };
+
+  /// `host` may have no multi-bodies: null.
+  explicit ArmJoints(btMultiBodyDynamicsWorld* host) noexcept : host_(host) {}
+
+  /// `members`: all links of all arms that the island holds, each arm's one after another.
+  void look(const std::vector<Member>& members);
+  void switchOff() noexcept;
+  void switchOn() noexcept;
+  /// The host's world ends: none of its arms may be read.
+  void forgetWorld() noexcept;
+
+  bool take() noexcept;
+  bool refresh(double dt) noexcept;
+  void tell(double dt) noexcept;
+  void drop(BodyIndex body) noexcept;
+
+  [[nodiscard]] const std::vector<JointEnds>& joints() const noexcept override { return ends_; }
+  [[nodiscard]] double rounding() const noexcept override;
+  void evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
+                std::vector<JointRow>& rows) noexcept override;
+  void note(std::size_t joint, const JointRow& row, double impulse, double h,
+            bool is_first) noexcept override;
+
+ private:
+  /// What a joint gave its link since the last tell().
+  struct Given {
+    double time = 0.0;
+    double motor = 0.0, limit[2] = {};  ///< impulses [N s, N m s]; limit: low, high
+    Vec3 linear_W = Vec3::Zero(), angular_W = Vec3::Zero();
+  };
+  struct Joint {
+    const LinkBody* link;
+    JointEnds ends;
+    JointSettings settings;
+    JointCopy copy;          ///< of the settings, for the thread that ticks
+    RigidState ground = {};  ///< of an end that stands
+    Given given = {}, told = {};
+    btMultiBodyConstraint *motor = nullptr, *limit = nullptr;  ///< as last refreshed
+    bool is_gone = false;
+  };
+  /// A motor or limit, and the greatest impulse that the host gave it.
+  struct Off {
+    btMultiBodyConstraint* constraint;
+    btScalar impulse;
+  };
+
+  [[nodiscard]] bool isAsWanted() const noexcept;
+  [[nodiscard]] bool isHeld(const btMultiBodyConstraint& constraint) const noexcept;
+  void readConstraint(btMultiBodyConstraint& constraint, double dt) noexcept;
+  void tellFeedback(const Joint& joint) noexcept;
+  void listActing() noexcept;
+
+  btMultiBodyDynamicsWorld* host_;
+  std::vector<Joint> joints_, next_;
+  bool has_next_ = false;
+  std::vector<Off> off_;
+  std::vector<JointEnds> ends_;      ///< of joints that have not gone
+  std::vector<std::size_t> acting_;  ///< by the same index: place in joints_
+  std::vector<RigidState> states_;   ///< working memory
+};
+
+}  // namespace tandem
+#pragma GCC visibility pop

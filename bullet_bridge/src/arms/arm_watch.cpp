@@ -1,0 +1,153 @@
+#include "arms/arm_watch.h"
+
+#include <typeinfo>
+
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include "arms/arm_model.h"
+#include "bodies/body_look.h"
+#include "bodies/equal_bits.h"
+#include "world/world_lookup.h"
+
+namespace tandem {
+namespace {
+
+const btCollisionObject* colliderOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
+}
+
+/// True if link (-1: the base) moves with the world: the base is fixed, and so are all joints.
+bool isLinkGround(const btMultiBody& body, int link) {
+  if (!body.hasFixedBase()) return false;
+  for (; link >= 0; link = body.getParent(link))
+    if (body.getLink(link).m_jointType != btMultibodyLink::eFixed) return false;
+  return true;
+}
+
+bool isKnown(const btMultiBodyConstraint& constraint) {
+  const std::type_info& type = typeid(constraint);
+  return type == typeid(btMultiBodyJointMotor) || type == typeid(btMultiBodyJointLimitConstraint);
+}
+
+/// A shape that the island can hold, or none.
+bool hasPlainShape(const btCollisionObject& collider) {
+  const btCollisionShape& shape = *collider.getCollisionShape();
+  return shape.isConvex() || shape.isCompound();
+}
+
+bool hasPlainSurface(const btCollisionObject& collider) {
+  return !collider.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION |
+                                          btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION) &&
+         (collider.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING) == 0;
+}
+
+const char* findLinkObstacle(const btMultiBody& body, int link) {
+  if (isLinkGround(body, link)) return nullptr;
+  const bool is_base = link < 0;
+  const btScalar mass = is_base ? body.getBaseMass() : body.getLinkMass(link);
+  const btVector3& inertia = is_base ? body.getBaseInertia() : body.getLinkInertia(link);
+  const bool is_fixed = !is_base && body.getLink(link).m_jointType == btMultibodyLink::eFixed;
+  const btCollisionObject* collider = colliderOf(body, link);
+  if (!is_base && body.getLink(link).m_jointType > btMultibodyLink::eFixed)
+    return "a joint is of no known type";
+  const bool is_frame = is_fixed && !collider && inertia.isZero();
+  if (!(mass > 0)) return is_frame ? nullptr : "a link that moves has no mass";
+  if (!(inertia.x() > 0 && inertia.y() > 0 && inertia.z() > 0))
+    return "a link that moves has no inertia about some axis";
+  if (!collider) return nullptr;
+  if (collider->isStaticOrKinematicObject()) return "a link is static or kinematic";
+  if (!hasPlainShape(*collider)) return "a link has a concave shape";
+  if (!hasPlainSurface(*collider))
+    return "a link has anisotropic friction or contact stiffness of its own";
+  return nullptr;
+}
+
+}  // namespace
+
+btMultiBodyDynamicsWorld* asMultiBodyWorld(btDiscreteDynamicsWorld& world) noexcept {
+  return dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
+}
+
+btMultiBody* multiBodyOf(const btCollisionObject& object) noexcept {
+  if (object.getInternalType() != btCollisionObject::CO_FEATHERSTONE_LINK) return nullptr;
+  return static_cast<const btMultiBodyLinkCollider&>(object).m_multiBody;
+}
+
+bool isGround(const btCollisionObject& object) noexcept {
+  const btMultiBody* body = multiBodyOf(object);
+  if (body == nullptr || object.isKinematicObject()) return false;
+  return isLinkGround(*body, static_cast<const btMultiBodyLinkCollider&>(object).m_link);
+}
+
+bool hasMultiBody(btMultiBodyDynamicsWorld& world, const btMultiBody* body) noexcept {
+  bool is_there = false;
+  for (int i = 0; i < world.getNumMultibodies() && !is_there; ++i)
+    is_there = world.getMultiBody(i) == body;
+  if (!is_there) return false;
+  for (int link = -1; link < body->getNumLinks(); ++link) {
+    const btCollisionObject* collider = colliderOf(*body, link);
+    if (collider && findInWorld(world, collider, collider->getWorldArrayIndex()) < 0) return false;
+  }
+  return true;
+}
+
+const char* findObstacleToHold(btMultiBodyDynamicsWorld& world, btMultiBody& body) noexcept {
+  if (body.isBaseKinematic()) return "its base is kinematic";
+  if (body.isUsingRK4Integration() || body.isUsingGlobalVelocities())
+    return "it uses another integration than Bullet's usual one";
+  if (!body.getUseGyroTerm()) return "its gyroscopic term is off";
+  for (int link = -1; link < body.getNumLinks(); ++link)
+    if (const char* why = findLinkObstacle(body, link)) return why;
+  for (int i = 0; i < world.getNumMultiBodyConstraints(); ++i) {
+    btMultiBodyConstraint& constraint = *world.getMultiBodyConstraint(i);
+    if (constraint.getMultiBodyA() != &body && constraint.getMultiBodyB() != &body) continue;
+    if (!isKnown(constraint)) return "it has a constraint other than joint motors and limits";
+  }
+  return nullptr;
+}
+
+ArmLook::ArmLook(const btMultiBody& body) : is_fixed_(body.hasFixedBase()) {
+  for (int link = -1; link < body.getNumLinks(); ++link) links_.push_back(look(body, link));
+}
+
+ArmLook::Link ArmLook::look(const btMultiBody& body, int link) noexcept {
+  Link now;
+  now.mass = link < 0 ? body.getBaseMass() : body.getLinkMass(link);
+  now.inertia = link < 0 ? body.getBaseInertia() : body.getLinkInertia(link);
+  now.collider = colliderOf(body, link);
+  if (!now.collider) return now;
+  if (const btBroadphaseProxy* proxy = now.collider->getBroadphaseHandle()) {
+    now.broadphase_id = proxy->m_uniqueId;
+    now.group = proxy->m_collisionFilterGroup;
+    now.mask = proxy->m_collisionFilterMask;
+  }
+  now.flags = now.collider->getCollisionFlags();
+  const btCollisionShape* shape = now.collider->getCollisionShape();
+  now.shape = shape;
+  now.margin = shape->getMargin();
+  now.scaling = shape->getLocalScaling();
+  return now;
+}
+
+bool ArmLook::isOf(const btMultiBody& body) const noexcept {
+  if (links_.size() != static_cast<std::size_t>(body.getNumLinks()) + 1) return false;
+  if (is_fixed_ != body.hasFixedBase()) return false;
+  for (std::size_t place = 0; place < links_.size(); ++place) {
+    const Link &known = links_[place], now = look(body, static_cast<int>(place) - 1);
+    const bool is_same =
+        known.collider == now.collider && known.broadphase_id == now.broadphase_id &&
+        known.group == now.group && known.mask == now.mask && known.flags == now.flags &&
+        known.shape == now.shape && known.mass == now.mass && known.margin == now.margin &&
+        equalBits(known.inertia, now.inertia) && equalBits(known.scaling, now.scaling);
+    if (!is_same) return false;
+  }
+  return true;
+}
+
+}  // namespace tandem

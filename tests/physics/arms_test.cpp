@@ -1,0 +1,422 @@
+// Multi-bodies near the hand: their links are felt and pushed, as exactly as rigid bodies in
+// joints.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+
+#include "tandem/plugin/site.h"
+
+#include "physics/arm_host.h"
+
+namespace tandem {
+namespace {
+
+using test::ArmHost;
+using test::ArmLinkPlan;
+using test::byWidth;
+using test::FakeDevice;
+using test::makeChain;
+
+constexpr double kLink = 0.2, kMass = 0.5;  // of a chain's link
+constexpr double kUnit = kMass * ArmHost::kGravity * kLink;
+
+/// Puts the hand beside the first joint of a chain, where nothing touches it.
+void putHandBeside(ArmHost& host) {
+  const double radius = SiteSettings().hip_radius;
+  host.device.sample.hip.p_W = Vec3(0.0, 0.02 + radius + 0.0008, 0.0);
+}
+
+class ArmsAtRates : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(HostRates, ArmsAtRates, ::testing::Values(60.0, 240.0, 1000.0));
+
+TEST_P(ArmsAtRates, AFreeArmKeepsItsEnergy) {
+  for (const std::size_t count : {1U, 2U, 7U}) {
+    ArmHost host;
+    host.build(makeChain(count));
+    putHandBeside(host);
+    host.start();
+    const double before = host.energy();
+    double worst = 0.0;
+    for (int i = 0; i < static_cast<int>(10.0 * GetParam()); ++i) {
+      host.step(1.0 / GetParam());
+      worst = std::max(worst, std::abs(host.energy() - before));
+    }
+    EXPECT_EQ(host.site->counters().promoted, count);
+    EXPECT_EQ(host.site->counters().demoted, 0U);
+    EXPECT_LT(worst, byWidth(1e-6, 1e-2) * kUnit) << count << " links";
+  }
+}
+
+/// The same chain out of rigid bodies and hinges.
+struct RigidChain {
+  test::BulletRig rig{Vec3(0.0, 0.0, -ArmHost::kGravity)};
+  FakeDevice device{Vec3(10.0, 0.0, 0.0)};
+  std::vector<btRigidBody*> links;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  std::unique_ptr<Site> site;
+
+  explicit RigidChain(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      auto& shape =
+          rig.makeShape<btBoxShape>(btVector3(btScalar(0.1), btScalar(0.02), btScalar(0.02)));
+      const Vec3 p_W(kLink * (static_cast<double>(i) + 0.5), 0.0, 0.0);
+      btRigidBody& link = rig.addBody(shape, kMass, p_W);
+      shape.setMargin(btScalar(0.001));
+      link.setSleepingThresholds(0, 0);
+      const btVector3 left(btScalar(-0.1), 0, 0), right(btScalar(0.1), 0, 0), axis(0, 1, 0);
+      if (i == 0)
+        joints.push_back(std::make_unique<btHingeConstraint>(link, left, axis));
+      else
+        joints.push_back(
+            std::make_unique<btHingeConstraint>(link, *links.back(), left, right, axis, axis));
+      rig.world.addConstraint(joints.back().get(), true);
+      links.push_back(&link);
+    }
+  }
+  ~RigidChain() {
+    site.reset();
+    for (const auto& joint : joints) rig.world.removeConstraint(joint.get());
+  }
+  RigidChain(const RigidChain&) = delete;
+  RigidChain& operator=(const RigidChain&) = delete;
+  void start(const SiteSettings& settings = {}) {
+    site = std::make_unique<Site>(settings, rig.world, device);
+  }
+};
+
+TEST_P(ArmsAtRates, MoveLikeTheSameBodiesInHinges) {
+  ArmHost host;
+  host.build(makeChain(3));
+  putHandBeside(host);
+  host.start();
+  RigidChain chain(3);
+  chain.device.sample = host.device.sample;
+  chain.start();
+  for (int i = 0; i < static_cast<int>(GetParam()); ++i) {
+    host.step(1.0 / GetParam());
+    chain.rig.step(1.0 / GetParam());
+  }
+  for (int i = 0; i < 3; ++i) {
+    const btRigidBody& link = *chain.links[static_cast<std::size_t>(i)];
+    EXPECT_LT((host.linkPosition(i) - fromBullet(link.getCenterOfMassPosition())).norm(),
+              byWidth(1e-7, 1e-3));
+  }
+}
+
+TEST_P(ArmsAtRates, TheHandFeelsALinkAsItFeelsARigidBody) {
+  ArmHost host;
+  std::vector<ArmLinkPlan> plan = makeChain(2);
+  host.build(plan);
+  RigidChain chain(2);
+  host.device.sample.hip.p_W = chain.device.sample.hip.p_W = Vec3(0.15, 0.0, -0.05);
+  SiteSettings settings;
+  settings.host_stall = 0.2;  // both are held from the start
+  host.start(settings);
+  chain.start(settings);
+  double most = 0.0, worst = 0.0;
+  for (int i = 0; i < static_cast<int>(0.4 * GetParam()); ++i) {
+    host.step(1.0 / GetParam());
+    chain.rig.step(1.0 / GetParam());
+    most = std::max(most, chain.device.force_W.norm());
+    worst = std::max(worst, (chain.device.force_W - host.device.force_W).norm());
+  }
+  EXPECT_GT(most, 1.0);
+  EXPECT_LT(worst, byWidth(1e-3, 0.02) * most);
+}
+
+// A link of a door leans on the hand: the moment of its weight, about its joint.
+TEST(Arms, ALinkAtRestWeighsOnTheHand) {
+  ArmHost host;
+  host.build(makeChain(1));
+  host.arm().setAngularDamping(btScalar(20));
+  const double radius = SiteSettings().hip_radius;
+  host.device.sample.hip.p_W = Vec3(0.15, 0.0, -0.02 - radius);
+  host.start();
+  host.run(4.0, 60.0);
+  EXPECT_NEAR(host.device.force_W.z(), -kMass * ArmHost::kGravity * 0.1 / 0.15, 0.02);
+}
+
+TEST_P(ArmsAtRates, AJointStopsAtItsLimit) {
+  ArmHost host;
+  host.build(makeChain(1));
+  host.addLimit(0, -0.5, 0.5);
+  putHandBeside(host);
+  host.start();
+  double farthest = 0.0;
+  for (int i = 0; i < static_cast<int>(2.0 * GetParam()); ++i) {
+    host.step(1.0 / GetParam());
+    farthest = std::max(farthest, std::abs(host.q(0)));
+  }
+  EXPECT_LT(farthest, 0.5 + byWidth(1e-7, 1e-5));
+  EXPECT_NEAR(host.q(0), 0.5, byWidth(1e-7, 1e-5));
+}
+
+TEST_P(ArmsAtRates, AMotorReachesItsSpeedByItsForce) {
+  constexpr double kSpeed = 0.7, kForce = 5.0;  // [m/s], [N]
+  ArmHost host(Vec3::Zero());
+  ArmLinkPlan slide;
+  slide.joint = btMultibodyLink::ePrismatic;
+  slide.axis = Vec3::UnitX();
+  slide.d = Vec3::Zero();
+  host.build({slide});
+  btMultiBodyJointMotor& motor = host.addMotor(0, kSpeed, kForce / GetParam());
+  host.device.sample.hip.p_W = Vec3(0.3, 0.05, 0.0);
+  SiteSettings settings;
+  settings.host_stall = 1.0;  // the drawer stays near
+  host.start(settings);
+  host.step(1.0 / GetParam());
+  EXPECT_NEAR(static_cast<double>(motor.getAppliedImpulse(0)), kForce / GetParam(),
+              byWidth(1e-9, 1e-5) * kForce);
+  for (int i = 1; i < static_cast<int>(std::lround(0.5 * GetParam())); ++i)
+    host.step(1.0 / GetParam());
+  const double until = kSpeed * kMass / kForce;
+  EXPECT_EQ(host.site->counters().promoted, 1U);
+  EXPECT_NEAR(host.q(0), kSpeed * (0.5 - 0.5 * until), byWidth(1e-5, 2e-5));
+  EXPECT_NEAR(host.u(0), kSpeed, byWidth(1e-9, 1e-5));
+  EXPECT_NEAR(static_cast<double>(motor.getMaxAppliedImpulse()), kForce / GetParam(), 1e-6);
+}
+
+// PyBullet's position control: gains of 0.1 and 1.
+TEST_P(ArmsAtRates, AMotorHoldsALinkInPlace) {
+  ArmHost host;
+  host.build(makeChain(2));
+  for (int i = 0; i < 2; ++i)
+    host.addMotor(i, 0.0, 100.0 / GetParam()).setPositionTarget(btScalar(0.3), btScalar(0.1));
+  putHandBeside(host);
+  host.start();
+  host.run(3.0, GetParam());
+  EXPECT_NEAR(host.q(0), 0.3, byWidth(1e-7, 1e-5));
+  EXPECT_NEAR(host.q(1), 0.3, byWidth(1e-7, 1e-5));
+}
+
+// A velocity gain below 1 makes a spring with a damper out of the motor.
+TEST_P(ArmsAtRates, ASoftMotorSagsAsInBullet) {
+  std::array<double, 2> q{};
+  for (const bool has_site : {false, true}) {
+    ArmHost host;
+    host.build(makeChain(1));
+    btMultiBodyJointMotor& motor = host.addMotor(0, 0.0, 100.0 / GetParam());
+    motor.setPositionTarget(0, btScalar(4.0 / GetParam()));
+    motor.setVelocityTarget(0, btScalar(20.0 / GetParam()));
+    putHandBeside(host);
+    if (has_site) host.start();
+    host.run(3.0, GetParam());
+    q[has_site ? 1 : 0] = host.q(0);
+  }
+  EXPECT_GT(q[0], 0.01);
+  EXPECT_NEAR(q[1], q[0], 1e-3 * q[0] + byWidth(0.0, 1e-5));
+}
+
+TEST_P(ArmsAtRates, TorqueOfTheHostTurnsAJoint) {
+  constexpr double kTorque = 0.02;  // [N m]
+  ArmHost host(Vec3::Zero());
+  host.build(makeChain(1));
+  putHandBeside(host);
+  host.start();
+  host.run(0.1, GetParam());
+  for (int i = 0; i < static_cast<int>(std::lround(0.5 * GetParam())); ++i) {
+    host.arm().addJointTorque(0, btScalar(kTorque));
+    host.step(1.0 / GetParam());
+  }
+  const double inertia = static_cast<double>(host.arm().getLinkInertia(0).y()) + kMass * 0.1 * 0.1;
+  EXPECT_EQ(host.site->counters().promoted, 1U);
+  EXPECT_NEAR(host.u(0), 0.5 * kTorque / inertia, byWidth(1e-9, 1e-5));
+  EXPECT_NEAR(host.q(0), 0.125 * kTorque / inertia, byWidth(1e-9, 1e-5));
+}
+
+TEST_P(ArmsAtRates, AFingerPushesACubeAsInManySteps) {
+  constexpr double kHalf = 0.02, kSpeed = 0.1, kGap = 0.003, kForce = 100.0;
+  constexpr double kFingerMass = 5.0;
+  const auto push = [&](double rate, bool has_site) {
+    ArmHost host;
+    ArmLinkPlan finger;
+    finger.joint = btMultibodyLink::ePrismatic;
+    finger.axis = Vec3::UnitX();
+    finger.mass = kFingerMass;
+    finger.half = Vec3::Constant(kHalf);
+    finger.d = Vec3::Zero();
+    host.build({finger}, 0.0, Vec3::Zero(), Vec3(-2.0 * kHalf - kGap, 0.0, 0.025));
+    host.addMotor(0, kSpeed, kForce / rate);
+    host.host.addBody(host.host.makeBox(Vec3(2, 2, 0.1)), 0.0, Vec3(0, 0, -0.1));
+    btRigidBody& cube = host.host.addCube(0.2, Vec3(0.0, 0.0, kHalf));
+    cube.setSleepingThresholds(0, 0);
+    SiteSettings settings;
+    settings.peers = 1;
+    if (has_site) {
+      host.start(settings);
+      host.site->share(cube);
+    }
+    host.run(1.0, rate);
+    return Vec3(fromBullet(cube.getCenterOfMassPosition()).x(), host.q(0), 0.0);
+  };
+  const Vec3 fine = push(1000.0, false), ours = push(GetParam(), true);
+  const double late = 0.5 * kSpeed * kSpeed * kFingerMass / kForce;  // way lost by its force
+  EXPECT_NEAR(ours.x(), kSpeed - late - kGap, 1e-5);
+  EXPECT_NEAR(ours.x(), fine.x(), 1e-4);
+  EXPECT_NEAR(ours.y(), kSpeed - late, 1e-5);
+}
+
+TEST_P(ArmsAtRates, AFreeArmAndACubeKeepTheirMomentum) {
+  ArmHost host(Vec3::Zero());
+  ArmLinkPlan link;
+  link.e = Vec3(0.05, 0.0, 0.0);
+  link.half = Vec3(0.1, 0.02, 0.02);
+  host.build({link}, 1.0, Vec3(0.05, 0.05, 0.05));
+  btRigidBody& cube = host.host.addCube(0.2, Vec3(0.2, 0.0, 0.12));
+  cube.setSleepingThresholds(0, 0);
+  cube.setLinearVelocity(btVector3(0, 0, -1));
+  SiteSettings settings;
+  settings.peers = 1;
+  settings.host_stall = 1.0;  // they stay near
+  host.start(settings);
+  host.site->share(cube);
+  const auto momenta = [&] {
+    const Vec3 p = fromBullet(cube.getCenterOfMassPosition());
+    const Vec3 v = 0.2 * fromBullet(cube.getLinearVelocity());
+    const Vec3 w =
+        fromBullet(cube.getInvInertiaTensorWorld().inverse() * cube.getAngularVelocity());
+    std::array<Vec3, 2> sum{v, Vec3(p.cross(v) + w)};
+    for (const ArmHost::Motion& part : host.motions()) {
+      // Its inertia about its axes, which stay parallel to the plane of the motion.
+      const Vec3 turn = part.inertia.cwiseProduct(part.w_B);
+      sum[0] += part.mass * part.v_W;
+      sum[1] += part.mass * part.p_W.cross(part.v_W) + Vec3(0.0, turn.y(), 0.0);
+    }
+    return sum;
+  };
+  const auto before = momenta();
+  host.run(0.5, GetParam());
+  const auto after = momenta();
+  EXPECT_EQ(host.site->counters().promoted - host.site->counters().demoted, 2U);
+  EXPECT_GT(std::abs(host.u(0)), 0.1);
+  EXPECT_LT((after[0] - before[0]).norm(), byWidth(1e-9, 1e-5));
+  EXPECT_LT((after[1] - before[1]).norm(), byWidth(1e-6, 1e-4));
+}
+
+// Neither the hand nor a shared body is near.
+TEST_P(ArmsAtRates, FarAwayStayBulletsToTheBit) {
+  std::vector<double> ends;
+  for (const bool has_site : {false, true}) {
+    ArmHost host;
+    host.build(makeChain(4));
+    host.addMotor(1, 0.3, 0.1);
+    host.addLimit(2, -0.4, 0.4);
+    btRigidBody& cube = host.host.addCube(0.2, Vec3(20.0, 0.0, 0.0));
+    if (has_site) {
+      host.start();
+      host.site->share(cube);
+    }
+    host.run(1.0, GetParam());
+    for (int i = 0; i < 4; ++i) ends.push_back(host.q(i));
+    for (int i = 0; i < 4; ++i) ends.push_back(host.u(i));
+  }
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(ends[i], ends[i + 8]);
+}
+
+TEST_P(ArmsAtRates, FollowAHostThatSetsThem) {
+  ArmHost host;
+  host.build(makeChain(2));
+  putHandBeside(host);
+  host.start();
+  host.run(0.3, GetParam());
+  host.arm().setJointPos(0, btScalar(0.2));
+  host.arm().setJointPos(1, btScalar(-0.4));
+  host.arm().setJointVel(0, 0);
+  host.arm().setJointVel(1, btScalar(0.5));
+  host.showPose();
+  const double before = host.energy();
+  host.step(1.0 / GetParam());
+  EXPECT_NEAR(host.q(0), 0.2, 60.0 / (GetParam() * GetParam()));
+  host.run(0.3, GetParam());
+  EXPECT_EQ(host.site->counters().promoted, 2U);
+  EXPECT_NEAR(host.energy(), before, byWidth(1e-6, 1e-3) * kUnit);
+}
+
+TEST(Arms, ComeBackAfterTheHostRemovedThem) {
+  ArmHost host;
+  host.build(makeChain(3));
+  putHandBeside(host);
+  host.start();
+  host.run(0.2, 60.0);
+  EXPECT_EQ(host.site->counters().promoted, 3U);
+  for (const auto& collider : host.host.colliders)
+    host.host.world->removeCollisionObject(collider.get());
+  host.host.multi()->removeMultiBody(&host.arm());
+  const double q = host.q(0), u = host.u(0);
+  host.run(0.2, 60.0);
+  EXPECT_EQ(host.site->counters().demoted, 3U);
+  EXPECT_EQ(host.q(0), q);
+  EXPECT_EQ(host.u(0), u);
+  host.host.multi()->addMultiBody(&host.arm());
+  for (const auto& collider : host.host.colliders)
+    host.host.world->addCollisionObject(collider.get(), 1, -1);
+  host.run(0.2, 60.0);
+  EXPECT_EQ(host.site->counters().promoted, 6U);
+  EXPECT_GT(std::abs(host.q(0) - q), 0.01);
+}
+
+TEST(Arms, LeaveTheIslandWithTheHand) {
+  ArmHost host;
+  host.build(makeChain(2));
+  host.addMotor(0, 0.1, 5.0);
+  putHandBeside(host);
+  host.start();
+  host.run(0.1, 60.0);
+  EXPECT_EQ(host.site->counters().promoted, 2U);
+  host.device.sample.hip.p_W = Vec3(0.0, 3.0, 0.0);
+  host.run(0.1, 60.0);
+  EXPECT_EQ(host.site->counters().demoted, 2U);
+  EXPECT_EQ(host.constraints[0]->getMaxAppliedImpulse(), btScalar(5));
+  const double u = host.u(1);
+  host.run(0.1, 60.0);
+  EXPECT_NE(host.u(1), u);
+}
+
+TEST(Arms, StayBulletsWithConstraintsOfOtherKinds) {
+  ArmHost host;
+  host.build(makeChain(2));
+  host.constraints.push_back(std::make_unique<btMultiBodyPoint2Point>(
+      &host.arm(), 1, nullptr, btVector3(btScalar(0.1), 0, 0), btVector3(btScalar(0.4), 0, 0)));
+  host.host.multi()->addMultiBodyConstraint(host.constraints.back().get());
+  putHandBeside(host);
+  host.start();
+  host.run(0.2, 60.0);
+  EXPECT_EQ(host.site->counters().promoted, 0U);
+  const std::vector<std::string> warnings = host.site->warnings();
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& line) {
+    return line.find("multi-body") != std::string::npos &&
+           line.find("constraint") != std::string::npos;
+  }));
+}
+
+TEST(Arms, StayBulletsWithoutRoom) {
+  ArmHost host;
+  host.build(makeChain(3));
+  putHandBeside(host);
+  SiteSettings settings;
+  settings.max_neighbours = 2;
+  host.start(settings);
+  host.run(0.2, 60.0);
+  EXPECT_EQ(host.site->counters().promoted, 0U);
+}
+
+TEST(Arms, TheHandFeelsAFixedBase) {
+  ArmHost host;
+  host.build(makeChain(1), 0.0, Vec3(0.05, 0.05, 0.05));
+  const double radius = SiteSettings().hip_radius;
+  host.device.sample.hip.p_W = Vec3(-0.05 - radius + 0.001, 0.0, 0.0);
+  host.start();
+  host.run(0.2, 60.0);
+  EXPECT_LT(host.device.force_W.x(), -0.5);
+}
+
+}  // namespace
+}  // namespace tandem
