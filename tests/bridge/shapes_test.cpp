@@ -12,6 +12,7 @@
 #include "bridge/obstacle_scene.h"
 #include "coordination/src/geometry/contact_geometry.h"
 #include "coordination/src/geometry/triangle_mesh.h"
+#include "support/random.h"
 #include "support/solids.h"
 
 namespace tandem {

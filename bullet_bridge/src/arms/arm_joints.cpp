@@ -30,11 +30,22 @@ struct ConstraintFields : btMultiBodyConstraint {
   static constexpr auto kData = &ConstraintFields::m_data;
 };
 
+double readImpulse(btMultiBodyConstraint& constraint, int row) {
+  if ((constraint.*ConstraintFields::kData).size() <= row) return 0.0;
+  return static_cast<double>(constraint.getAppliedImpulse(row));
+}
+
 /// Tells the host an impulse, if Bullet has made room for it: it does so in its first step with it.
 void tellImpulse(btMultiBodyConstraint& constraint, int row, double impulse) {
   if ((constraint.*ConstraintFields::kData).size() > row)
     constraint.internalSetAppliedImpulse(row, static_cast<btScalar>(impulse));
 }
+
+/// An impulse below this is rounding [N s, N m s].
+constexpr double kNoImpulse = 1e-13;
+
+constexpr btScalar btMultiBodyJointMotor::*kMotorFields[] = {
+    MotorFields::kSpeed, MotorFields::kPlace, MotorFields::kP, MotorFields::kD, MotorFields::kMost};
 
 double read(const btMultiBodyJointMotor& motor, btScalar btMultiBodyJointMotor::*field) {
   return static_cast<double>(motor.*field);
@@ -121,7 +132,8 @@ void ArmJoints::look(const std::vector<Member>& members) {
       if (&other.link->arm() == &link.arm() && other.link->number() == carrier)
         parent = other.index;
     const JointSettings settings = makeSettings(model, link.number());
-    next_.push_back({&link, {member.index, parent, &link}, settings, JointCopy(settings)});
+    const LinkKind kind = model.links()[link.number()].kind;
+    next_.push_back({&link, kind, {member.index, parent, &link}, settings, JointCopy(settings)});
     most_links = std::max(most_links, model.size());
   }
   has_next_ = !isAsWanted();
@@ -141,27 +153,53 @@ bool ArmJoints::isAsWanted() const noexcept {
                     });
 }
 
-/// True for a motor or limit of an arm that the island holds.
-bool ArmJoints::isHeld(const btMultiBodyConstraint& constraint) const noexcept {
-  auto& of = const_cast<btMultiBodyConstraint&>(constraint);
-  return std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
-    return !joint.is_gone && &joint.link->arm().body() == of.getMultiBodyA();
-  });
+/// The joint that a motor or limit of the host's world belongs to; null: the island does not hold
+/// it.
+ArmJoints::Joint* ArmJoints::findJoint(btMultiBodyConstraint& constraint) noexcept {
+  const auto is_its = [&](const Joint& joint) {
+    return !joint.is_gone && &joint.link->arm().body() == constraint.getMultiBodyA() &&
+           static_cast<int>(joint.link->number()) - 1 == constraint.getLinkA();
+  };
+  const auto place = std::find_if(joints_.begin(), joints_.end(), is_its);
+  return place == joints_.end() ? nullptr : &*place;
 }
 
+/// In Bullet a motor holds the velocity that was handed off, by what the island leaves of its
+/// bound: what Bullet's contacts press onto the arm meets its motors.
 void ArmJoints::switchOff() noexcept {
   off_.clear();
   if (joints_.empty() || !host_) return;
   for (int i = 0; i < host_->getNumMultiBodyConstraints(); ++i) {
     btMultiBodyConstraint& constraint = *host_->getMultiBodyConstraint(i);
-    if (!isHeld(constraint)) continue;
-    off_.push_back({&constraint, constraint.getMaxAppliedImpulse()});
-    constraint.setMaxAppliedImpulse(0);
+    Joint* joint = findJoint(constraint);
+    if (!joint) continue;
+    Off off{&constraint, constraint.getMaxAppliedImpulse(), {}};
+    double left = 0.0;
+    if (joint->motor == &constraint) {
+      auto& motor = static_cast<btMultiBodyJointMotor&>(constraint);
+      for (std::size_t k = 0; k < off.motor.size(); ++k) off.motor[k] = motor.*kMotorFields[k];
+      const double speed = joint->link->arm().expectedVelocity(joint->link->number());
+      motor.setVelocityTarget(static_cast<btScalar>(speed), 1);
+      motor.setPositionTarget(0, 0);
+      motor.setRhsClamp(SIMD_INFINITY);
+      const Given& told = joint->told;
+      const double own = told.time > 0.0 ? joint->settings.host_dt / told.time * told.motor : 0.0;
+      left = std::max(0.0, static_cast<double>(off.impulse) - std::abs(own));
+    }
+    constraint.setMaxAppliedImpulse(static_cast<btScalar>(left));
+    off_.push_back(off);
   }
 }
 
 void ArmJoints::switchOn() noexcept {
-  for (const Off& off : off_) off.constraint->setMaxAppliedImpulse(off.impulse);
+  for (const Off& off : off_) {
+    off.constraint->setMaxAppliedImpulse(off.impulse);
+    Joint* joint = findJoint(*off.constraint);
+    if (!joint || joint->motor != off.constraint) continue;
+    auto& motor = static_cast<btMultiBodyJointMotor&>(*off.constraint);
+    for (std::size_t k = 0; k < off.motor.size(); ++k) motor.*kMotorFields[k] = off.motor[k];
+    joint->by_bullet = readImpulse(motor, 0);
+  }
   off_.clear();
 }
 
@@ -175,20 +213,26 @@ void ArmJoints::forgetWorld() noexcept {
 bool ArmJoints::take() noexcept {
   if (!has_next_) return false;
   has_next_ = false;
+  // Joints that stay go on with what they have.
+  for (Joint& joint : next_)
+    for (const Joint& before : joints_)
+      if (!before.is_gone && before.link == joint.link && before.ends.b == joint.ends.b)
+        joint = before;
   joints_.swap(next_);
   listActing();
   return true;
 }
 
-bool ArmJoints::refresh(double dt) noexcept {
+bool ArmJoints::refresh(const PayWindow& window) noexcept {
   if (joints_.empty() || !host_) return false;
   for (Joint& joint : joints_) {
     if (joint.is_gone) continue;
     HostArm& arm = joint.link->arm();
     joint.motor = joint.limit = nullptr;
+    joint.by_bullet = 0.0;
     const std::size_t place = joint.link->number();
     const ArmLink& link = arm.model().links()[place];
-    joint.settings.host_dt = dt;
+    joint.settings.host_dt = window.dt;
     if (joint.ends.b == kStanding) {
       states_.resize(arm.model().size());
       arm.findStates(states_);
@@ -197,13 +241,19 @@ bool ArmJoints::refresh(double dt) noexcept {
     JointAxis* axis = findFreeAxis(link.kind, joint.settings);
     if (!axis) continue;
     const int number = static_cast<int>(place) - 1;
+    const double push = axis->push;
     *axis = {};
     axis->counts_turns = true;
     axis->near = static_cast<double>(arm.body().getJointPos(number));
-    axis->push = static_cast<double>(arm.body().getJointTorque(number));
+    axis->push = push;
+    if (!(window.pay_over > 0.0)) continue;
+    const double torque = static_cast<double>(arm.body().getJointTorque(number));
+    joint.owed = torque == 0.0 && std::abs(joint.owed) < kNoImpulse ? 0.0 : joint.owed;
+    joint.owed += window.dt * torque;
+    axis->push = window.findForce(torque, joint.owed);
   }
   for (int i = 0; i < host_->getNumMultiBodyConstraints(); ++i)
-    readConstraint(*host_->getMultiBodyConstraint(i), dt);
+    readConstraint(*host_->getMultiBodyConstraint(i), window.dt);
   bool has_changed = false;
   for (Joint& joint : joints_) {
     if (joint.is_gone) continue;
@@ -267,6 +317,7 @@ void ArmJoints::note(std::size_t joint, const JointRow& row, double impulse, dou
       given.limit[1] += impulse;
       break;
     case JointRowKind::kElastic:
+      joints_[acting_[joint]].owed -= impulse;
       break;
   }
 }
@@ -280,7 +331,7 @@ void ArmJoints::tell(double dt) noexcept {
     const Given& given = joint.told;
     if (!(given.time > 0.0)) continue;
     const double scale = dt / given.time;  // ticks do not end with the host's steps
-    if (joint.motor) tellImpulse(*joint.motor, 0, scale * given.motor);
+    if (joint.motor) tellImpulse(*joint.motor, 0, scale * given.motor + joint.by_bullet);
     for (int row = 0; joint.limit && row < joint.limit->getNumRows(); ++row)
       tellImpulse(*joint.limit, row, scale * given.limit[row]);
     tellFeedback(joint);
@@ -302,6 +353,14 @@ void ArmJoints::tellFeedback(const Joint& joint) noexcept {
   btSpatialForceVector& reaction = link.m_jointFeedback->m_reactionForces;
   reaction.m_topVec = toBullet(in_world ? Vec3(q_WB * f_B) : f_B);
   reaction.m_bottomVec = toBullet(in_world ? Vec3(q_WB * t_B) : t_B);
+}
+
+void ArmJoints::endTorques() noexcept {
+  for (Joint& joint : joints_) {
+    joint.owed = 0.0;
+    if (JointAxis* axis = findFreeAxis(joint.kind, joint.settings)) axis->push = 0.0;
+    joint.copy = JointCopy(joint.settings);
+  }
 }
 
 void ArmJoints::drop(BodyIndex body) noexcept {

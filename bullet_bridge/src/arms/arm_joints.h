@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <LinearMath/btScalar.h>
 
 #include "arms/host_arm.h"
+#include "arms/pay_window.h"
 #include "coordination/src/island/joint_source.h"
 #include "joints/joint_copy.h"
 
@@ -16,9 +18,9 @@ namespace tandem {
 
 /// The joints of multi-bodies that the island holds, with their motors and limits.
 ///
-/// Motors and limits of the host's world are without force while Bullet's solver runs, and the host
-/// finds them as it left them. Torques that the host gives a joint act along it for a host step.
-/// Functions and threads are those of HostJoints.
+/// While Bullet's solver runs, limits of the host's world are without force, and motors only hold
+/// what was handed off. The host finds them as it left them. Torques that the host gives a joint
+/// act along it for a host step. Functions and threads are those of HostJoints.
 class ArmJoints final : public JointSource {
  public:
   /// A body of the island that is a link of an arm.
@@ -38,7 +40,9 @@ class ArmJoints final : public JointSource {
   void forgetWorld() noexcept;
 
   bool take() noexcept;
-  bool refresh(double dt) noexcept;
+  bool refresh(const PayWindow& window) noexcept;
+  /// The host is silent: its torques end.
+  void endTorques() noexcept;
   void tell(double dt) noexcept;
   void drop(BodyIndex body) noexcept;
 
@@ -58,22 +62,26 @@ class ArmJoints final : public JointSource {
   };
   struct Joint {
     const LinkBody* link;
+    LinkKind kind;
     JointEnds ends;
     JointSettings settings;
     JointCopy copy;          ///< of the settings, for the thread that ticks
     RigidState ground = {};  ///< of an end that stands
     Given given = {}, told = {};
+    double by_bullet = 0.0;  ///< impulse of the motor in Bullet's last step [N s, N m s]
+    double owed = 0.0;       ///< impulse of the host's torques that is yet to be given [N s, N m s]
     btMultiBodyConstraint *motor = nullptr, *limit = nullptr;  ///< as last refreshed
     bool is_gone = false;
   };
-  /// A motor or limit, and the greatest impulse that the host gave it.
+  /// A motor or limit, with the greatest impulse that the host gave it, and a motor's settings.
   struct Off {
     btMultiBodyConstraint* constraint;
     btScalar impulse;
+    std::array<btScalar, 5> motor;
   };
 
   [[nodiscard]] bool isAsWanted() const noexcept;
-  [[nodiscard]] bool isHeld(const btMultiBodyConstraint& constraint) const noexcept;
+  [[nodiscard]] Joint* findJoint(btMultiBodyConstraint& constraint) noexcept;
   void readConstraint(btMultiBodyConstraint& constraint, double dt) noexcept;
   void tellFeedback(const Joint& joint) noexcept;
   void listActing() noexcept;

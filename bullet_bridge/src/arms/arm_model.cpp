@@ -156,8 +156,8 @@ void ArmModel::findLink(std::size_t place, const ArmCoordinates& from,
   state.v_W = parent.v_W + parent.w_W.cross(state.p_W - parent.p_W) + state.q_WB * slide;
 }
 
-void ArmModel::findCoordinates(std::vector<RigidState>& links,
-                               ArmCoordinates& into) const noexcept {
+void ArmModel::findCoordinates(std::vector<RigidState>& links, ArmCoordinates& into,
+                               double dt) const noexcept {
   if (isBaseFixed())
     links[0] = into.base;
   else
@@ -177,10 +177,14 @@ void ArmModel::findCoordinates(std::vector<RigidState>& links,
     const Quat q_LW = state.q_WB.conjugate();
     const Vec3 w = q_LW * (state.w_W - parent.w_W);
     const Vec3 v = q_LW * (state.v_W - parent.v_W - parent.w_W.cross(state.p_W - parent.p_W));
+    const auto turn = [&](double u) {
+      const double near = joint.q[0] + 0.5 * dt * (joint.u[0] + u);
+      joint.q[0] = findAngle(q_ZL, link.turn[0], near);
+      joint.u[0] = u;
+    };
     switch (link.kind) {
       case LinkKind::kRevolute:
-        joint.q[0] = findAngle(q_ZL, link.turn[0], joint.q[0]);
-        joint.u[0] = link.turn[0].dot(w);
+        turn(link.turn[0].dot(w));
         break;
       case LinkKind::kPrismatic:
         joint.q[0] = link.slide[0].dot(way);
@@ -194,8 +198,7 @@ void ArmModel::findCoordinates(std::vector<RigidState>& links,
         break;
       }
       case LinkKind::kPlanar:
-        joint.q[0] = findAngle(q_ZL, link.turn[0], joint.q[0]);
-        joint.u[0] = link.turn[0].dot(w);
+        turn(link.turn[0].dot(w));
         for (std::size_t i = 1; i < 3; ++i) {
           joint.q[i] = link.slide[i].dot(way);
           joint.u[i] = link.slide[i].dot(v);

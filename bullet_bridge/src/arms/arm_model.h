@@ -69,8 +69,10 @@ class ArmModel {
   /// States of all links.
   void findLinks(const ArmCoordinates& from, std::vector<RigidState>& links) const noexcept;
   /// Coordinates by the states of all bodies; `links` gets those of frames and ground. Whole turns
-  /// are those nearest to what `into` has.
-  void findCoordinates(std::vector<RigidState>& links, ArmCoordinates& into) const noexcept;
+  /// are those nearest to where `into` leads in a time of `dt` [s], with its and the new
+  /// velocities.
+  void findCoordinates(std::vector<RigidState>& links, ArmCoordinates& into,
+                       double dt = 0.0) const noexcept;
   /// Velocities that lead from one pose to another in a step of dt [s], by Bullet's own step.
   void findMeanVelocity(const ArmCoordinates& start, const ArmCoordinates& end, double dt,
                         ArmCoordinates& mean) const noexcept;

@@ -17,6 +17,9 @@ namespace {
 /// rad/s].
 constexpr double kDragSpeed = 1e-3;
 
+/// Turn in a step of the host above which no drag acts over it [rad].
+constexpr double kMostTurn = 0.5;
+
 /// Change of a velocity that is rounding, beside it and in itself [m/s or rad/s].
 constexpr double kRounding = 16.0 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 constexpr double kNoSpeed = 1e-14;
@@ -150,7 +153,7 @@ void HostArm::shiftOrigin(const Vec3& offset_W) noexcept {
 }
 
 /// Reads what the host did to the multi-body, and its forces in the coming step.
-void HostArm::look() noexcept {
+void HostArm::look(double dt) noexcept {
   wake();
   ArmModel::read(body_, now_);
   const bool is_moved = !hasSamePose(now_, known_), is_pushed = !hasSameVelocity(now_, known_);
@@ -164,7 +167,7 @@ void HostArm::look() noexcept {
     change.offset_W = now.p_W - known.p_W;
     change.rotation_W = now.q_WB * known.q_WB.conjugate();
   }
-  noteForces();
+  noteForces(dt);
   for (const auto& link : links_) {
     if (!is_moved && !is_pushed) break;
     // A move turns the velocities of what hangs on its joints, too.
@@ -179,7 +182,7 @@ void HostArm::look() noexcept {
 
 /// Reads forces on links and torques of joints with several axes. Those of single axes are rows of
 /// the joints.
-void HostArm::noteForces() noexcept {
+void HostArm::noteForces(double dt) noexcept {
   const btVector3 gravity = world_.getGravity();
   bool is_any = false;
   for (const auto& link : links_) {
@@ -199,7 +202,7 @@ void HostArm::noteForces() noexcept {
     const btVector3 weight = gravity * (i < 0 ? body_.getBaseMass() : body_.getLinkMass(i));
     change.f_W = fromBullet((i < 0 ? body_.getBaseForce() : body_.getLinkForce(i)) - weight);
     change.t_W = fromBullet(i < 0 ? body_.getBaseTorque() : body_.getLinkTorque(i));
-    addDrag(*link, states_[link->number_]);
+    addDrag(*link, states_[link->number_], dt);
   }
   for (const auto& link : links_) {
     const ArmLink& joint = model_.links()[link->number_];
@@ -226,9 +229,11 @@ void HostArm::noteForces() noexcept {
   }
 }
 
-/// Bullet's damping is -d (1 + |v|) v. The island has the part without |v|.
-void HostArm::addDrag(LinkBody& link, const RigidState& state) const noexcept {
+/// Bullet's damping is -d (1 + |v|) v. The island has the part without |v|. The other is a force
+/// over the step, unless the link turns so far in it that the force would push.
+void HostArm::addDrag(LinkBody& link, const RigidState& state, double dt) const noexcept {
   const double v = state.v_W.norm(), w = state.w_W.norm();
+  if (w * dt > kMostTurn) return;
   if (v > kDragSpeed)
     link.change_.f_W -= static_cast<double>(body_.getLinearDamping()) * link.mass() * v * state.v_W;
   if (w > kDragSpeed)
@@ -236,10 +241,10 @@ void HostArm::addDrag(LinkBody& link, const RigidState& state) const noexcept {
                         turnMomentum(state.q_WB, link.inertia(), state.w_W);
 }
 
-/// Coordinates by what the island told of the links.
-void HostArm::takeEnds(ArmCoordinates& into) noexcept {
+/// Coordinates by what the island told of the links, `dt` [s] after those in `into`.
+void HostArm::takeEnds(ArmCoordinates& into, double dt) noexcept {
   for (const auto& link : links_) states_[link->number_] = link->end_;
-  model_.findCoordinates(states_, into);
+  model_.findCoordinates(states_, into, dt);
 }
 
 void HostArm::show(const ArmCoordinates& coordinates) noexcept {
@@ -255,7 +260,7 @@ void HostArm::handOff(double dt) noexcept {
   ArmModel::read(body_, start_);
   model_.findLinks(start_, start_states_);
   end_ = start_;
-  takeEnds(end_);
+  takeEnds(end_, dt);
   mean_ = start_;
   model_.findMeanVelocity(start_, end_, dt, mean_);
   readMobility();
@@ -295,9 +300,14 @@ void HostArm::readDamping(double& linear, double& angular) const noexcept {
   angular = static_cast<double>(body_.getAngularDamping());
 }
 
+std::size_t HostArm::findDof(std::size_t place) const noexcept {
+  std::size_t dof = 0;
+  for (std::size_t i = 1; i < place; ++i) dof += model_.links()[i].dofs;
+  return dof;
+}
+
 double HostArm::findMass(std::size_t place) const noexcept {
-  std::size_t row = model_.isBaseFixed() ? 0 : 6;
-  for (std::size_t i = 1; i < place; ++i) row += model_.links()[i].dofs;
+  const std::size_t row = (model_.isBaseFixed() ? 0 : 6) + findDof(place);
   const double mobility = mobility_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(row));
   return mobility > 0.0 ? 1.0 / mobility : 0.0;
 }

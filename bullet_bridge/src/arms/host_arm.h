@@ -40,7 +40,12 @@ class LinkBody final : public HostBody {
   [[nodiscard]] Vec3 gravityForce() const noexcept override;
 
   /// What HostArm::look() found.
-  [[nodiscard]] HostChange takeHostChanges(double) noexcept override { return change_; }
+  [[nodiscard]] HostChange takeHostChanges(double dt) noexcept override {
+    HostChange change = change_;
+    change.impulse_W += dt * change.f_W;
+    change.angular_impulse_W += dt * change.t_W;
+    return change;
+  }
   /// For HostArm::handOff().
   void handOff(const RigidState& end, double, const Momentum& foreseen = {}) noexcept override {
     end_ = end;
@@ -117,7 +122,7 @@ class HostArm {
     return look_.isOf(body_) && !findObstacleToHold(world_, body_);
   }
 
-  void look() noexcept;
+  void look(double dt) noexcept;
   void handOff(double dt) noexcept;
   void restore() noexcept;
   void place() noexcept;
@@ -129,6 +134,11 @@ class HostArm {
   [[nodiscard]] Vec3 worldGravity() const noexcept;
   /// Bullet's damping at low speeds: the velocity that it takes off per second [1/s].
   void readDamping(double& linear, double& angular) const noexcept;
+  /// Pre-tick, after handOff(). Velocity with which a joint of one degree of freedom goes through
+  /// Bullet's step [rad/s or m/s].
+  [[nodiscard]] double expectedVelocity(std::size_t place) const noexcept {
+    return static_cast<double>(expected_[6 + findDof(place)]);
+  }
   /// Mass, or moment of inertia, that a joint of one degree of freedom moves, as of the last
   /// handOff() [kg or kg m^2].
   [[nodiscard]] double findMass(std::size_t place) const noexcept;
@@ -136,10 +146,12 @@ class HostArm {
  private:
   friend class LinkBody;
 
+  /// Number of a link's first degree of freedom among those of all joints.
+  [[nodiscard]] std::size_t findDof(std::size_t place) const noexcept;
   void wake() noexcept;
-  void noteForces() noexcept;
-  void addDrag(LinkBody& link, const RigidState& state) const noexcept;
-  void takeEnds(ArmCoordinates& into) noexcept;
+  void noteForces(double dt) noexcept;
+  void addDrag(LinkBody& link, const RigidState& state, double dt) const noexcept;
+  void takeEnds(ArmCoordinates& into, double dt = 0.0) noexcept;
   void readMobility() noexcept;
   void addMomenta(ArmCoordinates& to) noexcept;
   void cancelAccelerations(double dt) noexcept;

@@ -31,8 +31,8 @@ bool WorldJoints::take() noexcept {
   return true;
 }
 
-bool WorldJoints::refresh(double dt) noexcept {
-  const bool has_rigid = rigid_.refresh(dt), has_arms = arms_.refresh(dt);
+bool WorldJoints::refresh(const PayWindow& window) noexcept {
+  const bool has_rigid = rigid_.refresh(window.dt), has_arms = arms_.refresh(window);
   return has_rigid || has_arms;
 }
 

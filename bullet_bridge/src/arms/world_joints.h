@@ -28,7 +28,8 @@ class WorldJoints final : public JointSource {
   /// @name For the thread that ticks, while the host's thread waits. Real-time safe.
   /// @{
   bool take() noexcept;
-  bool refresh(double dt) noexcept;
+  bool refresh(const PayWindow& window) noexcept;
+  void endTorques() noexcept { arms_.endTorques(); }
   bool tell(double dt) noexcept;
   bool dropGone() noexcept;
   void drop(BodyIndex body) noexcept;

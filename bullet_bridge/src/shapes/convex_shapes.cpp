@@ -1,6 +1,7 @@
 #include "shapes/convex_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 

@@ -123,7 +123,7 @@ void HandOffStep::giveBack() {
 
 /// Reads how the host changed its bodies for its coming step.
 void HandOffStep::lookAtBodies(double dt) noexcept {
-  site_.surroundings.lookAtArms();
+  site_.surroundings.lookAtArms(dt);
   site_.bodies.forEachPresent([&](SiteBody& body) {
     HostBody& bullet = *body.bullet;
     if (bullet.isParked()) {

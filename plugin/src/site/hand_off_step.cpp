@@ -69,7 +69,7 @@ void HandOffStep::advance(double now, double end) noexcept {
 
 void HandOffStep::moveTo(double until) noexcept {
   site_.timeline.moveTo(until);
-  site_.forces.endIfDue();
+  if (site_.forces.endIfDue()) site_.surroundings.joints().endTorques();
 }
 
 /// The way in: the island takes the host's changes and moves on.
@@ -109,7 +109,8 @@ void HandOffStep::passHostChanges(double dt) noexcept {
   });
   site_.forces.pass(dt, site_.ticksInHostStep());
   site_.surroundings.followDamping();
-  if (site_.surroundings.joints().refresh(dt)) site_.island.wake();
+  const PayWindow window = site_.forces.findWindow(dt, site_.ticksInHostStep());
+  if (site_.surroundings.joints().refresh(window)) site_.island.wake();
 }
 
 /// Moves the island's body along when the host repositions its body. Kept states for coming host

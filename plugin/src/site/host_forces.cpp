@@ -46,14 +46,19 @@ void HostForces::setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noe
   island_.setExternalWrench(body, push.linear_W, push.angular_W);
 }
 
-void HostForces::pass(double dt, bool is_behind) noexcept {
-  settle();
-  const double window_end = clock_.time() + (is_behind ? dt : 2.0 * dt + clock_.lateness());
-  const double rest = window_end - timeline_.time();
+PayWindow HostForces::findWindow(double dt, bool is_behind) const noexcept {
+  const double end = clock_.time() + (is_behind ? dt : 2.0 * dt + clock_.lateness());
+  const double rest = end - timeline_.time();
   // The rest of the owed momentum is paid over the ticks that run before the host's next step.
   const double period = timeline_.period();
   const double ticks_ahead = std::ceil((rest - kClockTolerance) / period);
-  const double pay_over = std::max(ticks_ahead, 1.0) * period;
+  return {dt, end, rest, std::max(ticks_ahead, 1.0) * period};
+}
+
+void HostForces::pass(double dt, bool is_behind) noexcept {
+  settle();
+  const PayWindow window = findWindow(dt, is_behind);
+  const double rest = window.rest, pay_over = window.pay_over;
   bodies_.forEach([&](SiteBody& body) {
     if (!body.step.is_told) return;
     const HostChange& change = body.step.change;
@@ -68,7 +73,7 @@ void HostForces::pass(double dt, bool is_behind) noexcept {
     renew(body);
     body.step.is_told = false;
   });
-  end_ = window_end + dt;
+  end_ = window.end + dt;
   are_on_ = true;
 }
 

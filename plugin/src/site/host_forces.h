@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_bridge/src/arms/pay_window.h"
 #include "site/bodies.h"
 #include "site/energy_port.h"
 #include "site/host_clock.h"
@@ -32,6 +33,8 @@ class HostForces {
   /// Takes the host's changes for its step of `dt`, which has just begun. `is_behind`: the ticks of
   /// this step have not run yet.
   void pass(double dt, bool is_behind) noexcept;
+  /// Time over which forces of that step act from now on, and the ticks in which they are paid [s].
+  [[nodiscard]] PayWindow findWindow(double dt, bool is_behind) const noexcept;
   /// Takes what Bullet's solver did to a body in the host step of `dt` that has ended: momentum
   /// that was not foreseen, the pose that it led to, and the force that goes on.
   void takeReaction(SiteBody& body, double dt) noexcept;
@@ -58,8 +61,11 @@ class HostForces {
   [[nodiscard]] double nextEnd() const noexcept {
     return end_ > timeline_.time() + kSameTime ? end_ : kNever;
   }
-  void endIfDue() noexcept {
-    if (are_on_ && timeline_.time() >= end_ - kSameTime) end();
+  /// True if they have ended now.
+  bool endIfDue() noexcept {
+    if (!are_on_ || timeline_.time() < end_ - kSameTime) return false;
+    end();
+    return true;
   }
 
  private:

@@ -53,7 +53,7 @@ void Surroundings::take() noexcept {
 
 void Surroundings::takeJoints() noexcept {
   if (!joints_.take()) return;
-  static_cast<void>(joints_.refresh(clock_.step()));
+  static_cast<void>(joints_.refresh({clock_.step(), 0.0, 0.0, 0.0}));
   island_.wake();
 }
 

@@ -402,9 +402,9 @@ void Surroundings::lookAtDamping() noexcept {
     if (!neighbour.body.is_leaving) neighbour.lookAtDamping();
 }
 
-void Surroundings::lookAtArms() noexcept {
+void Surroundings::lookAtArms(double dt) noexcept {
   for (const auto& arm : arms_)
-    if (isActing(*arm)) arm->look();
+    if (isActing(*arm)) arm->look(dt);
 }
 
 void Surroundings::handOffArms(double dt) noexcept {

@@ -96,7 +96,7 @@ class Surroundings {
   void lookAtDamping() noexcept;
   /// Around those of single bodies: what concerns all links of a multi-body at once (HostArm).
   /// @{
-  void lookAtArms() noexcept;
+  void lookAtArms(double dt) noexcept;
   void handOffArms(double dt) noexcept;
   void restoreArms() noexcept;
   void placeArms() noexcept;

@@ -1,0 +1,69 @@
+// Ticks beside a held multi-body, and its hand-off, take nothing from the heap.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+#include "bullet_bridge/src/arms/host_arm.h"
+#include "physics/arm_host.h"
+#include "realtime/allocation_count.h"
+
+namespace tandem {
+namespace {
+
+using test::AllocationCount;
+using test::ArmHost;
+
+TEST(ArmAllocation, NoneInTheTick) {
+  ArmHost host;
+  host.build(test::makeChain(4));
+  for (int i = 0; i < 4; ++i) host.addMotor(i, 0.0, 1.0);
+  host.addLimit(1, -0.5, 0.5);
+  SiteSettings settings;
+  settings.tick_source = TickSource::kCaller;
+  settings.host_step = 1.0 / 60.0;
+  settings.host_stall = 0.1;
+  const auto handAt = [](double t) { return Vec3(0.5, 0.0, 0.034 - 0.01 * std::sin(6.0 * t)); };
+  host.device.sample.hip.p_W = handAt(0.0);
+  host.start(settings);
+  int tick = 0;
+  std::size_t allocations = 0;
+  double most = 0.0;
+  for (int i = 0; i < 120; ++i) {
+    for (; tick < 1000 * (i + 1) / 60; ++tick) {
+      host.device.sample.hip.p_W = handAt(1e-3 * tick);
+      const AllocationCount count(false);
+      host.site->tick(1e-3 * tick);
+      if (i >= 30) allocations += count.count();
+      most = std::max(most, host.device.force_W.norm());
+    }
+    host.step(1.0 / 60.0);
+  }
+  EXPECT_EQ(host.site->counters().promoted, 4U);
+  EXPECT_GT(most, 1.0);
+  EXPECT_EQ(allocations, 0U);
+}
+
+TEST(ArmAllocation, NoneInHandOff) {
+  ArmHost host;
+  host.build(test::makeChain(4));
+  HostArm arm(*host.host.multi(), host.arm());
+  arm.remember();
+  for (int i = 0; i < 20; ++i) {
+    const AllocationCount count(false);
+    arm.look(1e-3);
+    for (const auto& link : arm.links()) {
+      RigidState end = link->state();
+      end.v_W += Vec3(0.0, 0.0, 1e-3);
+      link->handOff(end, 1e-3, {Vec3(0.0, 0.0, 1e-3), Vec3::Zero()});
+    }
+    arm.handOff(1e-3);
+    arm.restore();
+    EXPECT_TRUE(i == 0 || count.count() == 0U);
+  }
+}
+
+}  // namespace
+}  // namespace tandem
