@@ -60,6 +60,7 @@ class FirmScene {
     robot_->setupPrismatic(0, btScalar(5), inertia, -1, btQuaternion::getIdentity(), toBullet(axis),
                            btVector3(0, 0, 0), btVector3(0, 0, 0), true);
     robot_->finalizeMultiDof();
+    robot_->setUseGyroTerm(false);  // the island does not hold such a robot
     robot_->setCanSleep(false);
     host_.multi()->addMultiBody(robot_);
     auto collider = std::make_unique<btMultiBodyLinkCollider>(robot_, 0);

@@ -73,6 +73,7 @@ class PressScene {
     btMultiBody& robot = *host_.multi_body;
     robot.setBasePos(toBullet(base_W));
     robot.finalizeMultiDof();
+    robot.setUseGyroTerm(false);  // the island does not hold such a robot
     robot.setCanSleep(false);
     robot.setLinearDamping(0);
     host_.multi()->addMultiBody(&robot);
