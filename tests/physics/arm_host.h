@@ -133,7 +133,7 @@ struct ArmHost {
   [[nodiscard]] Vec3 linkPosition(int link) const {
     return fromBullet(arm().localPosToWorld(link, btVector3(0, 0, 0)));
   }
-  /// Of base and links: velocity and angular velocity, in W.
+  /// Mass, place and velocities of the base or a link.
   struct Motion {
     double mass;
     Vec3 inertia, p_W, v_W, w_W, w_B;
@@ -154,7 +154,7 @@ struct ArmHost {
     }
     return all;
   }
-  /// Of base and links: kinetic and potential [J].
+  /// Kinetic and potential energy of base and links [J].
   [[nodiscard]] double energy() const {
     double sum = 0.0;
     for (const Motion& link : motions())

@@ -121,7 +121,7 @@ class ArmWorld {
  private:
   static constexpr double kFast = 100.0;  // [m/s]
 
-  /// Of all links and cubes [m/s].
+  /// Greatest speed of links and cubes [m/s].
   [[nodiscard]] double findSpeed() const {
     double speed = 0.0;
     const auto take = [&](const Vec3& v_W) {

@@ -54,7 +54,7 @@ class ArmJoints final : public JointSource {
             bool is_first) noexcept override;
 
  private:
-  /// What a joint gave its link since the last tell().
+  /// Impulses of a joint on its link since the last tell().
   struct Given {
     double time = 0.0;
     double motor = 0.0, limit[2] = {};  ///< impulses [N s, N m s]; limit: low, high

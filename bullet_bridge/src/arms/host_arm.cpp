@@ -213,7 +213,7 @@ void HostArm::noteForces(double dt) noexcept {
     for (std::size_t k = 0; k < joint.dofs; ++k) {
       const double part = static_cast<double>(torque[k]);
       if (part == 0.0) continue;
-      // Of what moves the link about its pivot only the turn is the joint's.
+      // The joint gives a torque: the way of the centre about its pivot follows.
       t_W += part * (q_WB * joint.turn[k]);
       if (joint.kind == LinkKind::kPlanar) f_W += part * (q_WB * joint.slide[k]);
     }

@@ -39,7 +39,7 @@ class LinkBody final : public HostBody {
   [[nodiscard]] RigidState state() const noexcept override;
   [[nodiscard]] Vec3 gravityForce() const noexcept override;
 
-  /// What HostArm::look() found.
+  /// The result of HostArm::look().
   [[nodiscard]] HostChange takeHostChanges(double dt) noexcept override {
     HostChange change = change_;
     change.impulse_W += dt * change.f_W;
@@ -51,7 +51,7 @@ class LinkBody final : public HostBody {
     end_ = end;
     foreseen_ = foreseen;
   }
-  /// What HostArm::restore() found.
+  /// The result of HostArm::restore().
   HostChange restore() noexcept override { return change_; }
   /// For HostArm::place().
   void place(const RigidState& state) noexcept override;
@@ -129,7 +129,7 @@ class HostArm {
   void remember() noexcept;
 
   [[nodiscard]] RigidState findState(std::size_t place) const noexcept;
-  /// Present states of links that are parts of bodies or of ground; by place.
+  /// Bullet's present states of base and links, by place.
   void findStates(std::vector<RigidState>& states) const noexcept;
   [[nodiscard]] Vec3 worldGravity() const noexcept;
   /// Bullet's damping at low speeds: the velocity that it takes off per second [1/s].
