@@ -55,6 +55,66 @@ TEST_P(ArmsAtRates, AFreeArmKeepsItsEnergy) {
   }
 }
 
+/// Arms with joints of all kinds; the hand is near, and touches nothing.
+std::vector<std::vector<ArmLinkPlan>> makeArmsOfAllKinds() {
+  std::vector<std::vector<ArmLinkPlan>> arms(6, makeChain(2));
+  for (ArmLinkPlan& link : arms[0]) link.joint = btMultibodyLink::eSpherical;
+  arms[1][0].joint = btMultibodyLink::ePrismatic;
+  arms[1][0].axis = Vec3::UnitX();
+  arms[2][0].joint = btMultibodyLink::ePlanar;
+  arms[2][0].axis = Vec3::UnitZ();
+  arms[2][1].e = Vec3(0.05, 0.0, 0.0);
+  arms[3][1].joint = btMultibodyLink::eFixed;
+  // A frame without mass between two links.
+  arms[4][1].joint = btMultibodyLink::eFixed;
+  arms[4][1].mass = 0.0;
+  arms[4][1].has_shape = false;
+  arms[4].emplace_back();
+  // A tree, whose first link is fixed to the base.
+  arms[5][0].joint = btMultibodyLink::eFixed;
+  arms[5].emplace_back();
+  arms[5][2].parent = 0;
+  arms[5][2].e = Vec3(0.1, 0.0, 0.0);
+  arms[5][2].axis = Vec3::UnitZ();
+  return arms;
+}
+
+TEST_P(ArmsAtRates, EveryKindOfJointKeepsItsEnergy) {
+  for (const std::vector<ArmLinkPlan>& plan : makeArmsOfAllKinds()) {
+    for (const bool is_free : {false, true}) {
+      ArmHost host(is_free ? Vec3(Vec3::Zero()) : Vec3(0.0, 0.0, -ArmHost::kGravity));
+      host.build(plan, is_free ? 1.0 : 0.0, is_free ? Vec3(0.05, 0.04, 0.03) : Vec3(Vec3::Zero()));
+      for (int link = 0; link < host.arm().getNumLinks(); ++link)
+        for (int k = 0; k < host.arm().getLink(link).m_dofCount; ++k)
+          host.arm().getJointVelMultiDof(link)[k] = btScalar(0.3) * static_cast<btScalar>(k + 1);
+      if (is_free) host.arm().setBaseOmega(btVector3(1, 2, btScalar(0.5)));
+      host.device.sample.hip.p_W = Vec3(0.0, 2.0, 0.0);
+      SiteSettings settings;
+      settings.host_stall = 1.0;
+      host.start(settings);
+      host.step(1.0 / GetParam());  // Bullet's own, if the arm was not held at once
+      const auto energy = [&] {
+        double sum = host.energy();
+        if (is_free)
+          for (const ArmHost::Motion& link : host.motions())
+            sum -= link.mass * ArmHost::kGravity * link.p_W.z();
+        return sum;
+      };
+      const double before = energy();
+      double worst = 0.0;
+      for (int i = 0; i < static_cast<int>(GetParam()); ++i) {
+        host.step(1.0 / GetParam());
+        worst = std::max(worst, std::abs(energy() - before));
+      }
+      EXPECT_GT(host.site->counters().promoted, 0U);
+      EXPECT_EQ(host.site->counters().demoted, 0U);
+      EXPECT_LT(worst, byWidth(1e-7, 1e-3) * kUnit)
+          << plan.size() << " links, kinds " << plan[0].joint << ", " << plan[1].joint
+          << (is_free ? ", free" : "");
+    }
+  }
+}
+
 /// The same chain out of rigid bodies and hinges.
 struct RigidChain {
   test::BulletRig rig{Vec3(0.0, 0.0, -ArmHost::kGravity)};
