@@ -228,6 +228,33 @@ TEST(HostJoints, ThatContradictEachOtherDoNotHoldTheSolverUp) {
   EXPECT_LT(static_cast<double>(middle.getLinearVelocity().norm()), 5.0);
 }
 
+// Planar bodies that are tilted out of their plane by a hair can hardly move there. A joint that
+// wants them to would need 1e8 N s, and kick all that hangs on it.
+TEST(HostJoints, AskNothingOfAPlanarBodyOutOfItsPlane) {
+  JointHost host;
+  for (int i = 0; i < 3; ++i) {
+    btRigidBody& link = host.addLink(Vec3((i + 0.5) * kLength, i * 2e-4, 0.0));
+    link.setWorldTransform(toBullet(Vec3((i + 0.5) * kLength, i * 2e-4, 0.0),
+                                    test::turn(1e-5 * (1 + i), Vec3(1.0, 0.3, 0.7))));
+    link.setInterpolationWorldTransform(link.getWorldTransform());
+    link.setLinearFactor(btVector3(1, 0, 1));
+    link.setAngularFactor(btVector3(0, 1, 0));
+    if (i == 0)
+      host.join<btHingeConstraint>(link, toBullet(kLeft), btVector3(0, 1, 0));
+    else
+      host.join<btHingeConstraint>(*host.links[static_cast<std::size_t>(i - 1)], link,
+                                   toBullet(kRight), toBullet(kLeft), btVector3(0, 1, 0),
+                                   btVector3(0, 1, 0));
+  }
+  host.share(*host.links[1]);
+  const double before = host.energy(), unit = 3.0 * kMass * kGravity * kLength;
+  for (int i = 0; i < 120; ++i) {
+    host.rig.step(1.0 / 60.0);
+    ASSERT_LT(host.energy() - before, 1e-3 * unit) << i;
+  }
+  EXPECT_LT(static_cast<double>(host.links[2]->getLinearVelocity().norm()), 10.0);
+}
+
 // Weak motors on six legs: Newton's steps took some from their lower bound to the upper one and
 // back, for ever.
 TEST(HostJoints, WhoseMotorsAreWeakSettle) {

@@ -18,14 +18,15 @@ double computeSpringForce(const JointRow& row, double speed) noexcept {
 }
 
 double computeMobility(const RigidMover& mover, const PlainVec& n, const PlainVec& turn) noexcept {
-  constexpr double kRounding = 1e-12;
+  // A planar body that is tilted out of its plane by less has no way there that a joint could use.
+  constexpr double kLeast = 1e-6;
   const double mobility =
       dot(n, multiplyEach(mover.inverse_mass_W, n)) + dot(turn, mover.turnBy(turn));
   const double free =
       dot(n, n) * mover.inverse_mass +
       dot(turn, turn) * (dot(mover.root_x, mover.root_x) + dot(mover.root_y, mover.root_y) +
                          dot(mover.root_z, mover.root_z));
-  return mobility > kRounding * free ? mobility : 0.0;
+  return mobility > kLeast * free ? mobility : 0.0;
 }
 
 void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {

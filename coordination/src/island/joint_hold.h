@@ -89,8 +89,8 @@ struct JointHold {
 /// Force of a soft row that goes at `speed`.
 [[nodiscard]] double computeSpringForce(const JointRow& row, double speed) noexcept;
 
-/// Speed along a row per impulse by one end; 0 if that is rounding beside what the end could have,
-/// had it no linear and angular factors.
+/// Speed along a row per impulse by one end; 0 if that is next to nothing beside what the end could
+/// have, had it no linear and angular factors.
 [[nodiscard]] double computeMobility(const RigidMover& mover, const PlainVec& n,
                                      const PlainVec& turn) noexcept;
 
