@@ -10,6 +10,7 @@
 
 class btMultiBody;
 
+#pragma GCC visibility push(default)
 namespace tandem {
 
 /// How a link of a multi-body moves relative to its parent.
@@ -89,3 +90,4 @@ class ArmModel {
 };
 
 }  // namespace tandem
+#pragma GCC visibility pop

@@ -156,7 +156,7 @@ class HostArm {
   void addMomenta(ArmCoordinates& to) noexcept;
   void cancelAccelerations(double dt) noexcept;
   void computeAccelerations() noexcept;
-  void readVelocities(std::vector<btScalar>& into) const noexcept;
+  [[gnu::visibility("hidden")]] void readVelocities(std::vector<btScalar>& into) const noexcept;
   void setVelocities(ArmCoordinates& into) const noexcept;
   void applyMomenta(const std::vector<RigidState>& links, ArmCoordinates& to) noexcept;
   void factorise() noexcept;
