@@ -166,7 +166,7 @@ double StressSite::measurePins() const {
       return Vec3(now.p_W + now.q_WB * (start.q_WB.conjugate() * (joint.pin_W - start.p_W)));
     };
     const Vec3 other_W = joint.b ? place(*joint.b) : joint.pin_W;
-    // Of the host's coordinates, in pose and frames; a float has a grain of 60 um at 1 km.
+    // The host's coordinates round, in pose and frames: a float has a grain of 60 um at 1 km.
     const double rounding = 4.0 * SIMD_EPSILON * (joint.pin_W.norm() + 1.0);
     largest = std::max(largest, (place(joint.a) - other_W).norm() - rounding);
   }

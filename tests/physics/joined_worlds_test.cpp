@@ -42,7 +42,7 @@ class SteadyDevice final : public HapticDevice {
   Vec3 p_W_, v_W_;
 };
 
-/// What a run showed.
+/// A run shows this.
 struct Motion {
   std::vector<std::vector<Vec3>> places_W;  ///< by look and body
   std::vector<Vec3> forces_W;               ///< on the hand, by tick

@@ -59,7 +59,7 @@ struct JointHost {
     site->share(body);
   }
 
-  /// Of all links: kinetic and potential [J].
+  /// Adds up the kinetic and potential energy of all links [J].
   [[nodiscard]] double energy() const {
     double sum = 0.0;
     for (const btRigidBody* link : links) {

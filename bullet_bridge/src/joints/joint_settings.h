@@ -49,7 +49,7 @@ struct JointAxis {
   double target = 0.0;  ///< of a servo [m or rad]
   double gain = 0.0;    ///< speed per error of a servo or turn [1/s]; speed per force of a spring
 
-  // Of a drive, which mends `share` of the error of its speed in a step of the host.
+  // A drive mends `share` of the error of its speed in a step of the host.
   double share = 1.0;
   double most = HUGE_VAL;  ///< greatest speed that it wants [m/s or rad/s]
   double mass = 0.0;       ///< that it moves [kg or kg m^2]

@@ -167,7 +167,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
       const bool is_mesh = isWholeMesh(model, touch);
       double allowance = allowance_[touch.sphere] + way;
       if (!touch.obstacle) allowance += allowance_[touch.other] + way;
-      // Of what has many parts or pieces only those nearby have room.
+      // Parts and pieces are many; only those nearby have room.
       if ((is_mesh || touch.part) && !couldMeet(model, touch, states_, allowance)) return;
       if (!is_mesh) return addTouch(model, touch);
       forEachPiece(model, touch, states_, allowance,
