@@ -123,6 +123,11 @@ struct ArmHost {
         &arm(), link, static_cast<btScalar>(low), static_cast<btScalar>(high)));
     host.multi()->addMultiBodyConstraint(constraints.back().get());
   }
+  /// Puts the hand beside the first joint of a chain, where nothing touches it.
+  void putHandBeside() {
+    const double radius = SiteSettings().hip_radius;
+    device.sample.hip.p_W = Vec3(0.0, 0.02 + radius + 0.0008, 0.0);
+  }
   void start(const SiteSettings& settings = {}) {
     site = std::make_unique<Site>(settings, *host.world, device);
   }
@@ -174,7 +179,9 @@ struct ArmHost {
   std::unique_ptr<Site> site;
 };
 
-/// A chain of equal links along x, about y, each 0.2 m long.
+inline constexpr double kLink = 0.2, kMass = 0.5;  ///< of a chain's link [m, kg]
+
+/// A chain of equal links along x, about y.
 [[nodiscard]] inline std::vector<ArmLinkPlan> makeChain(std::size_t count) {
   std::vector<ArmLinkPlan> plan(count);
   for (std::size_t i = 1; i < count; ++i) plan[i].e = Vec3(0.1, 0.0, 0.0);

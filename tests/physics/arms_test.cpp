@@ -23,16 +23,11 @@ using test::ArmHost;
 using test::ArmLinkPlan;
 using test::byWidth;
 using test::FakeDevice;
+using test::kLink;
+using test::kMass;
 using test::makeChain;
 
-constexpr double kLink = 0.2, kMass = 0.5;  // of a chain's link
 constexpr double kUnit = kMass * ArmHost::kGravity * kLink;
-
-/// Puts the hand beside the first joint of a chain, where nothing touches it.
-void putHandBeside(ArmHost& host) {
-  const double radius = SiteSettings().hip_radius;
-  host.device.sample.hip.p_W = Vec3(0.0, 0.02 + radius + 0.0008, 0.0);
-}
 
 class ArmsAtRates : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(HostRates, ArmsAtRates, ::testing::Values(60.0, 240.0, 1000.0));
@@ -41,7 +36,7 @@ TEST_P(ArmsAtRates, AFreeArmKeepsItsEnergy) {
   for (const std::size_t count : {1U, 2U, 7U}) {
     ArmHost host;
     host.build(makeChain(count));
-    putHandBeside(host);
+    host.putHandBeside();
     host.start();
     const double before = host.energy();
     double worst = 0.0;
@@ -155,7 +150,7 @@ struct RigidChain {
 TEST_P(ArmsAtRates, MoveLikeTheSameBodiesInHinges) {
   ArmHost host;
   host.build(makeChain(3));
-  putHandBeside(host);
+  host.putHandBeside();
   host.start();
   RigidChain chain(3);
   chain.device.sample = host.device.sample;
@@ -202,150 +197,6 @@ TEST(Arms, ALinkAtRestWeighsOnTheHand) {
   host.start();
   host.run(4.0, 60.0);
   EXPECT_NEAR(host.device.force_W.z(), -kMass * ArmHost::kGravity * 0.1 / 0.15, 0.02);
-}
-
-TEST_P(ArmsAtRates, AJointStopsAtItsLimit) {
-  ArmHost host;
-  host.build(makeChain(1));
-  host.addLimit(0, -0.5, 0.5);
-  putHandBeside(host);
-  host.start();
-  double farthest = 0.0;
-  for (int i = 0; i < static_cast<int>(2.0 * GetParam()); ++i) {
-    host.step(1.0 / GetParam());
-    farthest = std::max(farthest, std::abs(host.q(0)));
-  }
-  EXPECT_LT(farthest, 0.5 + byWidth(1e-7, 1e-5));
-  EXPECT_NEAR(host.q(0), 0.5, byWidth(1e-7, 1e-5));
-}
-
-TEST_P(ArmsAtRates, AMotorReachesItsSpeedByItsForce) {
-  constexpr double kSpeed = 0.7, kForce = 5.0;  // [m/s], [N]
-  ArmHost host(Vec3::Zero());
-  ArmLinkPlan slide;
-  slide.joint = btMultibodyLink::ePrismatic;
-  slide.axis = Vec3::UnitX();
-  slide.d = Vec3::Zero();
-  host.build({slide});
-  btMultiBodyJointMotor& motor = host.addMotor(0, kSpeed, kForce / GetParam());
-  host.device.sample.hip.p_W = Vec3(0.3, 0.05, 0.0);
-  SiteSettings settings;
-  settings.host_stall = 1.0;  // the drawer stays near
-  host.start(settings);
-  host.step(1.0 / GetParam());
-  EXPECT_NEAR(static_cast<double>(motor.getAppliedImpulse(0)), kForce / GetParam(),
-              byWidth(1e-9, 1e-5) * kForce);
-  for (int i = 1; i < static_cast<int>(std::lround(0.5 * GetParam())); ++i)
-    host.step(1.0 / GetParam());
-  const double until = kSpeed * kMass / kForce;
-  EXPECT_EQ(host.site->counters().promoted, 1U);
-  EXPECT_NEAR(host.q(0), kSpeed * (0.5 - 0.5 * until), byWidth(1e-5, 2e-5));
-  EXPECT_NEAR(host.u(0), kSpeed, byWidth(1e-9, 1e-5));
-  EXPECT_NEAR(static_cast<double>(motor.getMaxAppliedImpulse()), kForce / GetParam(), 1e-6);
-}
-
-// PyBullet's position control: gains of 0.1 and 1.
-TEST_P(ArmsAtRates, AMotorHoldsALinkInPlace) {
-  ArmHost host;
-  host.build(makeChain(2));
-  for (int i = 0; i < 2; ++i)
-    host.addMotor(i, 0.0, 100.0 / GetParam()).setPositionTarget(btScalar(0.3), btScalar(0.1));
-  putHandBeside(host);
-  host.start();
-  host.run(3.0, GetParam());
-  EXPECT_NEAR(host.q(0), 0.3, byWidth(1e-7, 1e-5));
-  EXPECT_NEAR(host.q(1), 0.3, byWidth(1e-7, 1e-5));
-}
-
-// A velocity gain below 1 makes a spring with a damper out of the motor.
-TEST_P(ArmsAtRates, ASoftMotorSagsAsInBullet) {
-  std::array<double, 2> q{};
-  for (const bool has_site : {false, true}) {
-    ArmHost host;
-    host.build(makeChain(1));
-    btMultiBodyJointMotor& motor = host.addMotor(0, 0.0, 100.0 / GetParam());
-    motor.setPositionTarget(0, btScalar(4.0 / GetParam()));
-    motor.setVelocityTarget(0, btScalar(20.0 / GetParam()));
-    putHandBeside(host);
-    if (has_site) host.start();
-    host.run(3.0, GetParam());
-    q[has_site ? 1 : 0] = host.q(0);
-  }
-  EXPECT_GT(q[0], 0.01);
-  EXPECT_NEAR(q[1], q[0], 1e-3 * q[0] + byWidth(0.0, 1e-5));
-}
-
-TEST_P(ArmsAtRates, TorqueOfTheHostTurnsAJoint) {
-  constexpr double kTorque = 0.02;  // [N m]
-  ArmHost host(Vec3::Zero());
-  host.build(makeChain(1));
-  putHandBeside(host);
-  host.start();
-  host.run(0.1, GetParam());
-  for (int i = 0; i < static_cast<int>(std::lround(0.5 * GetParam())); ++i) {
-    host.arm().addJointTorque(0, btScalar(kTorque));
-    host.step(1.0 / GetParam());
-  }
-  const double inertia = static_cast<double>(host.arm().getLinkInertia(0).y()) + kMass * 0.1 * 0.1;
-  EXPECT_EQ(host.site->counters().promoted, 1U);
-  EXPECT_NEAR(host.u(0), 0.5 * kTorque / inertia, byWidth(1e-9, 1e-5));
-  EXPECT_NEAR(host.q(0), 0.125 * kTorque / inertia, byWidth(1e-9, 1e-4));
-}
-
-// Forces on links, and torques of joints with several degrees of freedom.
-TEST_P(ArmsAtRates, ForcesOfTheHostMoveLinks) {
-  ArmHost host(Vec3::Zero());
-  std::vector<ArmLinkPlan> plan(3);
-  for (ArmLinkPlan& link : plan) link.parent = -1;
-  plan[0].joint = btMultibodyLink::ePrismatic;
-  plan[0].d = Vec3::Zero();
-  plan[1].joint = btMultibodyLink::eSpherical;
-  plan[1].e = Vec3(0.0, 0.3, 0.0);
-  plan[2].joint = btMultibodyLink::ePlanar;
-  plan[2].axis = Vec3::UnitZ();
-  plan[2].d = Vec3::Zero();
-  plan[2].e = Vec3(0.0, -0.3, 0.0);
-  host.build(plan);
-  host.device.sample.hip.p_W = Vec3(0.0, 0.15, 0.1);
-  SiteSettings settings;
-  settings.host_stall = 0.2;  // all are near
-  host.start(settings);
-  host.run(0.1, GetParam());
-  for (int i = 0; i < static_cast<int>(std::lround(0.5 * GetParam())); ++i) {
-    host.arm().addLinkForce(0, btVector3(0, 1, 0));
-    host.arm().addJointTorqueMultiDof(1, 0, btScalar(0.001));  // about the link's own length
-    host.arm().addJointTorqueMultiDof(2, 0, btScalar(0.01));
-    host.step(1.0 / GetParam());
-  }
-  const auto velocity = [&](int link) {
-    return static_cast<double>(host.arm().getJointVelMultiDof(link)[0]);
-  };
-  const auto inertia = [&](int link, int axis) {
-    return static_cast<double>(host.arm().getLinkInertia(link)[axis]);
-  };
-  EXPECT_EQ(host.site->counters().promoted, 3U);
-  EXPECT_NEAR(velocity(0), 0.5 / kMass, byWidth(1e-9, 1e-5));
-  EXPECT_NEAR(velocity(1), 0.5 * 0.001 / inertia(1, 0), byWidth(1e-7, 1e-4));
-  EXPECT_NEAR(velocity(2), 0.5 * 0.01 / inertia(2, 2), byWidth(1e-7, 1e-4));
-}
-
-// Bullet solves this contact: the body has a law of friction that the island does not know.
-TEST(Arms, AStrangerOnALinkMeetsItsMotor) {
-  ArmHost host;
-  host.build(makeChain(1));
-  btMultiBodyJointMotor& motor = host.addMotor(0, 0.0, 100.0 / 60.0);
-  btRigidBody& cube = host.host.addCube(0.2, Vec3(0.12, 0.0, 0.042));
-  cube.setAnisotropicFriction(btVector3(1, btScalar(0.5), 1));
-  cube.setSleepingThresholds(0, 0);
-  putHandBeside(host);
-  host.start();
-  host.run(2.0, 60.0);
-  EXPECT_EQ(host.site->counters().promoted, 1U);
-  EXPECT_LT(std::abs(host.q(0)), 1e-4);
-  EXPECT_NEAR(fromBullet(cube.getCenterOfMassPosition()).z(), 0.04, 1e-4);
-  const double torque = ArmHost::kGravity * (kMass * 0.1 + 0.2 * 0.12);
-  EXPECT_NEAR(60.0 * static_cast<double>(motor.getAppliedImpulse(0)), -torque, 0.01 * torque);
-  EXPECT_EQ(motor.getMaxAppliedImpulse(), btScalar(100.0 / 60.0));
 }
 
 TEST_P(ArmsAtRates, AFingerPushesACubeAsInManySteps) {
@@ -440,7 +291,7 @@ TEST_P(ArmsAtRates, FarAwayStayBulletsToTheBit) {
 TEST_P(ArmsAtRates, FollowAHostThatSetsThem) {
   ArmHost host;
   host.build(makeChain(2));
-  putHandBeside(host);
+  host.putHandBeside();
   host.start();
   host.run(0.3, GetParam());
   host.arm().setJointPos(0, btScalar(0.2));
@@ -460,7 +311,7 @@ TEST_P(ArmsAtRates, FollowAHostThatSetsThem) {
 TEST(Arms, ComeBackAfterTheHostRemovedThem) {
   ArmHost host;
   host.build(makeChain(3));
-  putHandBeside(host);
+  host.putHandBeside();
   host.start();
   host.run(0.2, 60.0);
   EXPECT_EQ(host.site->counters().promoted, 3U);
@@ -484,7 +335,7 @@ TEST(Arms, LeaveTheIslandWithTheHand) {
   ArmHost host;
   host.build(makeChain(2));
   host.addMotor(0, 0.1, 5.0);
-  putHandBeside(host);
+  host.putHandBeside();
   host.start();
   host.run(0.1, 60.0);
   EXPECT_EQ(host.site->counters().promoted, 2U);
@@ -503,7 +354,7 @@ TEST(Arms, StayBulletsWithConstraintsOfOtherKinds) {
   host.constraints.push_back(std::make_unique<btMultiBodyPoint2Point>(
       &host.arm(), 1, nullptr, btVector3(btScalar(0.1), 0, 0), btVector3(btScalar(0.4), 0, 0)));
   host.host.multi()->addMultiBodyConstraint(host.constraints.back().get());
-  putHandBeside(host);
+  host.putHandBeside();
   host.start();
   host.run(0.2, 60.0);
   EXPECT_EQ(host.site->counters().promoted, 0U);
@@ -517,7 +368,7 @@ TEST(Arms, StayBulletsWithConstraintsOfOtherKinds) {
 TEST(Arms, StayBulletsWithoutRoom) {
   ArmHost host;
   host.build(makeChain(3));
-  putHandBeside(host);
+  host.putHandBeside();
   SiteSettings settings;
   settings.max_neighbours = 2;
   host.start(settings);
