@@ -47,27 +47,20 @@ inline double glide(double t, double from, double to) {
   return x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
 }
 
-/// A host at 60 Hz with a floor at z = 0, one shared body on it and a hand.
-struct GripHost {
-  BulletRig rig{Vec3(0, 0, -9.81)};
-  ScriptedDevice device;
+/// A host at 60 Hz with a user whose `Device` follows a path, at full strength.
+template <typename Device>
+struct HandHost {
+  BulletRig rig;
+  Device device;
   SiteSettings settings;
-  btRigidBody* body = nullptr;
   std::optional<Site> site;
   double now = 0.0;
 
-  explicit GripHost(ScriptedDevice::Path path) : device(std::move(path)) {
-    rig.addBody(rig.makeShape<btBoxShape>(btVector3(5, 5, 1)), 0.0, Vec3(0, 0, -1));
+  HandHost(typename Device::Path path, const Vec3& gravity)
+      : rig(gravity), device(std::move(path)) {
     settings.peers = 1;
     settings.passivity.enabled = false;
     settings.max_slew = std::numeric_limits<double>::infinity();
-  }
-  /// The body lies on the floor, or has its centre at the height `z` [m].
-  void start(double mass, const Vec3& half = Vec3::Constant(0.02), double z = 0.0) {
-    const Vec3 p_W(0, 0, z > 0.0 ? z : half.z());
-    body = &rig.addBody(rig.makeShape<btBoxShape>(toBullet(half)), mass, p_W);
-    site.emplace(settings, rig.world, device);
-    site->share(*body);
   }
   /// Steps the host; `look` sees each step.
   void run(
@@ -78,6 +71,22 @@ struct GripHost {
       now += kHostStep;
       look();
     }
+  }
+};
+
+/// A floor at z = 0, one shared body on it and a hand.
+struct GripHost : HandHost<ScriptedDevice> {
+  btRigidBody* body = nullptr;
+
+  explicit GripHost(ScriptedDevice::Path path) : HandHost(std::move(path), Vec3(0, 0, -9.81)) {
+    rig.addBody(rig.makeShape<btBoxShape>(btVector3(5, 5, 1)), 0.0, Vec3(0, 0, -1));
+  }
+  /// The body lies on the floor, or has its centre at the height `z` [m].
+  void start(double mass, const Vec3& half = Vec3::Constant(0.02), double z = 0.0) {
+    const Vec3 p_W(0, 0, z > 0.0 ? z : half.z());
+    body = &rig.addBody(rig.makeShape<btBoxShape>(toBullet(half)), mass, p_W);
+    site.emplace(settings, rig.world, device);
+    site->share(*body);
   }
   /// In Bullet, and in the island, which is at the end of its latest tick.
   [[nodiscard]] Vec3 at() const { return fromBullet(body->getWorldTransform().getOrigin()); }

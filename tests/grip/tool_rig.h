@@ -44,30 +44,10 @@ class WristDevice final : public HapticDevice {
 };
 
 /// A host at 60 Hz with a hand that has a wrist.
-struct ToolHost {
-  BulletRig rig;
-  WristDevice device;
-  SiteSettings settings;
-  std::optional<Site> site;
-  double now = 0.0;
-
+struct ToolHost : HandHost<WristDevice> {
   explicit ToolHost(WristDevice::Path path, const Vec3& gravity = Vec3::Zero())
-      : rig(gravity), device(std::move(path)) {
-    settings.peers = 1;
-    settings.passivity.enabled = false;
-    settings.max_slew = std::numeric_limits<double>::infinity();
-  }
+      : HandHost(std::move(path), gravity) {}
   void attach() { site.emplace(settings, rig.world, device); }
-  /// Steps the host; `look` sees each step.
-  void run(
-      double duration, const std::function<void()>& look = [] {}) {
-    const double end = now + duration;
-    while (now < end - 1e-9) {
-      rig.step(kHostStep);
-      now += kHostStep;
-      look();
-    }
-  }
 };
 
 }  // namespace tandem::test

@@ -127,7 +127,7 @@ struct TwoToolHosts {
   std::array<std::unique_ptr<ToolHost>, 2> hosts;
   std::array<std::unique_ptr<SimulatedLink>, 2> links;
 
-  explicit TwoToolHosts(const WristDevice::Path& path, double delay, bool is_tool = true) {
+  explicit TwoToolHosts(const WristDevice::Path& path, double delay) {
     Impairments network;
     network.delay = delay;
     std::tie(links[0], links[1]) = makeSimulatedLinks(network, 4096);
@@ -143,7 +143,7 @@ struct TwoToolHosts {
       btRigidBody& stick = host.rig.addBody(host.rig.makeShape<btBoxShape>(toBullet(kStick)), kMass,
                                             Vec3(0, 0, 0.08));
       stick.setGravity(btVector3(0, 0, 0));
-      if (is_tool) host.site->shareTool(stick, PeerId{1});
+      host.site->shareTool(stick, PeerId{1});
       host.site->connect(PeerId{2 - i}, *links[i], i == 0 ? away(0.0).p_W : path(0.0).p_W);
     }
   }
