@@ -1,8 +1,10 @@
 #include "scenario/keys.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <vector>
 
 #include "tandem/coordination/scheme.h"
 
@@ -40,37 +42,40 @@ std::uint64_t readSeed(const Place& place, const toml::node& node) {
   return static_cast<std::uint64_t>(*value);
 }
 
-void readWaypoints(HandScenario& hand, const Place& place, const toml::node& node) {
-  const FieldRange range{-1e6, 1e6, false, "a list of [t, x, y, z] with growing t"};
-  const toml::array* rows = node.as_array();
-  if (!rows || rows->empty()) refuse(place, node, range.allowed);
-  hand.waypoints.clear();
-  for (const toml::node& row : *rows) {
-    const toml::array* values = row.as_array();
-    if (!values || values->size() != 4) refuse(place, node, range.allowed);
-    std::array<double, 4> point{};
-    for (std::size_t i = 0; i < 4; ++i) point[i] = readNumber(place, (*values)[i], range);
-    if (!hand.waypoints.empty() && !(point[0] > hand.waypoints.back()[0]))
-      refuse(place, node, range.allowed);
-    hand.waypoints.push_back(point);
-  }
-}
-
-void readGrips(HandScenario& hand, const Place& place, const toml::node& node) {
-  const FieldRange range{0.0, 3600.0, false, "a list of [from, to] with growing times"};
+/// Lists of `count` numbers each. An empty list is one too.
+template <std::size_t count>
+std::vector<std::array<double, count>> readRows(const Place& place, const toml::node& node,
+                                                const FieldRange& range) {
   const toml::array* rows = node.as_array();
   if (!rows) refuse(place, node, range.allowed);
-  hand.grips.clear();
-  double last = 0.0;
+  std::vector<std::array<double, count>> read;
   for (const toml::node& row : *rows) {
     const toml::array* values = row.as_array();
-    if (!values || values->size() != 2) refuse(place, node, range.allowed);
-    const double from = readNumber(place, (*values)[0], range);
-    const double to = readNumber(place, (*values)[1], range);
+    if (!values || values->size() != count) refuse(place, node, range.allowed);
+    std::array<double, count>& numbers = read.emplace_back();
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = readNumber(place, (*values)[i], range);
+  }
+  return read;
+}
+
+std::vector<std::array<double, 4>> readWaypoints(const Place& place, const toml::node& node) {
+  const FieldRange range{-1e6, 1e6, false, "a list of [t, x, y, z] with growing t"};
+  const auto waypoints = readRows<4>(place, node, range);
+  if (waypoints.empty()) refuse(place, node, range.allowed);
+  for (std::size_t i = 1; i < waypoints.size(); ++i)
+    if (!(waypoints[i][0] > waypoints[i - 1][0])) refuse(place, node, range.allowed);
+  return waypoints;
+}
+
+std::vector<std::array<double, 2>> readGrips(const Place& place, const toml::node& node) {
+  const FieldRange range{0.0, 3600.0, false, "a list of [from, to] with growing times"};
+  const auto grips = readRows<2>(place, node, range);
+  double last = 0.0;
+  for (const auto& [from, to] : grips) {
     if (!(from >= last && to > from)) refuse(place, node, range.allowed);
-    hand.grips.push_back({from, to});
     last = to;
   }
+  return grips;
 }
 
 void readBoxes(std::vector<NeighbourBox>& boxes, const Place& place, const toml::node& node) {
@@ -227,31 +232,16 @@ Keys makeHandKeys(std::size_t i) {
     return [ i, member ](auto& s) -> auto& { return s.hands[i].*member; };
   };
   using Hand = HandScenario;
-  ScenarioKey waypoints =
-      makeKey({site + "hand_waypoints",
-               "of `minimum_jerk`: list of `[t, x, y, z]`, displacements from the start", "s, m",
-               "", "none"},
-              "growing t");
-  waypoints.read = [i](S& s, const Place& place, const toml::node& node) {
-    readWaypoints(s.hands[i], place, node);
-  };
-  waypoints.show = [i](const S& s) -> nlohmann::json { return s.hands[i].waypoints; };
-  ScenarioKey grips =
-      makeKey({site + "grips",
-               "times in which the hand holds the cube that it touches: list of `[from, to]`", "s",
-               "no guide, island, handoff", "none"},
-              "growing times");
-  grips.read = [i](S& s, const Place& place, const toml::node& node) {
-    readGrips(s.hands[i], place, node);
-  };
-  grips.show = [i](const S& s) -> nlohmann::json { return s.hands[i].grips; };
   Keys keys = {
       choiceKey({site + "hand", "the kind of hand"}, {"constant", "sine", "minimum_jerk", "csv"},
                 hand(&Hand::kind)),
       vectorKey({site + "hand_force", "the constant force, or the amplitude of the sine", "N"},
                 hand(&Hand::force)),
       numberKey({site + "hand_frequency", "of the sine", "Hz"}, kPositive, hand(&Hand::frequency)),
-      waypoints,
+      valueKey({site + "hand_waypoints",
+                "of `minimum_jerk`: list of `[t, x, y, z]`, displacements from the start", "s, m",
+                "", "none"},
+               "growing t", &readWaypoints, hand(&Hand::waypoints)),
       numberKey({site + "hand_stiffness", "with which that hand holds the device", "N/m"},
                 kNotNegative, hand(&Hand::stiffness)),
       numberKey({site + "hand_damping", "of that hold", "N s/m"}, kNotNegative,
@@ -264,7 +254,10 @@ Keys makeHandKeys(std::size_t i) {
       vectorKey({site + "start_offset", "of the device, from \"just in contact on the axis\"", "m",
                  "off the axis: no guide"},
                 hand(&Hand::start_offset)),
-      grips,
+      valueKey({site + "grips",
+                "times in which the hand holds the cube that it touches: list of `[from, to]`", "s",
+                "no guide, island, handoff", "none"},
+               "growing times", &readGrips, hand(&Hand::grips)),
   };
   for (ScenarioKey& key : keys) key.is_own = true;
   return keys;
