@@ -139,8 +139,7 @@ void ArmJoints::look(const std::vector<Member>& members) {
   has_next_ = !isAsWanted();
   if (!has_next_) return next_.clear();
   // The thread that ticks allocates nothing.
-  ends_.reserve(kMaxJoints);
-  acting_.reserve(kMaxJoints);
+  acting_.reserve();
   if (states_.capacity() < most_links) states_.reserve(most_links);
 }
 
@@ -219,7 +218,7 @@ bool ArmJoints::take() noexcept {
       if (!before.is_gone && before.link == joint.link && before.ends.b == joint.ends.b)
         joint = before;
   joints_.swap(next_);
-  listActing();
+  acting_.list(joints_);
   return true;
 }
 
@@ -265,44 +264,35 @@ bool ArmJoints::refresh(const PayWindow& window) noexcept {
 
 /// Reads a motor or limit of the host's world as it is now.
 void ArmJoints::readConstraint(btMultiBodyConstraint& constraint, double dt) noexcept {
-  for (Joint& joint : joints_) {
-    const HostArm& arm = joint.link->arm();
-    const std::size_t place = joint.link->number();
-    if (joint.is_gone || &arm.body() != constraint.getMultiBodyA() ||
-        static_cast<int>(place) - 1 != constraint.getLinkA())
-      continue;
-    JointAxis* axis = findFreeAxis(arm.model().links()[place].kind, joint.settings);
-    if (!axis) return;
-    if (typeid(constraint) == typeid(btMultiBodyJointMotor)) {
-      const auto& motor = static_cast<const btMultiBodyJointMotor&>(constraint);
-      const double impulse = static_cast<double>(motor.getMaxAppliedImpulse());
-      if (!(impulse > 0.0)) return;
-      joint.motor = &constraint;
-      axis->motor = JointMotor::kDrive;
-      axis->force = impulse / dt;
-      axis->speed = read(motor, MotorFields::kSpeed);
-      axis->target = read(motor, MotorFields::kPlace);
-      axis->gain = read(motor, MotorFields::kP) * read(motor, MotorFields::kErp) / dt;
-      axis->share = read(motor, MotorFields::kD);
-      axis->most = read(motor, MotorFields::kMost);
-      axis->mass = arm.findMass(place);
-    } else {
-      const auto& limit = static_cast<const btMultiBodyJointLimitConstraint&>(constraint);
-      const double low = static_cast<double>(limit.getLowerBound());
-      const double high = static_cast<double>(limit.getUpperBound());
-      if (low > high || !(constraint.getMaxAppliedImpulse() > 0)) return;
-      joint.limit = &constraint;
-      const bool is_first = axis->isFree();
-      axis->low = is_first ? low : std::max(axis->low, low);
-      axis->high = is_first ? high : std::min(axis->high, high);
-    }
-    return;
+  Joint* joint = findJoint(constraint);
+  JointAxis* axis = joint ? findFreeAxis(joint->kind, joint->settings) : nullptr;
+  if (!axis || !(constraint.getMaxAppliedImpulse() > 0)) return;
+  if (typeid(constraint) == typeid(btMultiBodyJointMotor)) {
+    const auto& motor = static_cast<const btMultiBodyJointMotor&>(constraint);
+    joint->motor = &constraint;
+    axis->motor = JointMotor::kDrive;
+    axis->force = static_cast<double>(motor.getMaxAppliedImpulse()) / dt;
+    axis->speed = read(motor, MotorFields::kSpeed);
+    axis->target = read(motor, MotorFields::kPlace);
+    axis->gain = read(motor, MotorFields::kP) * read(motor, MotorFields::kErp) / dt;
+    axis->share = read(motor, MotorFields::kD);
+    axis->most = read(motor, MotorFields::kMost);
+    axis->mass = joint->link->arm().findMass(joint->link->number());
+  } else {
+    const auto& limit = static_cast<const btMultiBodyJointLimitConstraint&>(constraint);
+    const double low = static_cast<double>(limit.getLowerBound());
+    const double high = static_cast<double>(limit.getUpperBound());
+    if (low > high) return;
+    joint->limit = &constraint;
+    const bool is_first = axis->isFree();
+    axis->low = is_first ? low : std::max(axis->low, low);
+    axis->high = is_first ? high : std::min(axis->high, high);
   }
 }
 
 void ArmJoints::note(std::size_t joint, const JointRow& row, double impulse, double h,
                      bool is_first) noexcept {
-  Given& given = joints_[acting_[joint]].given;
+  Given& given = joints_[acting_.places()[joint]].given;
   if (is_first) given.time += h;
   given.linear_W += impulse * row.n_W;
   given.angular_W += impulse * row.turn_a_W;
@@ -317,19 +307,15 @@ void ArmJoints::note(std::size_t joint, const JointRow& row, double impulse, dou
       given.limit[1] += impulse;
       break;
     case JointRowKind::kElastic:
-      joints_[acting_[joint]].owed -= impulse;
+      joints_[acting_.places()[joint]].owed -= impulse;
       break;
   }
 }
 
 void ArmJoints::tell(double dt) noexcept {
   for (Joint& joint : joints_) {
-    if (joint.is_gone) continue;
-    // A joint at rest goes on with its last forces.
-    if (joint.given.time > 0.0) joint.told = joint.given;
-    joint.given = {};
+    if (joint.is_gone || !turnToGiven(joint)) continue;
     const Given& given = joint.told;
-    if (!(given.time > 0.0)) continue;
     const double scale = dt / given.time;  // ticks do not end with the host's steps
     if (joint.motor) tellImpulse(*joint.motor, 0, scale * given.motor + joint.by_bullet);
     for (int row = 0; joint.limit && row < joint.limit->getNumRows(); ++row)
@@ -364,18 +350,8 @@ void ArmJoints::endTorques() noexcept {
 }
 
 void ArmJoints::drop(BodyIndex body) noexcept {
-  for (Joint& joint : joints_) joint.is_gone |= joint.ends.a == body || joint.ends.b == body;
-  listActing();
-}
-
-void ArmJoints::listActing() noexcept {
-  ends_.clear();
-  acting_.clear();
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (joints_[i].is_gone) continue;
-    ends_.push_back(joints_[i].ends);
-    acting_.push_back(i);
-  }
+  endJointsOf(body, joints_);
+  acting_.list(joints_);
 }
 
 double ArmJoints::rounding() const noexcept {
@@ -384,7 +360,7 @@ double ArmJoints::rounding() const noexcept {
 
 void ArmJoints::evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                          std::vector<JointRow>& rows) noexcept {
-  const Joint& wanted = joints_[acting_[joint]];
+  const Joint& wanted = joints_[acting_.places()[joint]];
   wanted.copy.evaluate(a, wanted.ends.b == kStanding ? wanted.ground : b, rows);
 }
 

@@ -8,6 +8,7 @@
 #include "arms/host_arm.h"
 #include "arms/pay_window.h"
 #include "coordination/src/island/joint_source.h"
+#include "joints/acting_joints.h"
 #include "joints/joint_copy.h"
 
 class btMultiBodyConstraint;
@@ -46,7 +47,9 @@ class ArmJoints final : public JointSource {
   void tell(double dt) noexcept;
   void drop(BodyIndex body) noexcept;
 
-  [[nodiscard]] const std::vector<JointEnds>& joints() const noexcept override { return ends_; }
+  [[nodiscard]] const std::vector<JointEnds>& joints() const noexcept override {
+    return acting_.ends();
+  }
   [[nodiscard]] double rounding() const noexcept override;
   void evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                 std::vector<JointRow>& rows) noexcept override;
@@ -84,15 +87,13 @@ class ArmJoints final : public JointSource {
   [[nodiscard]] Joint* findJoint(btMultiBodyConstraint& constraint) noexcept;
   void readConstraint(btMultiBodyConstraint& constraint, double dt) noexcept;
   void tellFeedback(const Joint& joint) noexcept;
-  void listActing() noexcept;
 
   btMultiBodyDynamicsWorld* host_;
   std::vector<Joint> joints_, next_;
   bool has_next_ = false;
   std::vector<Off> off_;
-  std::vector<JointEnds> ends_;      ///< of joints that have not gone
-  std::vector<std::size_t> acting_;  ///< by the same index: place in joints_
-  std::vector<RigidState> states_;   ///< working memory
+  ActingJoints acting_;
+  std::vector<RigidState> states_;  ///< working memory
 };
 
 }  // namespace tandem

@@ -43,8 +43,7 @@ void HostJoints::look(const Find& find) {
   for (Joint& joint : next_)
     joint.copy = std::make_unique<JointCopy>(*joint.host, readSolver(host_, HostSolver().dt));
   // The thread that ticks allocates nothing.
-  ends_.reserve(kMaxJoints);
-  acting_.reserve(kMaxJoints);
+  acting_.reserve();
   elder_.reserve(kMaxJoints);
   elders_rows_.reserve(kMostJointRows);
 }
@@ -129,7 +128,7 @@ bool HostJoints::refresh(double dt) noexcept {
 
 void HostJoints::note(std::size_t joint, const JointRow& row, double impulse, double h,
                       bool is_first) noexcept {
-  Given& given = joints_[acting_[joint]].given;
+  Given& given = joints_[acting_.places()[joint]].given;
   if (is_first) given.time += h;
   given.impulse[row.number] += impulse;
   given.last = row.number;
@@ -141,12 +140,8 @@ void HostJoints::note(std::size_t joint, const JointRow& row, double impulse, do
 bool HostJoints::tell(double dt) noexcept {
   bool is_any_broken = false;
   for (Joint& joint : joints_) {
-    if (joint.is_gone) continue;
-    // A joint at rest goes on with its last forces.
-    if (joint.given.time > 0.0) joint.told = joint.given;
-    joint.given = {};
+    if (joint.is_gone || !turnToGiven(joint)) continue;
     const Given& given = joint.told;
-    if (!(given.time > 0.0)) continue;
     const double scale = dt / given.time;  // ticks do not end with the host's steps
     joint.host->internalSetAppliedImpulse(static_cast<btScalar>(scale * given.impulse[given.last]));
     if (btJointFeedback* feedback = joint.host->getJointFeedback()) {
@@ -168,27 +163,24 @@ bool HostJoints::tell(double dt) noexcept {
 
 bool HostJoints::dropGone() noexcept {
   const auto isGone = [&](std::size_t place) { return joints_[place].is_gone; };
-  if (std::none_of(acting_.begin(), acting_.end(), isGone)) return false;
+  if (std::none_of(acting_.places().begin(), acting_.places().end(), isGone)) return false;
   listActing();
   return true;
 }
 
 void HostJoints::drop(BodyIndex body) noexcept {
-  for (Joint& joint : joints_) joint.is_gone |= joint.ends.a == body || joint.ends.b == body;
+  endJointsOf(body, joints_);
   static_cast<void>(dropGone());
 }
 
 void HostJoints::listActing() noexcept {
-  ends_.clear();
-  acting_.clear();
+  acting_.list(joints_);
+  const std::vector<std::size_t>& places = acting_.places();
   elder_.clear();
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (joints_[i].is_gone) continue;
-    std::size_t elder = acting_.size();
-    for (std::size_t j = 0; j < acting_.size(); ++j)
-      if (haveSameEnds(joints_[acting_[j]], joints_[i])) elder = j;
-    ends_.push_back(joints_[i].ends);
-    acting_.push_back(i);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::size_t elder = i;
+    for (std::size_t j = 0; j < i; ++j)
+      if (haveSameEnds(joints_[places[j]], joints_[places[i]])) elder = j;
     elder_.push_back(elder);
   }
 }
@@ -210,7 +202,7 @@ void HostJoints::evaluate(std::size_t joint, const RigidState& a, const RigidSta
 
 void HostJoints::ask(std::size_t joint, const RigidState& a, const RigidState& b,
                      std::vector<JointRow>& rows) const noexcept {
-  const Joint& asked = joints_[acting_[joint]];
+  const Joint& asked = joints_[acting_.places()[joint]];
   asked.copy->evaluate(asked.ends.a == kStanding ? asked.fixed_a : a,
                        asked.ends.b == kStanding ? asked.fixed_b : b, rows);
 }
@@ -221,13 +213,13 @@ void HostJoints::leaveOutHeld(std::size_t joint, const RigidState& a, const Rigi
   const auto isRigid = [](const JointRow& row) {
     return row.law == JointLaw::kLocked && row.stiffness == 0.0 && row.damping == 0.0;
   };
-  const Joint& own = joints_[acting_[joint]];
+  const Joint& own = joints_[acting_.places()[joint]];
   // One body is enough, and it must be one that moves.
   const btRigidBody* const looked_at = own.ends.a == kStanding ? own.b : own.a;
   HeldWays held;
   for (std::size_t j = joint; elder_[j] != j;) {
     j = elder_[j];
-    const Joint& other = joints_[acting_[j]];
+    const Joint& other = joints_[acting_.places()[j]];
     const bool is_turned = other.a != own.a;
     elders_rows_.clear();
     ask(j, is_turned ? b : a, is_turned ? a : b, elders_rows_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coordination/src/island/joint_source.h"
+#include "joints/acting_joints.h"
 #include "joints/joint_copy.h"
 
 class btDiscreteDynamicsWorld;
@@ -17,9 +18,9 @@ namespace tandem {
 
 /// Joints of the host's world between bodies that the island holds.
 ///
-/// The island solves them on private copies. What one of two joints between the same bodies holds,
-/// the other leaves out (HeldWays). They are off while Bullet's solver runs, and the host
-/// finds them on as it left them. Joints that it removes, or switches off, end at once.
+/// The island solves them on private copies. Joints are off while Bullet's solver runs, and the
+/// host finds them on as it left them. Those that it removes, or switches off, end at once. What
+/// one of two joints between the same bodies holds, the other leaves out (HeldWays).
 class HostJoints final : public JointSource {
  public:
   /// Index of a body in the island; none: the island does not hold it.
@@ -59,7 +60,9 @@ class HostJoints final : public JointSource {
   void drop(BodyIndex body) noexcept;
   /// @}
 
-  [[nodiscard]] const std::vector<JointEnds>& joints() const noexcept override { return ends_; }
+  [[nodiscard]] const std::vector<JointEnds>& joints() const noexcept override {
+    return acting_.ends();
+  }
   [[nodiscard]] double rounding() const noexcept override;
   void evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                 std::vector<JointRow>& rows) noexcept override;
@@ -97,11 +100,10 @@ class HostJoints final : public JointSource {
   btDiscreteDynamicsWorld& host_;
   std::vector<Joint> joints_, next_;
   bool has_next_ = false;
-  int looked_at_ = 0;                ///< joints of the host's world at the last look()
-  std::vector<JointEnds> ends_;      ///< of joints that have not gone
-  std::vector<std::size_t> acting_;  ///< by the same index: place in joints_
-  std::vector<std::size_t>
-      elder_;  ///< by the same index: the one before between its bodies, or itself
+  int looked_at_ = 0;  ///< joints of the host's world at the last look()
+  ActingJoints acting_;
+  /// By the island's index: the joint before between the same bodies, or itself.
+  std::vector<std::size_t> elder_;
   std::vector<JointRow> elders_rows_;
 };
 
