@@ -111,7 +111,7 @@ void NeighbourSearch::visitNear(const NeighbourSeed& seed, double horizon, Take 
   Visitor visitor([&](btCollisionObject* object) {
     if (isFound(*object) || !mayBeFound(*object)) return;
     if (seed.filter && !seed.filter->meets(filterOf(*object))) return;
-    const RigidState& now = readVelocities(*object);
+    const RigidState now = readVelocities(*object);
     const NeighbourSeed other = makeSeed(*object, now.v_W);
     const double speed = (seed.v_W - other.v_W).norm() + computeTurningSpeed(now.w_W, other);
     const double gap = computeGap(seed, other);
@@ -248,17 +248,17 @@ void NeighbourSearch::explainArms(std::vector<std::string>& lines) const {
 }
 
 /// Velocities of a rigid body, or of a link with this collider.
-const RigidState& NeighbourSearch::readVelocities(const btCollisionObject& object) const {
+RigidState NeighbourSearch::readVelocities(const btCollisionObject& object) const {
   if (const Arm* arm = findArm(object)) {
     const int link = static_cast<const btMultiBodyLinkCollider&>(object).m_link;
     return arm->states[static_cast<std::size_t>(link + 1)];
   }
-  velocities_ = {};
+  RigidState now;
   if (const btRigidBody* body = btRigidBody::upcast(&object)) {
-    velocities_.v_W = fromBullet(body->getLinearVelocity());
-    velocities_.w_W = fromBullet(body->getAngularVelocity());
+    now.v_W = fromBullet(body->getLinearVelocity());
+    now.w_W = fromBullet(body->getAngularVelocity());
   }
-  return velocities_;
+  return now;
 }
 
 bool NeighbourSearch::isFound(const btCollisionObject& object) const {

@@ -105,7 +105,7 @@ class NeighbourSearch {
   void takeArm(const Arm& arm);
   [[nodiscard]] Arm readArm(btMultiBody& body) const;
   [[nodiscard]] const Arm* findArm(const btCollisionObject& object) const;
-  [[nodiscard]] const RigidState& readVelocities(const btCollisionObject& object) const;
+  [[nodiscard]] RigidState readVelocities(const btCollisionObject& object) const;
   [[nodiscard]] bool isFound(const btCollisionObject& object) const;
   [[nodiscard]] bool wasHeld(const btCollisionObject& object) const;
   void takeChainsOfExcluded();
@@ -123,7 +123,6 @@ class NeighbourSearch {
   std::vector<const btRigidBody*> excluded_;
   std::vector<btRigidBody*> held_, found_;
   mutable std::vector<Arm> arms_;  ///< that came near since the last find() began
-  mutable RigidState velocities_;  ///< working memory of readVelocities()
   std::vector<btMultiBody*> held_arms_, found_arms_;
   std::size_t taken_ = 0;  ///< places of all that is found
   std::vector<NeighbourSeed> wave_;
