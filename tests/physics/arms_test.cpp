@@ -395,6 +395,26 @@ TEST(Arms, TheHandFeelsALinkOfACompound) {
   EXPECT_GT(host.device.force_W.z(), 0.5);
 }
 
+// A compound does not tell its owner that a child has moved.
+TEST(Arms, TheHandFeelsThatAPartOfALinkHasMoved) {
+  ArmHost host(Vec3::Zero());
+  host.build(makeChain(1));
+  auto& compound = host.host.makeShape<btCompoundShape>();
+  auto& box = host.host.makeBox(Vec3(0.1, 0.02, 0.02));
+  box.setMargin(btScalar(0.001));
+  compound.addChildShape(btTransform::getIdentity(), &box);
+  host.arm().getLink(0).m_collider->setCollisionShape(&compound);
+  host.addMotor(0, 0.0, 10.0);
+  const double radius = SiteSettings().hip_radius;
+  host.device.sample.hip.p_W = Vec3(0.15, 0.0, 0.02 + radius - 0.001);
+  host.start();
+  host.run(0.2, 60.0);
+  EXPECT_GT(host.device.force_W.z(), 0.5);
+  compound.updateChildTransform(0, toBullet(Vec3(0.0, 0.0, -0.002), Quat::Identity()));
+  host.run(0.2, 60.0);
+  EXPECT_EQ(host.device.force_W, Vec3(Vec3::Zero()));
+}
+
 TEST(Arms, TheHandFeelsAFixedBase) {
   ArmHost host;
   host.build(makeChain(1), 0.0, Vec3(0.05, 0.05, 0.05));

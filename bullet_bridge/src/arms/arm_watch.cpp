@@ -2,8 +2,6 @@
 
 #include <typeinfo>
 
-#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
-#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
@@ -11,7 +9,6 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "arms/arm_model.h"
-#include "bodies/body_look.h"
 #include "bodies/equal_bits.h"
 #include "world/world_lookup.h"
 
@@ -33,18 +30,6 @@ bool isLinkGround(const btMultiBody& body, int link) {
 bool isKnown(const btMultiBodyConstraint& constraint) {
   const std::type_info& type = typeid(constraint);
   return type == typeid(btMultiBodyJointMotor) || type == typeid(btMultiBodyJointLimitConstraint);
-}
-
-/// A shape that the island can hold, or none.
-bool hasPlainShape(const btCollisionObject& collider) {
-  const btCollisionShape& shape = *collider.getCollisionShape();
-  return shape.isConvex() || shape.isCompound();
-}
-
-bool hasPlainSurface(const btCollisionObject& collider) {
-  return !collider.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION |
-                                          btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION) &&
-         (collider.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING) == 0;
 }
 
 const char* findLinkObstacle(const btMultiBody& body, int link) {
@@ -121,17 +106,7 @@ ArmLook::Link ArmLook::look(const btMultiBody& body, int link) noexcept {
   now.mass = link < 0 ? body.getBaseMass() : body.getLinkMass(link);
   now.inertia = link < 0 ? body.getBaseInertia() : body.getLinkInertia(link);
   now.collider = colliderOf(body, link);
-  if (!now.collider) return now;
-  if (const btBroadphaseProxy* proxy = now.collider->getBroadphaseHandle()) {
-    now.broadphase_id = proxy->m_uniqueId;
-    now.group = proxy->m_collisionFilterGroup;
-    now.mask = proxy->m_collisionFilterMask;
-  }
-  now.flags = now.collider->getCollisionFlags();
-  const btCollisionShape* shape = now.collider->getCollisionShape();
-  now.shape = shape;
-  now.margin = shape->getMargin();
-  now.scaling = shape->getLocalScaling();
+  if (now.collider) now.look = ColliderLook::at(*now.collider);
   return now;
 }
 
@@ -140,11 +115,8 @@ bool ArmLook::isOf(const btMultiBody& body) const noexcept {
   if (is_fixed_ != body.hasFixedBase()) return false;
   for (std::size_t place = 0; place < links_.size(); ++place) {
     const Link &known = links_[place], now = look(body, static_cast<int>(place) - 1);
-    const bool is_same =
-        known.collider == now.collider && known.broadphase_id == now.broadphase_id &&
-        known.group == now.group && known.mask == now.mask && known.flags == now.flags &&
-        known.shape == now.shape && known.mass == now.mass && known.margin == now.margin &&
-        equalBits(known.inertia, now.inertia) && equalBits(known.scaling, now.scaling);
+    const bool is_same = known.collider == now.collider && known.look == now.look &&
+                         known.mass == now.mass && equalBits(known.inertia, now.inertia);
     if (!is_same) return false;
   }
   return true;

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <LinearMath/btVector3.h>
+
+#include "bodies/collider_look.h"
 
 class btDiscreteDynamicsWorld;
 class btMultiBody;
@@ -42,10 +43,9 @@ class ArmLook {
  private:
   struct Link {
     const btCollisionObject* collider = nullptr;
-    int broadphase_id = -1, group = 0, mask = 0, flags = 0;
-    const void* shape = nullptr;
-    btScalar mass = 0, margin = 0;
-    btVector3 inertia{0, 0, 0}, scaling{1, 1, 1};
+    ColliderLook look;  ///< of the collider
+    btScalar mass = 0;
+    btVector3 inertia{0, 0, 0};
   };
   [[nodiscard]] static Link look(const btMultiBody& body, int link) noexcept;
 

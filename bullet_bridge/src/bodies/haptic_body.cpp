@@ -137,7 +137,7 @@ void HapticBody::restoreMassProps() {
 bool HapticBody::hasWeightOfItsWorld() const noexcept {
   // A host may have deleted the shape by now: read nothing of it.
   const btBroadphaseProxy* proxy = body_.getBroadphaseHandle();
-  return proxy && proxy->m_uniqueId != look_.broadphase_id &&
+  return proxy && proxy->m_uniqueId != look_.collider.broadphase_id &&
          world_index_ != original_.world_index && hasWorldGravity();
 }
 

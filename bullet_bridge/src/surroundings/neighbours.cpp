@@ -66,13 +66,6 @@ class Visitor final : public btBroadphaseAabbCallback {
   Visit visit_;
 };
 
-/// True if the island knows all laws of the body's contact. Others stay Bullet's.
-bool hasPlainContact(const btRigidBody& body) {
-  return !body.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION |
-                                      btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION) &&
-         (body.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING) == 0;
-}
-
 template <typename Body>
 bool contains(const std::vector<Body*>& bodies, const Body* body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
@@ -315,8 +308,7 @@ bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
 
 /// True if the island could hold a moving body, but for its joints.
 bool NeighbourSearch::mayBeHeld(const btRigidBody& body) const {
-  const btCollisionShape& shape = *body.getCollisionShape();
-  return isMovedByForces(body) && hasPlainContact(body) && (shape.isConvex() || shape.isCompound());
+  return isMovedByForces(body) && hasPlainSurface(body) && hasPlainShape(body);
 }
 
 }  // namespace tandem
