@@ -133,20 +133,24 @@ damping = 0
 }
 
 // Boxes are inserted and removed before the pushed one, some in touch with it. Nothing falls
-// through the floor, and nothing is thrown: without Tandem the box ends 0.47 m away.
-TEST(IgnitionHost, HasBodiesThatComeAndGo) {
+// through the floor, and nothing is thrown: without Tandem the box ends 0.47 m away. What the box
+// does on a visitor's edge depends on the last digit of the force, so several are tried.
+class VisitedIgnitionHost : public testing::TestWithParam<const char*> {};
+
+TEST_P(VisitedIgnitionHost, HasBodiesThatComeAndGo) {
   const TempFolder folder;
-  const Outcome outcome =
-      runPreloaded(TANDEM_IGNITION_HOST, inScene("visitors"), folder.write("visitors.toml", R"(
+  const std::string config = std::string(R"(
 object = "box 0.1 0.1 0.05"
 mass = 0.2
 [contact]
 damping = 20
 [device]
 start = [-0.06, 0, 0.025]
-force = [5, 0, 0]
 damping = 5
-)"));
+force = )") + "[" + GetParam() +
+                             ", 0, 0]\n";
+  const Outcome outcome = runPreloaded(TANDEM_IGNITION_HOST, inScene("visitors"),
+                                       folder.write("visitors.toml", config));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("shares moving body 5 of world 1: box 0.1 0.1 0.05, 0.2 kg"),
             std::string::npos)
@@ -157,12 +161,13 @@ damping = 5
   const std::vector<Row> rows = readRows(outcome.out);
   ASSERT_EQ(rows.size(), 9u);
   for (const Row& row : rows) {
-    EXPECT_NEAR(row.z, 0.025, 5e-3) << "at " << row.t;  // a corner may stand on a visitor's edge
-    EXPECT_NEAR(row.y, 0.0, 0.02) << "at " << row.t;
-    EXPECT_NEAR(row.x, 0.0, 0.1) << "at " << row.t;
+    EXPECT_GT(row.z, 0.024) << "at " << row.t;
+    EXPECT_LT(row.z, 0.08) << "at " << row.t;  // it may climb a visitor of 0.06 m
+    EXPECT_LT(std::hypot(row.x, row.y), 0.25) << "at " << row.t;  // pushed aside, but not thrown
   }
   EXPECT_GT(rows[2].x, 5e-3);
 }
+INSTANTIATE_TEST_SUITE_P(Forces, VisitedIgnitionHost, testing::Values("5", "5.001", "5.01"));
 
 }  // namespace
 }  // namespace tandem::test
