@@ -14,13 +14,16 @@ constexpr std::size_t kBlocksPerBody = 16;
 constexpr double kNearJacobian = 1e-5, kNearStiffness = 1e-2, kSmallStiffness = 1e-6;
 
 bool isNear(const Six& a, const Six& b) noexcept {
-  double change = 0.0, size = 0.0;
-  for (int i = 0; i < 6; ++i) {
-    const double d = a.at[i] - b.at[i];
-    change += d * d;
-    size += b.at[i] * b.at[i];
-  }
-  return change <= kNearJacobian * kNearJacobian * size;
+  Six change = a;
+  change.addScaled(-1.0, b);
+  return dot(change, change) <= kNearJacobian * kNearJacobian * dot(b, b);
+}
+
+Six combine(double n, double s, double t, const Six (&along)[3]) noexcept {
+  Six sum = along[0].scaled(n);
+  sum.addScaled(s, along[1]);
+  sum.addScaled(t, along[2]);
+  return sum;
 }
 
 bool isNear(const ContactJacobian& a, const ContactJacobian& b) noexcept {
@@ -77,18 +80,13 @@ bool ContactFactor::make(const std::vector<ContactJacobian>& J,
 /// Adds J^T D J.
 void ContactFactor::add(const ContactJacobian& J, const ContactStiffness& D) noexcept {
   const auto multiply = [&](const Six(&along)[3], Six(&result)[3]) {
-    for (int i = 0; i < 6; ++i) {
-      const double n = along[0].at[i], s = along[1].at[i], t = along[2].at[i];
-      result[0].at[i] = D.nn * n;
-      result[1].at[i] = D.sn * n + D.ss * s + D.st * t;
-      result[2].at[i] = D.tn * n + D.st * s + D.tt * t;
-    }
+    result[0] = along[0].scaled(D.nn);
+    result[1] = combine(D.sn, D.ss, D.st, along);
+    result[2] = combine(D.tn, D.st, D.tt, along);
   };
   const auto addTo = [](SixBySix& to, const Six(&along)[3], const Six(&stiff)[3]) {
     for (int c = 0; c < 6; ++c)
-      for (int r = 0; r < 6; ++r)
-        to.column[c].at[r] += along[0].at[r] * stiff[0].at[c] + along[1].at[r] * stiff[1].at[c] +
-                              along[2].at[r] * stiff[2].at[c];
+      to.column[c].add(combine(stiff[0].at[c], stiff[1].at[c], stiff[2].at[c], along));
   };
   Six D_a[3], D_b[3];
   multiply(J.of_a, D_a);

@@ -325,8 +325,9 @@ bool ContactSolver::factorise() noexcept {
 /// Adds J^T push to dx_.
 void ContactSolver::addPush(const ContactJacobian& J, const RigidRow::Local& push) noexcept {
   const auto add = [&](Six& to, const Six(&along)[3]) {
-    for (int i = 0; i < 6; ++i)
-      to.at[i] += push.n * along[0].at[i] + push.s * along[1].at[i] + push.t * along[2].at[i];
+    to.addScaled(push.n, along[0]);
+    to.addScaled(push.s, along[1]);
+    to.addScaled(push.t, along[2]);
   };
   add(dx_[static_cast<std::size_t>(J.a)], J.of_a);
   if (J.b >= 0) add(dx_[static_cast<std::size_t>(J.b)], J.of_b);
@@ -366,8 +367,7 @@ void ContactSolver::addMotions() noexcept {
 /// largest of a body [m/s].
 double ContactSolver::measureResidual() noexcept {
   for (std::size_t i = 0; i < x_.size(); ++i) {
-    dx_[i].setZero();
-    dx_[i].addScaled(-1.0, x_[i]);
+    dx_[i] = x_[i].scaled(-1.0);
   }
   for (std::size_t i = 0; i < points_.size(); ++i) addPush(J_[i], points_[i].P - points_[i].held);
   for (std::size_t i = 0; i < twists_.size(); ++i)
