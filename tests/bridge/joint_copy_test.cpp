@@ -217,6 +217,44 @@ TEST(JointCopy, RowsAreGradientsOfTheirWays) {
   }
 }
 
+// Speeds of rows at constant velocities, a moment before and after.
+TEST(JointCopy, TellsHowRowsBend) {
+  constexpr double kTime = 1e-5;  // [s]
+  std::cout << "seed " << kSeed << '\n';
+  Poses poses(kSeed);
+  int known = 0;
+  for (const JointCase& of : test::makeJointCases()) {
+    SCOPED_TRACE(of.name);
+    JointRig rig(of);
+    for (int i = 0; i < 50; ++i) {
+      RigidState a = JointRig::stateOf(rig.a), b = JointRig::stateOf(rig.b);
+      for (RigidState* state : {&a, &b}) {
+        poses.shake(*state, 0.3, 1.0);
+        state->v_W = poses.drawVector(1.0);
+        state->w_W = poses.drawVector(5.0);
+      }
+      const Rows before = evaluate(rig.copy, moved(a, -kTime), moved(b, -kTime));
+      const Rows after = evaluate(rig.copy, moved(a, kTime), moved(b, kTime));
+      for (const JointRow& row : evaluate(rig.copy, a, b)) {
+        if (!row.tells_bend) continue;
+        const auto speedOf = [&](const Rows& rows) {
+          for (const JointRow& other : rows)
+            if (other.number == row.number)
+              return other.n_W.dot(a.v_W - b.v_W) + other.turn_a_W.dot(a.w_W) +
+                     other.turn_b_W.dot(b.w_W);
+          return std::nan("");
+        };
+        const double rate = (speedOf(after) - speedOf(before)) / (2.0 * kTime);
+        if (std::isnan(rate)) continue;
+        EXPECT_NEAR(row.bend, rate, 1e-6) << "row " << row.number;
+        known += row.bend != 0.0;
+      }
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+  EXPECT_GT(known, 1000);
+}
+
 TEST(JointCopy, RowsKeepMomentum) {
   Poses poses(kSeed);
   for (const JointCase& of : test::makeJointCases()) {

@@ -8,6 +8,8 @@
 namespace tandem {
 namespace {
 
+using Goes = JointCoordinate::Goes;
+
 constexpr double kTurn = 2.0 * M_PI;
 
 constexpr double kMostForce = 1e12;  // of a motor without bound [N or N m]
@@ -16,6 +18,11 @@ constexpr double kMostForce = 1e12;  // of a motor without bound [N or N m]
 constexpr double kFastestDrive = 2e3;
 
 int numberOf(JointRowKind kind, int axis) { return 6 * static_cast<int>(kind) + axis; }
+
+/// The angle, turns more or less, that is nearest to 0.
+double takeTurnsOff(double angle) {
+  return std::abs(angle) <= M_PI ? angle : std::remainder(angle, kTurn);
+}
 
 /// The angle, a turn more or less, that is nearest to its range.
 double moveToRange(double angle, double low, double high) {
@@ -26,18 +33,54 @@ double moveToRange(double angle, double low, double high) {
   return angle;
 }
 
+/// Finds the rate of a row's speed while the bodies keep their velocities. A linear row's is
+///
+///   u  = n (v_a - v_b) + (r_a x n) w_a - (r_b x n) w_b
+///   u' = n' (v_a - v_b) + (r_a' x n + r_a x n') w_a - (r_b' x n + r_b x n') w_b
+///
+/// and an angular one's u' = turn' (w_a - w_b). Both are direction . vector, with the same vector
+/// for all directions that go with the same.
+class Bends {
+ public:
+  Bends(const RigidState& a, const RigidState& b, const PlainVec& r_a,
+        const PlainVec& r_b) noexcept {
+    const PlainVec w_a(a.w_W), w_b(b.w_W), v(Vec3(a.v_W - b.v_W));
+    const PlainVec rate_b = cross(w_b, r_b), rate_a = rate_b - v;
+    with_world_ = cross(w_a, rate_a) - cross(w_b, rate_b);
+    with_a_ = with_world_ + cross(v + cross(w_a, r_a) - rate_b, w_a);
+    turn_with_a_ = cross(w_a, w_b);
+  }
+
+  /// For a coordinate that does not go alone.
+  [[nodiscard]] const PlainVec& of(const JointCoordinate& coordinate) const noexcept {
+    if (coordinate.is_angular) return turn_with_a_;
+    return coordinate.goes == Goes::kWithA ? with_a_ : with_world_;
+  }
+
+ private:
+  PlainVec with_world_, with_a_, turn_with_a_;
+};
+
 /// Writes the rows of a joint at given poses.
 class RowWriter {
  public:
   RowWriter(const JointSettings& joint, const RigidState& a, const RigidState& b,
             std::vector<JointRow>& rows)
-      : joint_(joint), a_(a), b_(b), placed_(joint, a, b), rows_(rows) {}
+      : joint_(joint),
+        a_(a),
+        b_(b),
+        placed_(joint, a, b),
+        r_a_(Vec3(placed_.p_b - a.p_W)),
+        r_b_(Vec3(placed_.p_b - b.p_W)),
+        bends_(a, b, r_a_, r_b_),
+        rows_(rows) {}
 
   void writeAll() {
     if (joint_.kind == JointKind::kGear) return writeGear();
     const JointCoordinates coordinates = measureJoint(joint_, placed_);
     for (std::size_t i = 0; i < 6; ++i)
-      if (coordinates[i].is_there) writeAxis(static_cast<int>(i), coordinates[i], joint_.axes[i]);
+      if (coordinates[i].is_there && joint_.axes[i].acts())
+        writeAxis(static_cast<int>(i), coordinates[i], joint_.axes[i]);
   }
 
  private:
@@ -47,11 +90,13 @@ class RowWriter {
     row.number = 3;
     row.turn_a_W = a_.q_WB * joint_.a.p;
     row.turn_b_W = joint_.gear_ratio * (b_.q_WB * joint_.b.p);
+    row.tells_bend = true;  // An axis that turns about itself stays.
     rows_.push_back(row);
   }
 
   void writeAxis(int i, const JointCoordinate& coordinate, const JointAxis& axis) {
-    JointRow row = makeRow(coordinate);
+    JointRow row;
+    fill(coordinate, row);
     double q = axis.sense * coordinate.way;
     if (axis.counts_turns && i >= 3) q = axis.near + std::remainder(q - axis.near, kTurn);
     if (axis.isLocked()) {
@@ -62,6 +107,7 @@ class RowWriter {
       writeLimit(numberOf(JointRowKind::kHold, i), axis.sense, row, q - axis.low, axis);
       writeLimit(numberOf(JointRowKind::kHighLimit, i), -axis.sense, row, axis.high - q, axis);
     }
+    if (!axis.isDriven()) return;
     // Motors and springs act along axes of unit length.
     if (i >= 3) scaleRow(row, 1.0 / std::max(row.turn_a_W.norm(), 1e-9));
     if (axis.motor != JointMotor::kNone && !axis.isLocked()) writeMotor(i, row, q, axis);
@@ -71,23 +117,31 @@ class RowWriter {
 
   /// Both ends get a linear row's force at the same point, so no angular momentum is made. That
   /// of b lets n stay in the frame of a.
-  JointRow makeRow(const JointCoordinate& coordinate) const {
-    JointRow row;
-    row.n_W = coordinate.n_W;
-    row.turn_a_W = coordinate.turn_W + (placed_.p_b - a_.p_W).cross(coordinate.n_W);
-    row.turn_b_W = -coordinate.turn_W - (placed_.p_b - b_.p_W).cross(coordinate.n_W);
-    return row;
+  void fill(const JointCoordinate& coordinate, JointRow& row) const {
+    const PlainVec direction(coordinate.direction_W);
+    if (coordinate.is_angular) {
+      row.turn_a_W = coordinate.direction_W;
+      row.turn_b_W = -coordinate.direction_W;
+    } else {
+      row.n_W = coordinate.direction_W;
+      row.turn_a_W = cross(r_a_, direction).toVec3();
+      row.turn_b_W = cross(direction, r_b_).toVec3();
+    }
+    row.tells_bend = coordinate.goes != Goes::kAlone;
+    if (row.tells_bend) row.bend = dot(direction, bends_.of(coordinate));
   }
 
   static void scaleRow(JointRow& row, double factor) {
     row.n_W *= factor;
     row.turn_a_W *= factor;
     row.turn_b_W *= factor;
+    row.bend *= factor;
   }
 
-  void writeLock(int i, JointRow row, double way, const JointAxis& axis) {
+  void writeLock(int i, const JointRow& along, double way, const JointAxis& axis) {
+    JointRow& row = rows_.emplace_back(along);
     row.number = numberOf(JointRowKind::kHold, i);
-    row.way = i >= 3 ? std::remainder(way, kTurn) : way;
+    row.way = i >= 3 ? takeTurnsOff(way) : way;
     if (axis.hold_force < HUGE_VAL) {
       // A bounded pin pulls as Bullet's does: a part of the way per step of the host.
       row.law = JointLaw::kMotor;
@@ -97,7 +151,6 @@ class RowWriter {
     } else {
       soften(row, axis);
     }
-    rows_.push_back(row);
   }
 
   void writeLimit(int number, int sign, JointRow row, double way, const JointAxis& axis) {
@@ -208,6 +261,8 @@ class RowWriter {
   const RigidState& a_;
   const RigidState& b_;
   PlacedJoint placed_;
+  PlainVec r_a_, r_b_;  ///< from both bodies to the joint's place on b
+  Bends bends_;
   std::vector<JointRow>& rows_;
 };
 

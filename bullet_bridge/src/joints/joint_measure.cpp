@@ -6,17 +6,22 @@ namespace tandem {
 namespace {
 
 using Axes = Eigen::Matrix3d;
+using Goes = JointCoordinate::Goes;
 
-void measureLinear(const Vec3& n_W, const PlacedJoint& placed, JointCoordinate& out) {
-  out.is_there = true;
-  out.n_W = n_W;
-  out.way = n_W.dot(placed.p_a - placed.p_b);
+void measureLinear(const Vec3& n_W, Goes goes, const PlacedJoint& placed, JointCoordinate& out) {
+  out.setWay(n_W, n_W.dot(placed.p_a - placed.p_b), goes);
 }
 
 /// Both points are one. World axes do not change between poses, so Newton's rows stay good.
 void measurePin(const PlacedJoint& placed, JointCoordinates& out) {
   for (int i = 0; i < 3; ++i)
-    measureLinear(Vec3::Unit(i), placed, out[static_cast<std::size_t>(i)]);
+    measureLinear(Vec3::Unit(i), Goes::kWithWorld, placed, out[static_cast<std::size_t>(i)]);
+}
+
+/// Along the axes of a.
+void measureShift(const PlacedJoint& placed, JointCoordinates& out) {
+  for (int i = 0; i < 3; ++i)
+    measureLinear(placed.axes_a.col(i), Goes::kWithA, placed, out[static_cast<std::size_t>(i)]);
 }
 
 /// Tilts of `main` of both frames against each other, about the other two axes of a.
@@ -26,25 +31,26 @@ void measureTilt(const PlacedJoint& placed, int main, JointCoordinate& first,
   const int next = (main + 1) % 3, last = (main + 2) % 3;
   const Vec3 p = placed.axes_a.col(std::min(next, last)),
              q = placed.axes_a.col(std::max(next, last));
-  first.setAngle(p, -p.dot(error));
-  second.setAngle(q, -q.dot(error));
+  first.setAngle(p, -p.dot(error), Goes::kWithA);
+  second.setAngle(q, -q.dot(error), Goes::kWithA);
 }
 
 void measureHinge(const JointSettings& joint, const PlacedJoint& placed, JointCoordinates& out) {
   if (joint.holds_points) measurePin(placed, out);
   measureTilt(placed, 2, out[3], out[4]);
+  if (!joint.axes[5].acts()) return;
   const Vec3 swing = placed.axes_b.col(1);
   const double angle = std::atan2(swing.dot(placed.axes_a.col(0)), swing.dot(placed.axes_a.col(1)));
-  out[5].setAngle(placed.axes_a.col(2), angle);
+  out[5].setAngle(placed.axes_a.col(2), angle, Goes::kWithA);
 }
 
-void measureSlider(const PlacedJoint& placed, JointCoordinates& out) {
-  for (int i = 0; i < 3; ++i)
-    measureLinear(placed.axes_a.col(i), placed, out[static_cast<std::size_t>(i)]);
+void measureSlider(const JointSettings& joint, const PlacedJoint& placed, JointCoordinates& out) {
+  measureShift(placed, out);
+  measureTilt(placed, 0, out[4], out[5]);
+  if (!joint.axes[3].acts()) return;
   const Vec3 side = placed.axes_b.col(1);
   const double angle = std::atan2(side.dot(placed.axes_a.col(2)), side.dot(placed.axes_a.col(1)));
-  out[3].setAngle(placed.axes_a.col(0), -angle);
-  measureTilt(placed, 0, out[4], out[5]);
+  out[3].setAngle(placed.axes_a.col(0), -angle, Goes::kWithA);
 }
 
 /// Euler angles of frame a in frame b, in turn about i, j and k: the axis i is of b, k of a, and
@@ -84,15 +90,14 @@ JointCoordinates measureJoint(const JointSettings& joint, const PlacedJoint& pla
       measureHinge(joint, placed, out);
       break;
     case JointKind::kSlider:
-      measureSlider(placed, out);
+      measureSlider(joint, placed, out);
       break;
     case JointKind::kConeTwist:
       measurePin(placed, out);
       measureSwing(joint, placed, out);
       break;
     case JointKind::kSixDof:
-      for (int i = 0; i < 3; ++i)
-        measureLinear(placed.axes_a.col(i), placed, out[static_cast<std::size_t>(i)]);
+      measureShift(placed, out);
       measureEuler(joint.order, placed, out);
       break;
     case JointKind::kGear:

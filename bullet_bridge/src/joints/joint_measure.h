@@ -1,42 +1,62 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
+#include "coordination/src/geometry/plain_vec.h"
 #include "joints/joint_settings.h"
 
 namespace tandem {
 
 /// A joint's frames in W.
 struct PlacedJoint {
-  PlacedJoint(const JointSettings& joint, const RigidState& state_a, const RigidState& state_b)
-      : p_a(state_a.p_W + state_a.q_WB * joint.a.p),
-        p_b(state_b.p_W + state_b.q_WB * joint.b.p),
-        axes_a(state_a.q_WB.toRotationMatrix() * joint.a.axes),
-        axes_b(state_b.q_WB.toRotationMatrix() * joint.b.axes) {}
+  PlacedJoint(const JointSettings& joint, const RigidState& a, const RigidState& b) noexcept {
+    place(joint.a, a, p_a, axes_a);
+    place(joint.b, b, p_b, axes_b);
+  }
 
   Vec3 p_a, p_b;
   Eigen::Matrix3d axes_a, axes_b;
+
+ private:
+  static void place(const JointFrame& frame, const RigidState& state, Vec3& p_W,
+                    Eigen::Matrix3d& axes_W) noexcept {
+    const PlainRotation R_WB(state.q_WB);
+    p_W = state.p_W + R_WB.toWorld(PlainVec(frame.p)).toVec3();
+    for (int i = 0; i < 3; ++i)
+      R_WB.toWorld(PlainVec(frame.axes.data() + 3 * i)).store(axes_W.data() + 3 * i);
+  }
 };
 
-/// A coordinate of a joint at given poses. Linear ones have n, angular ones `turn`: the
-/// exact gradient of `way`, which a gets with this sign, and b with the other.
+/// A coordinate of a joint at given poses. Its direction is the exact gradient of `way`: along a
+/// linear one, about an angular one. a gets it with this sign, and b with the other.
 struct JointCoordinate {
-  bool is_there = false;
-  Vec3 n_W = Vec3::Zero();
-  Vec3 turn_W = Vec3::Zero();
-  double way = 0.0;  ///< [m or rad]; its rate is u
+  /// What its direction goes with.
+  enum class Goes : std::uint8_t { kAlone, kWithWorld, kWithA };
 
-  void setAngle(const Vec3& axis_W, double angle) noexcept {
+  bool is_there = false, is_angular = false;
+  Goes goes = Goes::kAlone;
+  Vec3 direction_W;  ///< valid if it is there
+  double way;        ///< [m or rad]; its rate is u
+
+  void setWay(const Vec3& n_W, double its_way, Goes goes_with) noexcept {
     is_there = true;
-    turn_W = axis_W;
-    way = angle;
+    is_angular = false;
+    goes = goes_with;
+    direction_W = n_W;
+    way = its_way;
+  }
+  void setAngle(const Vec3& axis_W, double angle, Goes goes_with = Goes::kAlone) noexcept {
+    setWay(axis_W, angle, goes_with);
+    is_angular = true;
   }
 };
 
 using JointCoordinates = std::array<JointCoordinate, 6>;
 
-/// Measures the coordinates of a joint other than a gear. Ways are exact gradients where all
-/// locked coordinates are 0; elsewhere those of pins and tilts differ by the error.
+/// Measures the coordinates of a joint other than a gear, angles only of axes that act. Ways are
+/// exact gradients where all locked coordinates are 0; elsewhere those of pins and tilts differ by
+/// the error.
 [[nodiscard]] JointCoordinates measureJoint(const JointSettings& joint,
                                             const PlacedJoint& placed) noexcept;
 

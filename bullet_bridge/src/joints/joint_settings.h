@@ -65,6 +65,12 @@ struct JointAxis {
   [[nodiscard]] bool isLocked() const noexcept { return low == high; }
   [[nodiscard]] bool isFree() const noexcept { return low > high; }
   void lock() noexcept { low = high = 0.0; }
+  /// False: nothing ever acts along it.
+  [[nodiscard]] bool acts() const noexcept { return !isFree() || isDriven(); }
+  /// True if more than a range acts.
+  [[nodiscard]] bool isDriven() const noexcept {
+    return motor != JointMotor::kNone || has_spring || push != 0.0;
+  }
   [[nodiscard]] bool operator==(const JointAxis&) const noexcept = default;
 };
 

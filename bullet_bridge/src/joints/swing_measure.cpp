@@ -43,7 +43,7 @@ void measureFixed(const PlacedJoint& placed, JointCoordinates& out) {
   const Vec3 error = placed.axes_a.col(0).cross(placed.axes_b.col(0));
   for (const std::size_t i : {1u, 2u}) {
     const Vec3 axis = placed.axes_a.col(static_cast<int>(i));
-    out[i + 3].setAngle(axis, -axis.dot(error));
+    out[i + 3].setAngle(axis, -axis.dot(error), JointCoordinate::Goes::kWithA);
   }
 }
 

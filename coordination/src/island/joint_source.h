@@ -32,6 +32,10 @@ struct JointRow {
   /// Locked: way of a beside b that is off [m or rad]; its rate is u. Limit: way that is left;
   /// below 0 it is past the stop. Motor: unused.
   double way = 0.0;
+  /// Rate of u while both ends keep their velocities [m/s^2 or rad/s^2]. Where the row does not
+  /// tell it, the island finds it from the row at later poses.
+  double bend = 0.0;
+  bool tells_bend = false;
   double speed = 0.0;   ///< a motor's wanted u [m/s or rad/s]; else 0
   double bounce = 0.0;  ///< restitution of a limit
   /// Of a locked row or a limit: 0 for both makes it rigid. Else its force along the row is
