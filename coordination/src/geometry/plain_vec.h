@@ -72,6 +72,11 @@ class PlainRotation {
             zx_ * v.x + zy_ * v.y + zz_ * v.z};
   }
 
+  /// The axes of B in W.
+  [[nodiscard]] PlainVec axisX() const noexcept { return {xx_, yx_, zx_}; }
+  [[nodiscard]] PlainVec axisY() const noexcept { return {xy_, yy_, zy_}; }
+  [[nodiscard]] PlainVec axisZ() const noexcept { return {xz_, yz_, zz_}; }
+
  private:
   double xx_ = 1.0, xy_ = 0.0, xz_ = 0.0;
   double yx_ = 0.0, yy_ = 1.0, yz_ = 0.0;

@@ -211,16 +211,10 @@ void ContactSolver::setUpPoint(std::size_t index) noexcept {
   ContactJacobian& J = J_[index];
   J.a = row.a->place;
   J.b = row.b->ready ? row.b->place : -1;
-  const auto fill = [](const RigidMover& mover, const PlainVec& direction, const PlainVec& arm,
-                       double sign, Six& along) {
-    multiplyEach(sign * mover.root_mass_W, direction).store(along.at);
-    const PlainVec turn = sign * arm;
-    PlainVec(dot(mover.root_x, turn), dot(mover.root_y, turn), dot(mover.root_z, turn))
-        .store(along.at + 3);
-  };
   for (int i = 0; i < 3; ++i) {
-    fill(*row.a, row.direction(i), row.armOfA(i), 1.0, J.of_a[i]);
-    if (J.b >= 0) fill(*row.b, row.direction(i), row.armOfB(i), -1.0, J.of_b[i]);
+    const PlainVec& direction = row.direction(i);
+    J.of_a[i] = row.a->roots.scale(direction, row.armOfA(i));
+    if (J.b >= 0) J.of_b[i] = row.b->roots.scale(-1.0 * direction, -1.0 * row.armOfB(i));
   }
   PointLaw& law = points_[index];
   law.setStiffness(J, kStiffness);
@@ -246,9 +240,7 @@ void ContactSolver::setUpTwist(std::size_t index) noexcept {
   for (int i = 0; i < 3; ++i) {
     const PlainVec& axis = row.direction(i);
     const auto fill = [&](const RigidMover& mover, double sign, Six& along) {
-      along.setZero();
-      (sign * PlainVec(dot(mover.root_x, axis), dot(mover.root_y, axis), dot(mover.root_z, axis)))
-          .store(along.at + 3);
+      along = mover.roots.scale(PlainVec(), sign * axis);
       w[i] += sign * dot(axis, mover.w);
     };
     fill(*row.a, 1.0, J.of_a[i]);
@@ -382,8 +374,8 @@ double ContactSolver::measureLargest(const std::vector<Six>& changes) const noex
   double most = 0.0;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const RigidMover& mover = *bodies_[i];
-    const PlainVec dv = multiplyEach(mover.root_mass_W, PlainVec(changes[i].at));
-    const PlainVec dw = mover.rootTurn(PlainVec(changes[i].at + 3));
+    const PlainVec dv = mover.roots.linear(changes[i]);
+    const PlainVec dw = mover.roots.angular(changes[i]);
     const double square = std::max(dot(dv, dv), mover.radius_squared * dot(dw, dw));
     if (!(square <= most)) most = square;
   }
@@ -488,8 +480,8 @@ void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps,
   }
   for (std::size_t i = 0; i < x_.size(); ++i) {
     RigidMover& mover = *bodies_[i];
-    mover.shift = mover.shift + multiplyEach(mover.root_mass_W, PlainVec(x_[i].at));
-    mover.turn = mover.turn + mover.rootTurn(PlainVec(x_[i].at + 3));
+    mover.shift = mover.shift + mover.roots.linear(x_[i]);
+    mover.turn = mover.turn + mover.roots.angular(x_[i]);
   }
 }
 

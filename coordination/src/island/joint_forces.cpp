@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "island/joint_hold.h"
+
 namespace tandem {
 namespace {
 
@@ -11,24 +13,22 @@ namespace {
 constexpr double kCompliance = 1e-11;
 constexpr int kMaxIterations = 4;
 /// Error of an acceleration that is none, beside the largest.
-constexpr double kSettled = 1e-10;
+constexpr double kSettled = 1e-9;
 /// Acceleration that no joint gives: that of a whip's end at 300 m/s and 0.1 m [m/s^2].
 constexpr double kMostAcceleration = 1e6;
 /// Angular speed that stands for a linear one of 1 m/s [rad/s].
 constexpr double kTurnOfWay = 10.0;
 
-constexpr std::size_t kMostRows = 6 * kMaxJoints;
-/// Entries of a row's skyline, on average: those of a wide tree.
-constexpr std::size_t kEntriesPerRow = 48;
+/// Joints with more rows that hold are rare.
+constexpr std::size_t kMostPanels = kMaxJoints + kMaxJoints / 4;
+/// Blocks of a panel, on average: those of a wide tree.
+constexpr std::size_t kBlocksPerPanel = 8;
 
-/// Speed of a row, or its rate, by those of both ends.
-template <typename Linear, typename Angular>
-double along(const JointRow& row, BodyIndex a, BodyIndex b, Linear linear,
-             Angular angular) noexcept {
-  double sum = 0.0;
-  if (a != kStanding) sum += row.n_W.dot(linear(a)) + row.turn_a_W.dot(angular(a));
-  if (b != kStanding) sum += row.turn_b_W.dot(angular(b)) - row.n_W.dot(linear(b));
-  return sum;
+const RigidState kNowhere;
+
+/// Speed of a row.
+double measureSpeed(const JointRow& row, const RigidState& a, const RigidState& b) noexcept {
+  return row.n_W.dot(a.v_W - b.v_W) + row.turn_a_W.dot(a.w_W) + row.turn_b_W.dot(b.w_W);
 }
 
 }  // namespace
@@ -39,17 +39,17 @@ JointForces::JointForces(std::size_t body_count, std::size_t max_joints)
       is_end_(body_count),
       moved_(body_count),
       at_(max_joints > 0 ? body_count : 0),
-      matrix_(max_joints > 0 ? kMostRows : 0, max_joints > 0 ? kEntriesPerRow * kMostRows : 0),
+      matrix_(max_joints > 0 ? kMostPanels : 0, max_joints > 0 ? kBlocksPerPanel * kMostPanels : 0),
       force_(max_joints * static_cast<std::size_t>(kMostJointRows)) {
   if (max_joints == 0) return;
   joints_.reserve(max_joints);
-  first_row_.reserve(max_joints);
+  first_panel_.reserve(max_joints);
   for (auto* bodies : {&ends_, &bodies_}) bodies->reserve(body_count);
   movers_.reserve(body_count);
-  rows_.reserve(kMostRows);
-  part_.reserve(kMostRows);
+  panels_.reserve(kMostPanels);
+  part_.reserve(kMostPanels);
   for (auto* rows : {&now_, &later_}) rows->reserve(static_cast<std::size_t>(kMostJointRows));
-  x_.reserve(body_count);
+  for (auto* motions : {&x_, &pushed_}) motions->reserve(body_count);
 }
 
 void JointForces::choose(const IslandModel& model, const std::vector<char>& moved) noexcept {
@@ -72,7 +72,10 @@ void JointForces::choose(const IslandModel& model, const std::vector<char>& move
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!isMoved(all[i].a) && !isMoved(all[i].b)) continue;
     if (!model.isJoinedNow(all[i].a, all[i].b)) continue;
-    joints_.push_back({i, all[i].a, all[i].b, 0});
+    Joint& joint = joints_.emplace_back();
+    joint.index = i;
+    joint.a = all[i].a;
+    joint.b = all[i].b;
     addEnd(all[i].a);
     addEnd(all[i].b);
   }
@@ -135,17 +138,90 @@ void JointForces::orderJoints() noexcept {
     std::size_t first = 0;
     while (first < i && !shareBody(joints_[i], joints_[first])) ++first;
     joints_[i].first = first;
+    joints_[i].block_a = blockOf(joints_[i].a);
+    joints_[i].block_b = blockOf(joints_[i].b);
   }
 }
 
+const RigidState& JointForces::stateOf(BodyIndex body) const noexcept {
+  return body == kStanding ? kNowhere : at_[static_cast<std::size_t>(body)].state;
+}
+
 void JointForces::solve() noexcept {
+  setUpMovers();
+  gather();
+  x_ = pushed_;
+  if (!panels_.empty() && factorise()) iterate();
+  accelerate();
+}
+
+void JointForces::setUpMovers() noexcept {
   movers_.clear();
-  for (const BodyIndex b : bodies_)
-    movers_.emplace_back(model_->bodies[static_cast<std::size_t>(b)], end(b).state);
-  gather(chooseMoment());
-  if (rows_.empty()) return;
-  lookAtAccelerations();
-  if (factorise()) iterate();
+  for (const BodyIndex b : bodies_) {
+    const ModelBody& body = model_->bodies[static_cast<std::size_t>(b)];
+    movers_.push_back({{body, PlainRotation(stateOf(b).q_WB)},
+                       body.inverse_mass,
+                       body.bounding_radius * body.bounding_radius,
+                       body.factors.areEven()});
+  }
+}
+
+/// Asks for all rows, and lets those push whose force is known.
+void JointForces::gather() noexcept {
+  panels_.clear();
+  first_panel_.clear();
+  pushed_.assign(bodies_.size(), Six());
+  moment_ = -1.0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    first_panel_.push_back(panels_.size());
+    gather(j);
+  }
+}
+
+void JointForces::gather(std::size_t j) noexcept {
+  const Joint& joint = joints_[j];
+  const RigidState &a = stateOf(joint.a), &b = stateOf(joint.b);
+  now_.clear();
+  source_->evaluate(joint.index, a, b, now_);
+  measureBends(joint);
+  for (const JointRow& row : now_) {
+    double& force = force_[place(joint.index, row)];
+    force = 0.0;
+    const Direction along = findDirection(joint, row);
+    const double mobility = mobilityOf(joint, row, along);
+    if (mobility == 0.0) continue;
+    if (isSoft(row, mobility)) {
+      force = computeSpringForce(row, measureSpeed(row, a, b));
+      push(joint, along, force);
+      continue;
+    }
+    const JointMode mode = memory_.mode(joint.index, row);
+    if (mode == JointMode::kLow) push(joint, along, force = row.low);
+    if (mode == JointMode::kHigh) push(joint, along, force = row.high);
+    if (mode == JointMode::kHolds) hold(j, row, along);
+  }
+}
+
+/// Finds the rates of rows that do not tell them, from the rows a moment later.
+void JointForces::measureBends(const Joint& joint) noexcept {
+  const auto tells = [](const JointRow& row) { return row.tells_bend; };
+  if (std::all_of(now_.begin(), now_.end(), tells)) return;
+  if (moment_ < 0.0) moment_ = chooseMoment();
+  if (moment_ == 0.0) return;
+  RigidState a = stateOf(joint.a), b = stateOf(joint.b);
+  goOn(a, moment_);
+  goOn(b, moment_);
+  later_.clear();
+  source_->evaluate(joint.index, a, b, later_);
+  for (JointRow& row : now_) {
+    if (row.tells_bend) continue;
+    // Rows hardly ever come or go within a moment.
+    const auto same = std::find_if(later_.begin(), later_.end(), [&](const JointRow& other) {
+      return other.number == row.number;
+    });
+    if (same != later_.end())
+      row.bend = (measureSpeed(*same, a, b) - measureSpeed(row, a, b)) / moment_;
+  }
 }
 
 /// Time over which the change of directions is measured [s]: their rounding and their bend do the
@@ -153,195 +229,178 @@ void JointForces::solve() noexcept {
 double JointForces::chooseMoment() const noexcept {
   double fastest = 0.0;
   for (const BodyIndex b : ends_) {
-    const RigidState& state = at_[static_cast<std::size_t>(b)].state;
+    const RigidState& state = stateOf(b);
     fastest = std::max({fastest, kTurnOfWay * state.v_W.norm(), state.w_W.norm()});
   }
   return fastest > 0.0 ? std::sqrt(source_->rounding()) / fastest : 0.0;
 }
 
-/// Asks for all rows, and lets those push whose force is known.
-void JointForces::gather(double moment) noexcept {
-  static const RigidState kNowhere;
-  rows_.clear();
-  first_row_.clear();
-  for (const Joint& joint : joints_) {
-    const auto stateOf = [&](BodyIndex body) -> const RigidState& {
-      return body == kStanding ? kNowhere : end(body).state;
-    };
-    now_.clear();
-    later_.clear();
-    source_->evaluate(joint.index, stateOf(joint.a), stateOf(joint.b), now_);
-    if (moment > 0.0) {
-      RigidState a = stateOf(joint.a), b = stateOf(joint.b);
-      goOn(a, moment);
-      goOn(b, moment);
-      source_->evaluate(joint.index, a, b, later_);
-    }
-    first_row_.push_back(rows_.size());
-    for (const JointRow& row : now_) {
-      double& force = force_[place(joint.index, row)];
-      force = 0.0;
-      const double mobility = mobilityOf(joint, row);
-      if (mobility == 0.0) continue;
-      if (isSoft(row, mobility)) {
-        const auto v_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.v_W; };
-        const auto w_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.w_W; };
-        force = computeSpringForce(row, along(row, joint.a, joint.b, v_W, w_W));
-        push(joint, row, force);
-        continue;
-      }
-      const JointMode mode = memory_.mode(joint.index, row);
-      if (mode == JointMode::kLow) push(joint, row, force = row.low);
-      if (mode == JointMode::kHigh) push(joint, row, force = row.high);
-      if (mode != JointMode::kHolds || rows_.size() == rows_.capacity()) continue;
-      // Rows hardly ever come or go within a moment.
-      const auto same = std::find_if(later_.begin(), later_.end(), [&](const JointRow& other) {
-        return other.number == row.number;
-      });
-      addRow(joint, row, same != later_.end() ? &*same : nullptr, moment);
-    }
+JointForces::Direction JointForces::findDirection(const Joint& joint,
+                                                  const JointRow& row) const noexcept {
+  const auto scale = [&](int block, const PlainVec& n, const Vec3& turn_W) {
+    if (block < 0) return Six();
+    return movers_[static_cast<std::size_t>(block)].roots.scale(n, PlainVec(turn_W));
+  };
+  const PlainVec n(row.n_W);
+  return {scale(joint.block_a, n, row.turn_a_W), scale(joint.block_b, -1.0 * n, row.turn_b_W)};
+}
+
+double JointForces::mobilityOf(const Joint& joint, const JointRow& row,
+                               const Direction& along) const noexcept {
+  const auto of = [&](int block, const Six& six, const Vec3& turn_W) {
+    if (block < 0) return 0.0;
+    const Mover& mover = movers_[static_cast<std::size_t>(block)];
+    const double mobility = dot(six, six);
+    if (mover.is_even) return mobility;
+    return leaveOutLocked(mobility, row.n_W.squaredNorm() * mover.inverse_mass +
+                                        turn_W.squaredNorm() * mover.roots.mostTurning());
+  };
+  return of(joint.block_a, along.of_a, row.turn_a_W) + of(joint.block_b, along.of_b, row.turn_b_W);
+}
+
+void JointForces::push(const Joint& joint, const Direction& along, double force) noexcept {
+  const auto move = [&](int block, const Six& six) {
+    if (block >= 0) pushed_[static_cast<std::size_t>(block)].addScaled(force, six);
+  };
+  move(joint.block_a, along.of_a);
+  move(joint.block_b, along.of_b);
+}
+
+void JointForces::hold(std::size_t j, const JointRow& row, const Direction& along) noexcept {
+  const Joint& joint = joints_[j];
+  if (panels_.size() == first_panel_.back() || panels_.back().count == kPanelRows) {
+    if (panels_.size() == panels_.capacity()) return;
+    panels_.emplace_back();
+    panels_.back().joint = j;
   }
+  Panel& panel = panels_.back();
+  for (int m = 0; m < 6; ++m) {
+    panel.of_a[m].at[panel.count] = along.of_a.at[m];
+    panel.of_b[m].at[panel.count] = along.of_b.at[m];
+  }
+  panel.wanted.at[panel.count] = -row.bend - rateOf(joint, row);
+  panel.place[panel.count++] = place(joint.index, row);
 }
 
-double JointForces::mobilityOf(const Joint& joint, const JointRow& row) const noexcept {
-  const auto of = [&](BodyIndex body, const Vec3& turn_W) {
-    const int block = blockOf(body);
-    if (block < 0) return 0.0;
-    return computeMobility(movers_[static_cast<std::size_t>(block)], PlainVec(row.n_W),
-                           PlainVec(turn_W));
-  };
-  return of(joint.a, row.turn_a_W) + of(joint.b, row.turn_b_W);
-}
-
-void JointForces::push(const Joint& joint, const JointRow& row, double force) noexcept {
-  const auto accelerate = [&](BodyIndex body, const Vec3& n_W, const Vec3& turn_W) {
-    const int block = blockOf(body);
-    if (block < 0) return;
-    const RigidMover& mover = movers_[static_cast<std::size_t>(block)];
-    End& moved = end(body);
-    moved.a_W += force * multiplyEach(mover.inverse_mass_W, PlainVec(n_W)).toVec3();
-    moved.alpha_W += force * mover.turnBy(PlainVec(turn_W)).toVec3();
-  };
-  accelerate(joint.a, row.n_W, row.turn_a_W);
-  accelerate(joint.b, -row.n_W, row.turn_b_W);
-}
-
-void JointForces::addRow(const Joint& joint, const JointRow& now, const JointRow* later,
-                         double moment) noexcept {
-  const auto fill = [&](int block, const PlainVec& n, const PlainVec& turn, Six& along) {
-    if (block < 0) return;
-    const RigidMover& mover = movers_[static_cast<std::size_t>(block)];
-    multiplyEach(mover.root_mass_W, n).store(along.at);
-    PlainVec(dot(mover.root_x, turn), dot(mover.root_y, turn), dot(mover.root_z, turn))
-        .store(along.at + 3);
-  };
-  rows_.emplace_back();
-  Row& row = rows_.back();
-  row.place = place(joint.index, now);
-  row.block_a = blockOf(joint.a);
-  row.block_b = blockOf(joint.b);
-  row.n = PlainVec(now.n_W);
-  row.turn_a = PlainVec(now.turn_a_W);
-  row.turn_b = PlainVec(now.turn_b_W);
-  fill(row.block_a, row.n, row.turn_a, row.of_a);
-  fill(row.block_b, -1.0 * row.n, row.turn_b, row.of_b);
-  if (!later) return;
-  const auto v_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.v_W; };
-  const auto w_W = [&](BodyIndex b) -> const Vec3& { return end(b).state.w_W; };
-  row.wanted =
-      (along(now, joint.a, joint.b, v_W, w_W) - along(*later, joint.a, joint.b, v_W, w_W)) / moment;
-}
-
-/// Takes off what the other forces do, when all of them are known.
-void JointForces::lookAtAccelerations() noexcept {
-  const auto rateOf = [&](int block, const PlainVec& n, const PlainVec& turn) {
-    if (block < 0) return 0.0;
-    const End& moved = end(bodies_[static_cast<std::size_t>(block)]);
-    return dot(n, PlainVec(moved.a_W)) + dot(turn, PlainVec(moved.alpha_W));
-  };
-  for (Row& row : rows_)
-    row.wanted -=
-        rateOf(row.block_a, row.n, row.turn_a) + rateOf(row.block_b, -1.0 * row.n, row.turn_b);
+/// Rate of a row's speed by accelerations of the bodies that joints move.
+double JointForces::rateOf(const Joint& joint, const JointRow& row) const noexcept {
+  double rate = 0.0;
+  if (joint.block_a >= 0) {
+    const End& moved = at_[static_cast<std::size_t>(joint.a)];
+    rate += row.n_W.dot(moved.a_W) + row.turn_a_W.dot(moved.alpha_W);
+  }
+  if (joint.block_b >= 0) {
+    const End& moved = at_[static_cast<std::size_t>(joint.b)];
+    rate += row.turn_b_W.dot(moved.alpha_W) - row.n_W.dot(moved.a_W);
+  }
+  return rate;
 }
 
 /// Makes J M^-1 J^T and its factor.
 bool JointForces::factorise() noexcept {
   matrix_.clear();
-  std::size_t next = 0;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const std::size_t first = first_row_[joints_[j].first];
-    const std::size_t end = j + 1 < joints_.size() ? first_row_[j + 1] : rows_.size();
-    for (; next < end; ++next) {
-      if (!matrix_.hasRoomFor(first)) return false;
-      const Row& row = rows_[next];
-      double* entry = matrix_.addRow(first);
-      for (std::size_t i = first; i <= next; ++i) {
-        const Row& other = rows_[i];
-        double sum = 0.0;
-        if (row.block_a >= 0) {
-          if (row.block_a == other.block_a) sum += dot(row.of_a, other.of_a);
-          if (row.block_a == other.block_b) sum += dot(row.of_a, other.of_b);
-        }
-        if (row.block_b >= 0) {
-          if (row.block_b == other.block_a) sum += dot(row.of_b, other.of_a);
-          if (row.block_b == other.block_b) sum += dot(row.of_b, other.of_b);
-        }
-        *entry++ = sum;
-      }
-      entry[-1] *= 1.0 + kCompliance;
-    }
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const Panel& panel = panels_[i];
+    const std::size_t first = first_panel_[joints_[panel.joint].first];
+    if (!matrix_.hasRoomFor(first)) return false;
+    SixBySix* const blocks = matrix_.addPanel(panel.count, first);
+    for (std::size_t j = first; j <= i; ++j) fillBlock(panel, panels_[j], blocks[j - first]);
+    for (int c = 0; c < panel.count; ++c) blocks[i - first].column[c].at[c] *= 1.0 + kCompliance;
   }
   return matrix_.factorise();
+}
+
+/// Adds what impulses along the rows of `other`, the columns, do along those of `panel`.
+void JointForces::fillBlock(const Panel& panel, const Panel& other,
+                            SixBySix& block) const noexcept {
+  const Joint &rows = joints_[panel.joint], &columns = joints_[other.joint];
+  const auto add = [&](const Six* of_rows, const Six* of_columns) {
+    for (int c = 0; c < other.count; ++c) {
+      Six column = block.column[c];
+      for (int m = 0; m < 6; ++m) column.addScaled(of_columns[m].at[c], of_rows[m]);
+      block.column[c] = column;
+    }
+  };
+  const auto isShared = [](int one, int another) { return one >= 0 && one == another; };
+  if (isShared(rows.block_a, columns.block_a)) add(panel.of_a, other.of_a);
+  if (isShared(rows.block_a, columns.block_b)) add(panel.of_a, other.of_b);
+  if (isShared(rows.block_b, columns.block_a)) add(panel.of_b, other.of_a);
+  if (isShared(rows.block_b, columns.block_b)) add(panel.of_b, other.of_b);
 }
 
 /// False if rows that contradict each other ask for what no joint does. Then impulses at the end of
 /// the step do what can be done.
 bool JointForces::isBelievable() const noexcept {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const RigidMover& mover = movers_[i];
-    const PlainVec a = multiplyEach(mover.root_mass_W, PlainVec(x_[i].at));
-    const PlainVec alpha = mover.rootTurn(PlainVec(x_[i].at + 3));
-    const double square = std::max(dot(a, a), mover.radius_squared * dot(alpha, alpha));
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    Six held = x_[i];
+    held.addScaled(-1.0, pushed_[i]);
+    const PlainVec a = movers_[i].roots.linear(held), alpha = movers_[i].roots.angular(held);
+    const double square = std::max(dot(a, a), movers_[i].radius_squared * dot(alpha, alpha));
     if (!(square < kMostAcceleration * kMostAcceleration)) return false;
   }
   return true;
 }
 
-/// Finds the forces and adds what they do.
+/// Writes the rates that are missing into part_; returns the largest.
+double JointForces::measureMissing() noexcept {
+  part_.clear();
+  double worst = 0.0;
+  for (const Panel& panel : panels_) {
+    const Joint& joint = joints_[panel.joint];
+    Six missing = panel.wanted;
+    const auto takeOff = [&](int block, const Six* of) {
+      if (block < 0) return;
+      const Six& x = x_[static_cast<std::size_t>(block)];
+      for (int m = 0; m < 6; ++m) missing.addScaled(-x.at[m], of[m]);
+    };
+    takeOff(joint.block_a, panel.of_a);
+    takeOff(joint.block_b, panel.of_b);
+    for (int r = 0; r < panel.count; ++r) worst = std::max(worst, std::abs(missing.at[r]));
+    part_.push_back(missing);
+  }
+  return worst;
+}
+
+/// Adds the forces in part_, and the motion that they make.
+void JointForces::addForces() noexcept {
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const Panel& panel = panels_[i];
+    const Joint& joint = joints_[panel.joint];
+    for (int r = 0; r < panel.count; ++r) force_[panel.place[r]] += part_[i].at[r];
+    const auto move = [&](int block, const Six* of) {
+      if (block < 0) return;
+      Six& x = x_[static_cast<std::size_t>(block)];
+      for (int m = 0; m < 6; ++m) x.at[m] += dot(of[m], part_[i]);
+    };
+    move(joint.block_a, panel.of_a);
+    move(joint.block_b, panel.of_b);
+  }
+}
+
+/// Finds the forces of rows that hold.
 void JointForces::iterate() noexcept {
-  x_.assign(bodies_.size(), Six());
-  double largest = 0.0;
-  for (const Row& row : rows_) largest = std::max(largest, std::abs(row.wanted));
-  double worst_before = HUGE_VAL;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    part_.clear();
-    double worst = 0.0;
-    for (const Row& row : rows_) {
-      double missing = row.wanted;
-      if (row.block_a >= 0) missing -= dot(row.of_a, x_[static_cast<std::size_t>(row.block_a)]);
-      if (row.block_b >= 0) missing -= dot(row.of_b, x_[static_cast<std::size_t>(row.block_b)]);
-      part_.push_back(missing);
-      worst = std::max(worst, std::abs(missing));
-    }
-    // Of rows that say the same, rounding may ask for what none can do.
-    if (worst <= kSettled * largest || worst > 0.1 * worst_before) break;
-    worst_before = worst;
+  double worst = measureMissing();
+  const double settled = kSettled * worst;
+  for (int iteration = 0; iteration < kMaxIterations && worst > settled; ++iteration) {
     matrix_.solve(part_);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const Row& row = rows_[i];
-      force_[row.place] += part_[i];
-      if (row.block_a >= 0) x_[static_cast<std::size_t>(row.block_a)].addScaled(part_[i], row.of_a);
-      if (row.block_b >= 0) x_[static_cast<std::size_t>(row.block_b)].addScaled(part_[i], row.of_b);
-    }
+    addForces();
+    const double worst_before = worst;
+    worst = measureMissing();
+    // Of rows that say the same, rounding may ask for what none can do.
+    if (worst > 0.1 * worst_before) break;
   }
-  if (!isBelievable()) {
-    for (const Row& row : rows_) force_[row.place] = 0.0;
-    return;
-  }
+  if (isBelievable()) return;
+  x_ = pushed_;
+  for (const Panel& panel : panels_)
+    for (int r = 0; r < panel.count; ++r) force_[panel.place[r]] = 0.0;
+}
+
+/// Adds the motion by joints to the accelerations of their ends.
+void JointForces::accelerate() noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     End& moved = end(bodies_[i]);
-    moved.a_W += multiplyEach(movers_[i].root_mass_W, PlainVec(x_[i].at)).toVec3();
-    moved.alpha_W += movers_[i].rootTurn(PlainVec(x_[i].at + 3)).toVec3();
+    moved.a_W += movers_[i].roots.linear(x_[i]).toVec3();
+    moved.alpha_W += movers_[i].roots.angular(x_[i]).toVec3();
   }
 }
 

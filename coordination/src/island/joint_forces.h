@@ -3,12 +3,11 @@
 #include <vector>
 
 #include "island/island_model.h"
-#include "island/joint_hold.h"
 #include "island/joint_memory.h"
 #include "island/joint_source.h"
-#include "island/rigid_row.h"
+#include "island/mass_roots.h"
+#include "island/panel_matrix.h"
 #include "island/six.h"
-#include "island/skyline_matrix.h"
 
 namespace tandem {
 
@@ -18,7 +17,7 @@ namespace tandem {
 ///
 ///   J (a + x) + J' v = 0
 ///
-/// A motor at a bound pushes with it. The matrix J M^-1 J^T of a chain has a narrow skyline. A
+/// A motor at a bound pushes with it. The matrix J M^-1 J^T of a chain has a narrow envelope. A
 /// trace of compliance keeps rows that say the same, as in closed loops, from making it singular.
 /// RigidStep takes out what errors of integration leave.
 class JointForces {
@@ -55,20 +54,33 @@ class JointForces {
   [[nodiscard]] JointMemory& memory() noexcept { return memory_; }
 
   struct Joint {
-    std::size_t index;  ///< of JointSource
-    BodyIndex a, b;
-    std::size_t first;  ///< joint from which on joints in this list may share a body with it
+    std::size_t index = 0;  ///< of JointSource
+    BodyIndex a = kStanding, b = kStanding;
+    std::size_t first = 0;  ///< joint from which on joints in this list may share a body with it
+    int block_a = -1, block_b = -1;  ///< block rows of its ends; -1: none
   };
   [[nodiscard]] const std::vector<Joint>& joints() const noexcept { return joints_; }
 
  private:
-  /// A row that holds.
-  struct Row {
-    std::size_t place = 0;           ///< in force_
-    int block_a = -1, block_b = -1;  ///< -1: none
-    PlainVec n, turn_a, turn_b;      ///< JointRow
-    Six of_a, of_b;                  ///< the same in units in which each body has mass 1
-    double wanted = 0.0;             ///< rate of its speed that the bodies lack
+  /// A body that joints move.
+  struct Mover {
+    MassRoots roots;
+    double inverse_mass = 0.0, radius_squared = 0.0;
+    bool is_even = true;  ///< no factors
+  };
+  /// What a row says to its ends in their units: speed per velocity, and motion per impulse.
+  struct Direction {
+    Six of_a, of_b;
+  };
+  static constexpr int kPanelRows = 6;
+  /// Rows of a joint that hold, at most six.
+  struct Panel {
+    std::size_t joint = 0;  ///< in joints_
+    int count = 0;
+    /// Directions by component: its value in each row.
+    Six of_a[6], of_b[6];
+    Six wanted;                          ///< rates of their speeds that the bodies lack
+    std::size_t place[kPanelRows] = {};  ///< in force_
   };
 
   [[nodiscard]] static std::size_t place(std::size_t joint, const JointRow& row) noexcept {
@@ -76,19 +88,28 @@ class JointForces {
   }
   void orderBodies() noexcept;
   void orderJoints() noexcept;
+  void setUpMovers() noexcept;
+  void gather() noexcept;
+  void gather(std::size_t joint) noexcept;
+  void measureBends(const Joint& joint) noexcept;
   [[nodiscard]] double chooseMoment() const noexcept;
-  void gather(double moment) noexcept;
-  [[nodiscard]] double mobilityOf(const Joint& joint, const JointRow& row) const noexcept;
-  void push(const Joint& joint, const JointRow& row, double force) noexcept;
-  void addRow(const Joint& joint, const JointRow& now, const JointRow* later,
-              double moment) noexcept;
-  void lookAtAccelerations() noexcept;
+  [[nodiscard]] Direction findDirection(const Joint& joint, const JointRow& row) const noexcept;
+  [[nodiscard]] double mobilityOf(const Joint& joint, const JointRow& row,
+                                  const Direction& along) const noexcept;
+  void push(const Joint& joint, const Direction& along, double force) noexcept;
+  [[nodiscard]] double rateOf(const Joint& joint, const JointRow& row) const noexcept;
+  void hold(std::size_t joint, const JointRow& row, const Direction& along) noexcept;
   [[nodiscard]] bool factorise() noexcept;
+  void fillBlock(const Panel& panel, const Panel& other, SixBySix& block) const noexcept;
+  [[nodiscard]] double measureMissing() noexcept;
+  void addForces() noexcept;
   [[nodiscard]] bool isBelievable() const noexcept;
   void iterate() noexcept;
+  void accelerate() noexcept;
   [[nodiscard]] int blockOf(BodyIndex body) const noexcept {
     return body == kStanding ? -1 : block_of_[static_cast<std::size_t>(body)];
   }
+  [[nodiscard]] const RigidState& stateOf(BodyIndex body) const noexcept;
 
   JointSource* source_ = nullptr;
   const IslandModel* model_ = nullptr;
@@ -98,14 +119,16 @@ class JointForces {
   std::vector<BodyIndex> bodies_;  ///< by block row
   std::vector<int> block_of_;      ///< by body; -1: joints do not move it
   std::vector<char> is_end_, moved_;
-  std::vector<End> at_;             ///< by body
-  std::vector<RigidMover> movers_;  ///< by block row
-  std::vector<Row> rows_;
-  std::vector<std::size_t> first_row_;  ///< by joint of joints_
+  std::vector<End> at_;        ///< by body
+  std::vector<Mover> movers_;  ///< by block row
+  double moment_ = 0.0;        ///< chooseMoment(), once it is needed; below 0: not yet [s]
+  std::vector<Panel> panels_;
+  std::vector<std::size_t> first_panel_;  ///< by joint of joints_
   std::vector<JointRow> now_, later_;
-  SkylineMatrix matrix_;
-  std::vector<double> part_;   ///< of the forces, by row
-  std::vector<Six> x_;         ///< by block row
+  PanelMatrix matrix_;
+  std::vector<Six> part_;      ///< missing rates, then forces, by panel
+  std::vector<Six> x_;         ///< motion by joints, in each body's units, by block row
+  std::vector<Six> pushed_;    ///< the part of rows whose force is known
   std::vector<double> force_;  ///< by place()
 };
 

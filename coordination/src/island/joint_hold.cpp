@@ -17,16 +17,18 @@ double computeSpringForce(const JointRow& row, double speed) noexcept {
   return row.law == JointLaw::kLimit ? std::max(0.0, force) : force;
 }
 
-double computeMobility(const RigidMover& mover, const PlainVec& n, const PlainVec& turn) noexcept {
+double leaveOutLocked(double mobility, double without_factors) noexcept {
   // A planar body that is tilted out of its plane by less has no way there that a joint could use.
   constexpr double kLeast = 1e-6;
+  return mobility > kLeast * without_factors ? mobility : 0.0;
+}
+
+double computeMobility(const RigidMover& mover, const PlainVec& n, const PlainVec& turn) noexcept {
   const double mobility =
       dot(n, multiplyEach(mover.inverse_mass_W, n)) + dot(turn, mover.turnBy(turn));
-  const double free =
-      dot(n, n) * mover.inverse_mass +
-      dot(turn, turn) * (dot(mover.root_x, mover.root_x) + dot(mover.root_y, mover.root_y) +
-                         dot(mover.root_z, mover.root_z));
-  return mobility > kLeast * free ? mobility : 0.0;
+  if (mover.is_even) return mobility;
+  return leaveOutLocked(
+      mobility, dot(n, n) * mover.inverse_mass + dot(turn, turn) * mover.roots.mostTurning());
 }
 
 void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {
@@ -75,19 +77,9 @@ void JointHold::endBlow() noexcept { blow = impulse; }
 
 void setDirection(const JointRow& row, const RigidMover* a, const RigidMover* b, int i,
                   ContactJacobian& J) noexcept {
-  const auto fill = [](const RigidMover& mover, const PlainVec& n, const PlainVec& turn,
-                       Six& along) {
-    multiplyEach(mover.root_mass_W, n).store(along.at);
-    PlainVec(dot(mover.root_x, turn), dot(mover.root_y, turn), dot(mover.root_z, turn))
-        .store(along.at + 3);
-  };
   const PlainVec n(row.n_W);
-  if (a) {
-    fill(*a, n, PlainVec(row.turn_a_W), J.of_a[i]);
-    if (b) fill(*b, -1.0 * n, PlainVec(row.turn_b_W), J.of_b[i]);
-  } else if (b) {
-    fill(*b, -1.0 * n, PlainVec(row.turn_b_W), J.of_a[i]);
-  }
+  if (a) J.of_a[i] = a->roots.scale(n, PlainVec(row.turn_a_W));
+  if (b) (a ? J.of_b : J.of_a)[i] = b->roots.scale(-1.0 * n, PlainVec(row.turn_b_W));
 }
 
 }  // namespace tandem

@@ -89,8 +89,10 @@ struct JointHold {
 /// Force of a soft row that goes at `speed`.
 [[nodiscard]] double computeSpringForce(const JointRow& row, double speed) noexcept;
 
-/// Speed along a row per impulse by one end; 0 if that is next to nothing beside what the end could
-/// have, had it no linear and angular factors.
+/// A mobility along a row; 0 if it is next to nothing beside what it could be without linear and
+/// angular factors.
+[[nodiscard]] double leaveOutLocked(double mobility, double without_factors) noexcept;
+/// Speed along a row per impulse by one end, if factors leave any.
 [[nodiscard]] double computeMobility(const RigidMover& mover, const PlainVec& n,
                                      const PlainVec& turn) noexcept;
 

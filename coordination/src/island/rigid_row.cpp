@@ -27,25 +27,16 @@ RigidMover::RigidMover(const ModelBody& body, const RigidState& state) noexcept
       w(state.w_W),
       inverse_mass(body.inverse_mass),
       radius_squared(body.bounding_radius * body.bounding_radius),
+      roots(body, PlainRotation(state.q_WB)),
       ready(true) {
-  const Eigen::Matrix3d R = state.q_WB.toRotationMatrix();
-  Eigen::Matrix3d inverse = R * body.inverse_inertia_B.asDiagonal() * R.transpose();
   const MassFactors& factors = body.factors;
   is_free = factors.way_is_even;
+  is_even = factors.areEven();
   inverse_mass_W = is_free ? PlainVec(inverse_mass, inverse_mass, inverse_mass)
                            : inverse_mass * PlainVec(factors.way_W);
-  if (!factors.turn_is_even)
-    inverse = factors.turn_root_W.asDiagonal() * inverse * factors.turn_root_W.asDiagonal();
-  const Eigen::Matrix3d root =
-      factors.turn_root_W.asDiagonal() * R * body.inverse_inertia_B.cwiseSqrt().asDiagonal();
-  root_x = PlainVec(Vec3(root.col(0)));
-  root_y = PlainVec(Vec3(root.col(1)));
-  root_z = PlainVec(Vec3(root.col(2)));
-  root_mass_W = {std::sqrt(inverse_mass_W.x), std::sqrt(inverse_mass_W.y),
-                 std::sqrt(inverse_mass_W.z)};
-  inertia_x = PlainVec(Vec3(inverse.row(0)));
-  inertia_y = PlainVec(Vec3(inverse.row(1)));
-  inertia_z = PlainVec(Vec3(inverse.row(2)));
+  inertia_x = roots.x.x * roots.x + roots.y.x * roots.y + roots.z.x * roots.z;
+  inertia_y = roots.x.y * roots.x + roots.y.y * roots.y + roots.z.y * roots.z;
+  inertia_z = roots.x.z * roots.x + roots.y.z * roots.y + roots.z.z * roots.z;
 }
 
 void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& arm_a,

@@ -6,6 +6,7 @@
 
 #include "geometry/plain_vec.h"
 #include "island/island_model.h"
+#include "island/mass_roots.h"
 
 namespace tandem {
 
@@ -18,9 +19,9 @@ struct RigidMover {
   double inverse_mass = 0.0, radius_squared = 0.0;
   PlainVec inverse_mass_W;                   ///< along the axes of W: with linear factors
   bool is_free = true;                       ///< no linear factors
+  bool is_even = true;                       ///< no factors
   PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
-  /// Roots of inverse mass and inertia: I^-1 = root root^T, by column.
-  PlainVec root_mass_W, root_x, root_y, root_z;
+  MassRoots roots;
   PlainVec way;        ///< of the centre since the start of the step [m]
   PlainRotation back;  ///< turns directions back to the start of the step
   bool ready = false;  ///< set up for this step
@@ -33,9 +34,6 @@ struct RigidMover {
   [[nodiscard]] PlainVec turnBy(const PlainVec& angular_impulse) const noexcept {
     return {dot(inertia_x, angular_impulse), dot(inertia_y, angular_impulse),
             dot(inertia_z, angular_impulse)};
-  }
-  [[nodiscard]] PlainVec rootTurn(const PlainVec& of) const noexcept {
-    return of.x * root_x + of.y * root_y + of.z * root_z;
   }
   /// Way since the start of the step of the point that is now at `arm` [m].
   [[nodiscard]] PlainVec wayOf(const PlainVec& arm) const noexcept {
