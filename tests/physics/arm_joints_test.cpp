@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/coordination/island_counters.h"
 #include "tandem/plugin/site.h"
 
 #include "physics/arm_host.h"
@@ -145,6 +146,30 @@ TEST_P(ArmJointsAtRates, ForcesOfTheHostMoveLinks) {
   EXPECT_NEAR(velocity(0), 0.5 / kMass, byWidth(1e-9, 1e-5));
   EXPECT_NEAR(velocity(1), 0.5 * 0.001 / inertia(1, 0), byWidth(1e-7, 1e-4));
   EXPECT_NEAR(velocity(2), 0.5 * 0.01 / inertia(2, 2), byWidth(1e-7, 1e-4));
+}
+
+// A motor whose speed falls with the way that is left is followed within a step, not mended after
+// it: that took five tries a tick. The joint's angle then decays as Bullet's motor asks for.
+TEST(ArmJoints, AMotorThatSeeksAPlaceTakesOneStepATick) {
+  constexpr double kGain = 0.05, kStart = 0.5;  // part of the way in a host's step; [rad]
+  ArmHost host(Vec3::Zero());
+  host.build(makeChain(3));
+  for (int i = 0; i < 3; ++i) {
+    host.addMotor(i, 0.0, 1000.0 / 60.0).setPositionTarget(0, btScalar(kGain));
+    host.arm().setJointPos(i, btScalar(kStart));
+  }
+  host.showPose();
+  host.putHandBeside();
+  host.start();
+  host.run(0.1, 60.0);
+  const IslandCounters before = host.site->islandCounters();
+  const double angle = host.q(0);
+  host.run(0.5, 60.0);
+  const IslandCounters after = host.site->islandCounters();
+  // A host step ends within a tick.
+  EXPECT_LT(after.rigid_steps - before.rigid_steps, 600U);
+  EXPECT_GT(after.rigid_steps - before.rigid_steps, 499U);
+  EXPECT_NEAR(host.q(0), angle * std::exp(-kGain * 60.0 * 0.5), byWidth(1e-6, 1e-4));
 }
 
 // Bullet solves this contact: the body has a law of friction that the island does not know.

@@ -145,7 +145,7 @@ class RowWriter {
     if (axis.hold_force < HUGE_VAL) {
       // A bounded pin pulls as Bullet's does: a part of the way per step of the host.
       row.law = JointLaw::kMotor;
-      row.speed = -row.way * axis.erp / joint_.host_dt;
+      seek(row, 0.0, axis.erp / joint_.host_dt, -row.way);
       row.low = -axis.hold_force;
       row.high = axis.hold_force;
     } else {
@@ -180,18 +180,18 @@ class RowWriter {
         double error = axis.target - q;
         if (i >= 3) error = std::remainder(error, kTurn);
         const double most = std::abs(axis.speed);
-        row.speed = axis.sense * std::clamp(axis.gain * error, -most, most);
+        seek(row, 0.0, axis.gain, axis.sense * error, most);
         break;
       }
       case JointMotor::kSpring: {
         const double force = axis.sense * axis.stiffness * (axis.rest - q);
-        row.speed = axis.gain * force;
+        seek(row, 0.0, axis.gain * axis.stiffness, axis.sense * (axis.rest - q));
         row.low = -std::abs(force);
         row.high = std::abs(force);
         break;
       }
       case JointMotor::kTurn:
-        row.speed = -axis.gain * q;
+        seek(row, 0.0, axis.gain, -q);
         row.low = 0.0;
         break;
       case JointMotor::kDrive:
@@ -199,6 +199,15 @@ class RowWriter {
         break;
     }
     rows_.push_back(row);
+  }
+
+  /// The motor's speed is `start`, and `gain` times the way that is left along the row, at most
+  /// `most` [m/s or rad/s].
+  void seek(JointRow& row, double start, double gain, double way_left,
+            double most = HUGE_VAL) const {
+    const double speed = start + gain * way_left;
+    row.speed = std::clamp(speed, -most, most);
+    if (row.speed == speed) row.speed_rate = -gain * computeSpeed(row);
   }
 
   /// Bullet mends a share s of the error of the speed in a step of the host, and a part of the way:
@@ -210,8 +219,8 @@ class RowWriter {
   void drive(JointRow& row, double q, const JointAxis& axis) {
     const double rest = 1.0 - axis.share, by_way = axis.gain * (axis.target - q);
     if (axis.share > kFastestDrive * joint_.host_dt * rest) {
-      const double speed = axis.speed + by_way / std::min(axis.share, 1.0);
-      row.speed = axis.sense * std::clamp(speed, -axis.most, axis.most);
+      const double gain = axis.gain / std::min(axis.share, 1.0);
+      seek(row, axis.sense * axis.speed, gain, axis.sense * (axis.target - q), axis.most);
       return;
     }
     const double u = axis.sense * computeSpeed(row);

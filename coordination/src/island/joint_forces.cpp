@@ -278,7 +278,7 @@ void JointForces::hold(std::size_t j, const JointRow& row, const Direction& alon
     panel.of_a[m].at[panel.count] = along.of_a.at[m];
     panel.of_b[m].at[panel.count] = along.of_b.at[m];
   }
-  panel.wanted.at[panel.count] = -row.bend - rateOf(joint, row);
+  panel.wanted.at[panel.count] = row.speed_rate - row.bend - rateOf(joint, row);
   panel.place[panel.count++] = place(joint.index, row);
 }
 

@@ -36,8 +36,9 @@ struct JointRow {
   /// tell it, the island finds it from the row at later poses.
   double bend = 0.0;
   bool tells_bend = false;
-  double speed = 0.0;   ///< a motor's wanted u [m/s or rad/s]; else 0
-  double bounce = 0.0;  ///< restitution of a limit
+  double speed = 0.0;       ///< a motor's wanted u [m/s or rad/s]; else 0
+  double speed_rate = 0.0;  ///< its rate, by the way that u goes [m/s^2 or rad/s^2]
+  double bounce = 0.0;      ///< restitution of a limit
   /// Of a locked row or a limit: 0 for both makes it rigid. Else its force along the row is
   /// -(stiffness way + damping u) [N/m, N s/m or N m/rad, N m s/rad]; a limit acts while its way
   /// is below 0, and never pulls.

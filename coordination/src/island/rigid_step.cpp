@@ -100,8 +100,11 @@ double RigidStep::correct(const IslandModel& model, const States& before, double
   takeBackGone(after, h);
   solveSteady(h);
   if (may_repeat && h * measureChange(after) > kAllowedError) {
+    // Joints are never held: without contact only their modes are to learn.
+    const bool has_contact = !points_.empty() || memory_.hasGone();
     if (times_learned_ < kMaxTimesLearned &&
-        (hasUnknownForce() || haveJointModesChanged() || h * measureEvents() < kAllowedError)) {
+        (hasUnknownForce() || haveJointModesChanged() ||
+         (has_contact && h * measureEvents() < kAllowedError))) {
       ++times_learned_;
       memory_.learn(points_, after, h);
       learnJointModes();
