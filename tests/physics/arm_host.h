@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
@@ -178,6 +179,27 @@ struct ArmHost {
   std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints;
   std::unique_ptr<Site> site;
 };
+
+/// What a host that asks for feedback of the first joint reads after a second.
+[[nodiscard]] inline btSpatialForceVector runForFeedback(ArmHost& host, double rate,
+                                                         bool has_site) {
+  btMultiBodyJointFeedback feedback;
+  host.arm().getLink(0).m_jointFeedback = &feedback;
+  host.putHandBeside();
+  if (has_site) host.start();
+  host.run(1.0, rate);
+  host.arm().getLink(0).m_jointFeedback = nullptr;
+  return feedback.m_reactionForces;
+}
+
+/// True if both are the same but for the swing of Bullet's first steps, a fiftieth.
+[[nodiscard]] inline bool areAlike(const btSpatialForceVector& one,
+                                   const btSpatialForceVector& other) {
+  const auto are = [](const btVector3& a, const btVector3& b) {
+    return (a - b).length() < btScalar(0.02) * a.length();
+  };
+  return are(one.m_topVec, other.m_topVec) && are(one.m_bottomVec, other.m_bottomVec);
+}
 
 inline constexpr double kLink = 0.2, kMass = 0.5;  ///< of a chain's link [m, kg]
 

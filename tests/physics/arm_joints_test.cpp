@@ -94,6 +94,23 @@ TEST_P(ArmJointsAtRates, ASoftMotorSagsAsInBullet) {
   EXPECT_NEAR(q[1], q[0], 1e-3 * q[0] + byWidth(0.0, 1e-5));
 }
 
+TEST_P(ArmJointsAtRates, JointFeedbackLeavesMotorsAndLimitsOutAsInBullet) {
+  for (const bool has_motor : {false, true}) {
+    std::array<btSpatialForceVector, 2> reactions;
+    for (const bool has_site : {false, true}) {
+      ArmHost host;
+      host.build(makeChain(1));
+      host.arm().setAngularDamping(btScalar(0.9));
+      if (has_motor)
+        host.addMotor(0, 0.0, 100.0 / GetParam());
+      else
+        host.addLimit(0, -0.01, 0.01);
+      reactions[has_site ? 1 : 0] = test::runForFeedback(host, GetParam(), has_site);
+    }
+    EXPECT_TRUE(test::areAlike(reactions[0], reactions[1])) << has_motor;
+  }
+}
+
 TEST_P(ArmJointsAtRates, TorqueOfTheHostTurnsAJoint) {
   constexpr double kTorque = 0.02;  // [N m]
   ArmHost host(Vec3::Zero());

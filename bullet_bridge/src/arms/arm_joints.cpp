@@ -294,21 +294,16 @@ void ArmJoints::note(std::size_t joint, const JointRow& row, double impulse, dou
                      bool is_first) noexcept {
   Given& given = joints_[acting_.places()[joint]].given;
   if (is_first) given.time += h;
-  given.linear_W += impulse * row.n_W;
-  given.angular_W += impulse * row.turn_a_W;
-  switch (JointCopy::kindOf(row)) {
-    case JointRowKind::kDrive:
-      given.motor += impulse;
-      break;
-    case JointRowKind::kHold:
-      if (row.law == JointLaw::kLimit) given.limit[0] += impulse;
-      break;
-    case JointRowKind::kHighLimit:
-      given.limit[1] += impulse;
-      break;
-    case JointRowKind::kElastic:
-      joints_[acting_.places()[joint]].owed -= impulse;
-      break;
+  const JointRowKind kind = JointCopy::kindOf(row);
+  if (kind == JointRowKind::kDrive) {
+    given.motor += impulse;
+  } else if (row.law == JointLaw::kLimit) {
+    given.limit[kind == JointRowKind::kHighLimit ? 1 : 0] += impulse;
+  } else {
+    // Bullet's feedback counts neither motors nor limits.
+    given.linear_W += impulse * row.n_W;
+    given.angular_W += impulse * row.turn_a_W;
+    if (kind == JointRowKind::kElastic) joints_[acting_.places()[joint]].owed -= impulse;
   }
 }
 

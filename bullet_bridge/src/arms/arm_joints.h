@@ -61,7 +61,7 @@ class ArmJoints final : public JointSource {
   struct Given {
     double time = 0.0;
     double motor = 0.0, limit[2] = {};  ///< impulses [N s, N m s]; limit: low, high
-    Vec3 linear_W = Vec3::Zero(), angular_W = Vec3::Zero();
+    Vec3 linear_W = Vec3::Zero(), angular_W = Vec3::Zero();  ///< by all but these
   };
   struct Joint {
     const LinkBody* link;
