@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
@@ -111,18 +112,22 @@ struct ArmHost {
     arm().updateCollisionObjectWorldTransforms(turns, origins);
     host.world->updateAabbs();
   }
-  btMultiBodyJointMotor& addMotor(int link, double speed, double impulse) {
-    auto motor = std::make_unique<btMultiBodyJointMotor>(&arm(), link, static_cast<btScalar>(speed),
-                                                         static_cast<btScalar>(impulse));
-    btMultiBodyJointMotor& reference = *motor;
-    constraints.push_back(std::move(motor));
+  /// Adds a constraint of a link.
+  template <typename Constraint, typename... Arguments>
+  Constraint& add(int link, Arguments&&... arguments) {
+    auto one = std::make_unique<Constraint>(&arm(), link, std::forward<Arguments>(arguments)...);
+    Constraint& reference = *one;
+    constraints.push_back(std::move(one));
     host.multi()->addMultiBodyConstraint(&reference);
     return reference;
   }
+  btMultiBodyJointMotor& addMotor(int link, double speed, double impulse) {
+    return add<btMultiBodyJointMotor>(link, static_cast<btScalar>(speed),
+                                      static_cast<btScalar>(impulse));
+  }
   void addLimit(int link, double low, double high) {
-    constraints.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(
-        &arm(), link, static_cast<btScalar>(low), static_cast<btScalar>(high)));
-    host.multi()->addMultiBodyConstraint(constraints.back().get());
+    add<btMultiBodyJointLimitConstraint>(link, static_cast<btScalar>(low),
+                                         static_cast<btScalar>(high));
   }
   /// Puts the hand beside the first joint of a chain, where nothing touches it.
   void putHandBeside() {

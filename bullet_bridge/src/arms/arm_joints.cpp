@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <typeinfo>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -12,6 +11,10 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
 #include "tandem/bullet_bridge/convert.h"
+
+#include "arms/arm_constraint.h"
+#include "arms/link_frame.h"
+#include "arms/tell_impulse.h"
 
 namespace tandem {
 namespace {
@@ -25,21 +28,6 @@ struct MotorFields : btMultiBodyJointMotor {
   static constexpr auto kErp = &MotorFields::m_erp;
   static constexpr auto kMost = &MotorFields::m_rhsClamp;
 };
-
-struct ConstraintFields : btMultiBodyConstraint {
-  static constexpr auto kData = &ConstraintFields::m_data;
-};
-
-double readImpulse(btMultiBodyConstraint& constraint, int row) {
-  if ((constraint.*ConstraintFields::kData).size() <= row) return 0.0;
-  return static_cast<double>(constraint.getAppliedImpulse(row));
-}
-
-/// Tells the host an impulse, if Bullet has made room for it: it does so in its first step with it.
-void tellImpulse(btMultiBodyConstraint& constraint, int row, double impulse) {
-  if ((constraint.*ConstraintFields::kData).size() > row)
-    constraint.internalSetAppliedImpulse(row, static_cast<btScalar>(impulse));
-}
 
 /// An impulse below this is rounding [N s, N m s].
 constexpr double kNoImpulse = 1e-13;
@@ -100,14 +88,7 @@ JointSettings makeSettings(const ArmModel& model, std::size_t place) {
   }
   const Eigen::Matrix3d axes = makeAxes(axis, main);
   joint.a = {-link.d, axes};
-  joint.b = {link.e, link.q_PZ.toRotationMatrix() * axes};
-  // Frames without mass are parts of what carries them.
-  for (std::size_t at = link.parent; model.links()[at].role == LinkRole::kFrame;
-       at = model.links()[at].parent) {
-    const ArmLink& frame = model.links()[at];
-    joint.b.p = frame.e + frame.q_PZ * (frame.d + joint.b.p);
-    joint.b.axes = frame.q_PZ.toRotationMatrix() * joint.b.axes;
-  }
+  joint.b = moveToCarrier(model, link.parent, {link.e, link.q_PZ.toRotationMatrix() * axes});
   return joint;
 }
 
@@ -153,8 +134,9 @@ bool ArmJoints::isAsWanted() const noexcept {
 }
 
 /// The joint that a motor or limit of the host's world belongs to; null: the island does not hold
-/// it.
+/// it, or holds the constraint as a joint of its own.
 ArmJoints::Joint* ArmJoints::findJoint(btMultiBodyConstraint& constraint) noexcept {
+  if (isJointOfItsOwn(findKind(constraint))) return nullptr;
   const auto is_its = [&](const Joint& joint) {
     return !joint.is_gone && &joint.link->arm().body() == constraint.getMultiBodyA() &&
            static_cast<int>(joint.link->number()) - 1 == constraint.getLinkA();
@@ -267,7 +249,7 @@ void ArmJoints::readConstraint(btMultiBodyConstraint& constraint, double dt) noe
   Joint* joint = findJoint(constraint);
   JointAxis* axis = joint ? findFreeAxis(joint->kind, joint->settings) : nullptr;
   if (!axis || !(constraint.getMaxAppliedImpulse() > 0)) return;
-  if (typeid(constraint) == typeid(btMultiBodyJointMotor)) {
+  if (findKind(constraint) == ArmConstraintKind::kJointMotor) {
     const auto& motor = static_cast<const btMultiBodyJointMotor&>(constraint);
     joint->motor = &constraint;
     axis->motor = JointMotor::kDrive;

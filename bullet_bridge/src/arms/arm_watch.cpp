@@ -1,13 +1,10 @@
 #include "arms/arm_watch.h"
 
-#include <typeinfo>
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "arms/arm_constraint.h"
 #include "arms/arm_model.h"
 #include "bodies/equal_bits.h"
 #include "world/world_lookup.h"
@@ -25,11 +22,6 @@ bool isLinkGround(const btMultiBody& body, int link) {
   for (; link >= 0; link = body.getParent(link))
     if (body.getLink(link).m_jointType != btMultibodyLink::eFixed) return false;
   return true;
-}
-
-bool isKnown(const btMultiBodyConstraint& constraint) {
-  const std::type_info& type = typeid(constraint);
-  return type == typeid(btMultiBodyJointMotor) || type == typeid(btMultiBodyJointLimitConstraint);
 }
 
 const char* findLinkObstacle(const btMultiBody& body, int link) {
@@ -70,6 +62,12 @@ bool isGround(const btCollisionObject& object) noexcept {
   return isLinkGround(*body, static_cast<const btMultiBodyLinkCollider&>(object).m_link);
 }
 
+bool isGround(const btMultiBody& body, int link) noexcept {
+  const btCollisionObject* collider = colliderOf(body, link);
+  const bool is_driven = body.isBaseKinematic() || (collider && collider->isKinematicObject());
+  return !is_driven && isLinkGround(body, link);
+}
+
 bool hasMultiBody(btMultiBodyDynamicsWorld& world, const btMultiBody* body) noexcept {
   bool is_there = false;
   for (int i = 0; i < world.getNumMultibodies() && !is_there; ++i)
@@ -92,7 +90,7 @@ const char* findObstacleToHold(btMultiBodyDynamicsWorld& world, btMultiBody& bod
   for (int i = 0; i < world.getNumMultiBodyConstraints(); ++i) {
     btMultiBodyConstraint& constraint = *world.getMultiBodyConstraint(i);
     if (constraint.getMultiBodyA() != &body && constraint.getMultiBodyB() != &body) continue;
-    if (!isKnown(constraint)) return "it has a constraint other than joint motors and limits";
+    if (const char* why = findObstacleToHold(constraint)) return why;
   }
   return nullptr;
 }

@@ -22,6 +22,8 @@ namespace tandem {
 
 /// True for the collider of a fixed base, or of a link that is fixed to it: it never moves.
 [[nodiscard]] bool isGround(const btCollisionObject& object) noexcept;
+/// The same for a link without a collider, too; -1: the base.
+[[nodiscard]] bool isGround(const btMultiBody& body, int link) noexcept;
 
 /// True if the world has the multi-body and all of its colliders. Compares addresses first: it may
 /// have been deleted.

@@ -265,8 +265,8 @@ std::size_t HostArm::findDof(std::size_t place) const noexcept {
   return dof;
 }
 
-double HostArm::findMass(std::size_t place) const noexcept {
-  const std::size_t row = (model_.isBaseFixed() ? 0 : 6) + findDof(place);
+double HostArm::findMass(std::size_t place, std::size_t dof) const noexcept {
+  const std::size_t row = (model_.isBaseFixed() ? 0 : 6) + findDof(place) + dof;
   const double mobility = mobility_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(row));
   return mobility > 0.0 ? 1.0 / mobility : 0.0;
 }

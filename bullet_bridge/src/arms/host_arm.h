@@ -66,14 +66,14 @@ class HostArm {
   [[nodiscard]] Vec3 worldGravity() const noexcept;
   /// Bullet's damping at low speeds: the velocity that it takes off per second [1/s].
   void readDamping(double& linear, double& angular) const noexcept;
-  /// Pre-tick, after handOff(). Velocity with which a joint of one degree of freedom goes through
-  /// Bullet's step [rad/s or m/s].
-  [[nodiscard]] double expectedVelocity(std::size_t place) const noexcept {
-    return static_cast<double>(expected_[6 + findDof(place)]);
+  /// Pre-tick, after handOff(). Velocity with which a joint goes through Bullet's step along one
+  /// of its degrees of freedom [rad/s or m/s].
+  [[nodiscard]] double expectedVelocity(std::size_t place, std::size_t dof = 0) const noexcept {
+    return static_cast<double>(expected_[6 + findDof(place) + dof]);
   }
-  /// Mass, or moment of inertia, that a joint of one degree of freedom moves, as of the last
-  /// handOff() [kg or kg m^2].
-  [[nodiscard]] double findMass(std::size_t place) const noexcept;
+  /// Mass, or moment of inertia, that a joint moves along one of its degrees of freedom, as of the
+  /// last handOff() [kg or kg m^2].
+  [[nodiscard]] double findMass(std::size_t place, std::size_t dof = 0) const noexcept;
 
  private:
   friend class LinkBody;

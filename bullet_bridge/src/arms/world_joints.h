@@ -2,23 +2,27 @@
 
 #include <vector>
 
+#include "arms/arm_constraints.h"
 #include "arms/arm_joints.h"
 #include "joints/host_joints.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// All joints of the host's world that the island solves: constraints between rigid bodies, and
-/// joints of multi-bodies. Functions and threads are those of HostJoints.
+/// All joints of the host's world that the island solves: constraints between rigid bodies, joints
+/// of multi-bodies, and their constraints. Functions and threads are those of HostJoints.
 class WorldJoints final : public JointSource {
  public:
   explicit WorldJoints(btDiscreteDynamicsWorld& host)
-      : rigid_(host), arms_(asMultiBodyWorld(host)) {}
+      : rigid_(host), arms_(asMultiBodyWorld(host)), constraints_(asMultiBodyWorld(host)) {}
 
   /// @name For the thread that steps the host's world.
   /// @{
   void look(const HostJoints::Find& find, const std::vector<ArmJoints::Member>& members);
-  void findGone() noexcept { rigid_.findGone(); }
+  void findGone() noexcept {
+    rigid_.findGone();
+    constraints_.findGone();
+  }
   [[nodiscard]] bool hasNews() noexcept { return rigid_.hasNews(); }
   void switchOff() noexcept;
   void switchOn() noexcept;
@@ -43,11 +47,15 @@ class WorldJoints final : public JointSource {
             bool is_first) noexcept override;
 
  private:
+  /// Calls `visit(source, its index)` for the source that has the joint.
+  template <typename Visit>
+  void visit(std::size_t joint, Visit visit) noexcept;
   void list() noexcept;
 
   HostJoints rigid_;
   ArmJoints arms_;
-  std::vector<JointEnds> ends_;  ///< those of rigid bodies first
+  ArmConstraints constraints_;
+  std::vector<JointEnds> ends_;  ///< in this order
 };
 
 }  // namespace tandem

@@ -17,7 +17,9 @@ constexpr double kMostForce = 1e12;  // of a motor without bound [N or N m]
 /// A drive that damps faster than this holds its speed [1/s].
 constexpr double kFastestDrive = 2e3;
 
-int numberOf(JointRowKind kind, int axis) { return 6 * static_cast<int>(kind) + axis; }
+int numberOf(JointRowKind kind, int axis) {
+  return static_cast<int>(JointCopy::numberOf(kind, static_cast<std::size_t>(axis)));
+}
 
 /// The angle, turns more or less, that is nearest to 0.
 double takeTurnsOff(double angle) {

@@ -55,6 +55,9 @@ class JointCopy {
   [[nodiscard]] static JointRowKind kindOf(const JointRow& row) noexcept {
     return static_cast<JointRowKind>(row.number / 6);
   }
+  [[nodiscard]] static std::size_t numberOf(JointRowKind kind, std::size_t axis) noexcept {
+    return 6 * static_cast<std::size_t>(kind) + axis;
+  }
 
   static constexpr double kLimitReach = 0.01;     ///< [m or rad]
   static constexpr double kLimitTime = 1 / 60.0;  ///< [s]

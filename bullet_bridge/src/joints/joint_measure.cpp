@@ -78,6 +78,14 @@ void measureEuler(const std::array<int, 3>& order, const PlacedJoint& placed,
   at(k).setAngle(sign * scale * axis_i.cross(axis_j), angle_k);
 }
 
+/// The turn of frame a beside frame b, about axes of a. Its rate is u about an axis that stays.
+void measureTurn(const PlacedJoint& placed, JointCoordinates& out) {
+  const Eigen::AngleAxisd turn(Axes(placed.axes_b.transpose() * placed.axes_a));
+  for (int i = 0; i < 3; ++i)
+    out[static_cast<std::size_t>(i + 3)].setAngle(placed.axes_a.col(i),
+                                                  turn.angle() * turn.axis()[i]);
+}
+
 }  // namespace
 
 JointCoordinates measureJoint(const JointSettings& joint, const PlacedJoint& placed) noexcept {
@@ -101,6 +109,13 @@ JointCoordinates measureJoint(const JointSettings& joint, const PlacedJoint& pla
       measureEuler(joint.order, placed, out);
       break;
     case JointKind::kGear:
+      break;
+    case JointKind::kWeld:
+      if (joint.holds_points) measurePin(placed, out);
+      measureTurn(placed, out);
+      break;
+    case JointKind::kTiltTurn:
+      measureTiltTurn(placed, out);
       break;
   }
   return out;

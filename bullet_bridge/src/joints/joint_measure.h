@@ -64,4 +64,7 @@ using JointCoordinates = std::array<JointCoordinate, 6>;
 void measureSwing(const JointSettings& joint, const PlacedJoint& placed,
                   JointCoordinates& out) noexcept;
 
+/// Measures tilts (3, 4) and turn (5) of a multi-body's spherical joint.
+void measureTiltTurn(const PlacedJoint& placed, JointCoordinates& out) noexcept;
+
 }  // namespace tandem

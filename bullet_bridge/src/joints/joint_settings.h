@@ -74,7 +74,17 @@ struct JointAxis {
   [[nodiscard]] bool operator==(const JointAxis&) const noexcept = default;
 };
 
-enum class JointKind : std::uint8_t { kPoint, kHinge, kSlider, kConeTwist, kSixDof, kGear };
+enum class JointKind : std::uint8_t {
+  kPoint,
+  kHinge,
+  kSlider,
+  kConeTwist,
+  kSixDof,
+  kGear,
+  // Of multi-bodies.
+  kWeld,      ///< points as kPoint, and the turn of frame a beside frame b, about axes of a
+  kTiltTurn,  ///< tilts of z of frame a in frame b, about axes x and y of a; its turn about z
+};
 
 /// How a cone twist joint holds its swing, in axes 4 and 5.
 enum class SwingKind : std::uint8_t {
@@ -111,7 +121,7 @@ struct JointSettings {
   /// hinge's tilt are errors, and locked.
   std::array<JointAxis, 6> axes;
   std::array<int, 3> order = {0, 1, 2};  ///< of Euler angles: the first axis is of b, the last of a
-  bool holds_points = true;              ///< false: a hinge that only aligns
+  bool holds_points = true;              ///< false: a hinge or weld that only aligns
   SwingSettings swing;
   double gear_ratio = 1.0;
   EndMass mass_a, mass_b;

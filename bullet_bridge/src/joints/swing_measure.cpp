@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "joints/joint_measure.h"
@@ -89,6 +90,33 @@ void measureSwing(const JointSettings& joint, const PlacedJoint& placed,
       measureTarget(joint.swing, placed, out[4]);
       break;
   }
+}
+
+/// With d, the axis z of a in frame b turned back by the turn psi about z:
+///
+///   tilt about x = atan2(-d_y, d_z),   tilt about y = asin(d_x)
+///
+/// Gradients over turns follow from c' = w x c and d' = Rz(-psi) c' - psi' z x d.
+void measureTiltTurn(const PlacedJoint& placed, JointCoordinates& out) noexcept {
+  const Eigen::Matrix3d m = placed.axes_b.transpose() * placed.axes_a;
+  const Vec3 c = m.col(2), z = Vec3::UnitZ();
+  const double parts = 1.0 + c.z();
+  if (parts < kLeastTurn) return;
+  const Quat q(m);
+  const double psi = std::remainder(2.0 * std::atan2(q.z(), q.w()), 2.0 * M_PI);
+  const Vec3 turn = (c + z) / parts;
+  const Eigen::Matrix3d about_z = Eigen::AngleAxisd(psi, z).toRotationMatrix();
+  const Vec3 d = about_z.transpose() * c;
+  out[5].setAngle(placed.axes_b * turn, psi);
+  const auto setTilt = [&](JointCoordinate& tilt, const Vec3& by_d, double angle) {
+    const Vec3 gradient = c.cross(about_z * by_d) - by_d.dot(z.cross(d)) * turn;
+    tilt.setAngle(placed.axes_b * gradient, angle);
+  };
+  const double about_x = d.y() * d.y() + d.z() * d.z();
+  if (about_x < kLeastTurn) return;
+  setTilt(out[3], Vec3(0.0, -d.z(), d.y()) / about_x, std::atan2(-d.y(), d.z()));
+  setTilt(out[4], Vec3(1.0 / std::sqrt(about_x), 0.0, 0.0),
+          std::asin(std::clamp(d.x(), -1.0, 1.0)));
 }
 
 }  // namespace tandem

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodySphericalJointLimit.h>
+#include <BulletDynamics/Featherstone/btMultiBodySphericalJointMotor.h>
+
+namespace tandem {
+
+/// Bullet shows these to derived classes only.
+struct SphericalMotorFields : btMultiBodySphericalJointMotor {
+  static constexpr auto kTarget = &SphericalMotorFields::m_desiredPosition;
+  static constexpr auto kP = &SphericalMotorFields::m_kp;
+  /// Axes have gains and impulses of their own.
+  static constexpr auto kIsEach = &SphericalMotorFields::m_use_multi_dof_params;
+  static constexpr auto kMostOfEach = &SphericalMotorFields::m_maxAppliedImpulseMultiDof;
+  static constexpr auto kDamping = &SphericalMotorFields::m_damping;
+};
+
+struct SphericalLimitFields : btMultiBodySphericalJointLimit {
+  static constexpr auto kX = &SphericalLimitFields::m_swingxRange;
+  static constexpr auto kY = &SphericalLimitFields::m_swingyRange;
+  static constexpr auto kTwist = &SphericalLimitFields::m_twistRange;
+};
+
+}  // namespace tandem
