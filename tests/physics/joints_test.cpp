@@ -123,6 +123,24 @@ TEST_P(JointsAtRates, AMotorDrivesADrawer) {
               byWidth(1e-9, 1e-5));
 }
 
+// The pin of a place that has moved is open, and pulls the link that hangs on it.
+TEST_P(JointsAtRates, ABoundedPinPullsALinkAtItsOwnPoint) {
+  JointHost host;
+  btRigidBody& link = host.addLink(Vec3::Zero());
+  auto& pin = host.join<btPoint2PointConstraint>(link, btVector3(0, 0, 0));
+  pin.m_setting.m_impulseClamp = btScalar(1.0);
+  host.share(link);
+  host.rig.step(1.0 / GetParam());
+  pin.setPivotB(btVector3(btScalar(0.05), 0, 0));
+  double turning = 0.0;
+  for (int i = 0; i < static_cast<int>(GetParam()); ++i) {
+    host.rig.step(1.0 / GetParam());
+    turning = std::max(turning, fromBullet(link.getAngularVelocity()).norm());
+  }
+  EXPECT_LT(turning, byWidth(1e-9, 1e-4));
+  EXPECT_LT(JointHost::gap(link, Vec3::Zero(), Vec3(0.05, 0.0, 0.0)), 1e-4);
+}
+
 TEST(HostJoints, AreOnForTheHostAndEndWithItsOrder) {
   JointHost host;
   btRigidBody& link = host.addLink(Vec3(0.5 * kLength, 0.0, 0.0));

@@ -98,7 +98,7 @@ class RowWriter {
 
   void writeAxis(int i, const JointCoordinate& coordinate, const JointAxis& axis) {
     JointRow row;
-    fill(coordinate, row);
+    fill(coordinate, axis, row);
     double q = axis.sense * coordinate.way;
     if (axis.counts_turns && i >= 3) q = axis.near + std::remainder(q - axis.near, kTurn);
     if (axis.isLocked()) {
@@ -118,18 +118,21 @@ class RowWriter {
   }
 
   /// Both ends get a linear row's force at the same point, so no angular momentum is made. That
-  /// of b lets n stay in the frame of a.
-  void fill(const JointCoordinate& coordinate, JointRow& row) const {
+  /// of b lets n stay in the frame of a. But a bounded pin may be open, and pulls each end at its
+  /// own point, as Bullet's does.
+  void fill(const JointCoordinate& coordinate, const JointAxis& axis, JointRow& row) const {
     const PlainVec direction(coordinate.direction_W);
+    const bool is_bounded = axis.hold_force < HUGE_VAL;
     if (coordinate.is_angular) {
       row.turn_a_W = coordinate.direction_W;
       row.turn_b_W = -coordinate.direction_W;
     } else {
       row.n_W = coordinate.direction_W;
-      row.turn_a_W = cross(r_a_, direction).toVec3();
+      const PlainVec at_a = is_bounded ? PlainVec(Vec3(placed_.p_a - a_.p_W)) : r_a_;
+      row.turn_a_W = cross(at_a, direction).toVec3();
       row.turn_b_W = cross(direction, r_b_).toVec3();
     }
-    row.tells_bend = coordinate.goes != Goes::kAlone;
+    row.tells_bend = coordinate.goes != Goes::kAlone && !is_bounded;
     if (row.tells_bend) row.bend = dot(direction, bends_.of(coordinate));
   }
 
