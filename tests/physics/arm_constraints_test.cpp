@@ -193,8 +193,7 @@ TEST_P(ArmConstraintsAtRates, ASphericalMotorEndsWhenItIsRemoved) {
   host.run(0.5, GetParam());
   EXPECT_LT(turnOf(host).angularDistance(Quat::Identity()), byWidth(1e-3, 1e-3));
   const double before = host.energy();
-  host.host.multi()->removeMultiBodyConstraint(host.constraints.back().get());
-  host.constraints.clear();
+  host.remove(*host.constraints.back());
   host.run(0.5, GetParam());
   EXPECT_GT(turnOf(host).angularDistance(Quat::Identity()), 0.5);
   EXPECT_NEAR(host.energy(), before, byWidth(1e-6, 1e-2));

@@ -39,6 +39,7 @@ struct ArmHost {
   ~ArmHost() {
     site.reset();
     for (const auto& one : constraints) host.multi()->removeMultiBodyConstraint(one.get());
+    for (const auto& one : others) host.multi()->removeMultiBody(one.get());
   }
   ArmHost(const ArmHost&) = delete;
   ArmHost& operator=(const ArmHost&) = delete;
@@ -94,6 +95,11 @@ struct ArmHost {
     }
     showPose();
   }
+  /// The next build() makes another multi-body, which is arm() then.
+  btMultiBody& putAside() {
+    others.push_back(std::move(host.multi_body));
+    return *others.back();
+  }
   btMultiBodyLinkCollider& addCollider(int link, btBoxShape& shape) {
     shape.setMargin(btScalar(0.001));
     auto collider = std::make_unique<btMultiBodyLinkCollider>(host.multi_body.get(), link);
@@ -128,6 +134,10 @@ struct ArmHost {
   void addLimit(int link, double low, double high) {
     add<btMultiBodyJointLimitConstraint>(link, static_cast<btScalar>(low),
                                          static_cast<btScalar>(high));
+  }
+  void remove(btMultiBodyConstraint& constraint) {
+    host.multi()->removeMultiBodyConstraint(&constraint);
+    std::erase_if(constraints, [&](const auto& one) { return one.get() == &constraint; });
   }
   /// Puts the hand beside the first joint of a chain, where nothing touches it.
   void putHandBeside() {
@@ -181,6 +191,7 @@ struct ArmHost {
 
   AnyHost host;
   FakeDevice device{Vec3(10.0, 0.0, 0.0)};
+  std::vector<std::unique_ptr<btMultiBody>> others;  ///< multi-bodies beside arm()
   std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints;
   std::unique_ptr<Site> site;
 };

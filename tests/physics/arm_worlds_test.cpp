@@ -9,6 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+#include <BulletDynamics/Featherstone/btMultiBodySliderConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodySphericalJointLimit.h>
+#include <BulletDynamics/Featherstone/btMultiBodySphericalJointMotor.h>
+
 #include "tandem/plugin/site.h"
 
 #include "physics/arm_host.h"
@@ -27,6 +33,8 @@ struct Draw : test::Random {
   int count(int low, int high) { return low + below(high - low + 1); }
   bool chance(double p) { return uniform(0.0, 1.0) < p; }
 };
+
+btScalar bullet(double number) { return static_cast<btScalar>(number); }
 
 ArmLinkPlan drawLink(Draw& draw, int index) {
   ArmLinkPlan link;
@@ -63,6 +71,7 @@ class ArmWorld {
     rate_ = draw_.chance(0.3) ? 60.0 : draw_.chance(0.5) ? 240.0 : 1000.0;
     for (int i = 0; i < count; ++i) {
       const auto joint = plan[static_cast<std::size_t>(i)].joint;
+      if (joint == btMultibodyLink::eSpherical) addToBall(i);
       if (joint != btMultibodyLink::eRevolute && joint != btMultibodyLink::ePrismatic) continue;
       if (draw_.chance(0.6))
         motors_.push_back(&host_.addMotor(i, draw_.real(-1, 1), drawImpulse()));
@@ -72,6 +81,8 @@ class ArmWorld {
       cubes_.push_back(&host_.host.addCube(
           draw_.real(0.05, 1.0), Vec3(draw_.real(-0.3, 0.3), draw_.real(-0.3, 0.3), 0.5)));
     if (draw_.chance(0.3)) cubes_.back()->setAnisotropicFriction(btVector3(1, btScalar(0.5), 1));
+    if (draw_.chance(0.5))
+      for (int i = draw_.count(1, 2); i-- > 0;) addTie();
     hand_ = Vec3(draw_.real(-0.2, 0.4), draw_.real(-0.1, 0.1), draw_.real(0.2, 0.45));
     host_.device.sample.hip.p_W = hand_;
     SiteSettings settings;
@@ -108,8 +119,8 @@ class ArmWorld {
   [[nodiscard]] bool isGivenBack() {
     host_.site.reset();
     bool is_back = host_.arm().getMaxCoordinateVelocity() == btScalar(100);
-    for (std::size_t i = 0; i < motors_.size(); ++i)
-      is_back = is_back && motors_[i]->getMaxAppliedImpulse() > 0;
+    for (const auto& constraint : host_.constraints)
+      is_back = is_back && constraint->getMaxAppliedImpulse() > 0;
     for (const btRigidBody* cube : cubes_)
       is_back = is_back && cube->getNumObjectsWithoutCollision() == 0;
     return is_back;
@@ -136,11 +147,64 @@ class ArmWorld {
     const int links = host_.arm().getNumLinks();
     return links == 0 ? -1 : draw_.count(0, links - 1);
   }
+  btVector3 drawPlace(double reach) { return toBullet(draw_.inCube(reach)); }
+  void addToBall(int link) {
+    if (draw_.chance(0.6)) {
+      auto& motor = host_.add<btMultiBodySphericalJointMotor>(link, bullet(drawImpulse()));
+      motor.setPositionTarget(
+          toBullet(Quat(Eigen::AngleAxisd(draw_.real(0.0, 2.0), draw_.direction()))),
+          bullet(draw_.real(0.0, 1.0)));
+      if (draw_.chance(0.5)) motor.setDamping(btVector3(1, 1, 1) * bullet(draw_.real(0.1, 1.0)));
+    }
+    if (draw_.chance(0.4))
+      host_.add<btMultiBodySphericalJointLimit>(
+          link, bullet(draw_.real(0.1, 1.5)), bullet(draw_.real(0.1, 1.5)),
+          bullet(draw_.real(0.1, 3.0)), bullet(100.0 / rate_));
+  }
+  /// Connects a link with a cube, with another link, or with the world, about where they are.
+  void addTie() {
+    const btMultiBody& arm = host_.arm();
+    const int a = drawJoint(), kind = draw_.count(0, 2);
+    const bool to_cube = draw_.chance(0.4), to_link = !to_cube && draw_.chance(0.5);
+    const int b = to_link ? drawJoint() : -1;
+    if (to_link && a == b) return;
+    btRigidBody* cube =
+        to_cube
+            ? cubes_[static_cast<std::size_t>(draw_.count(0, static_cast<int>(cubes_.size()) - 1))]
+            : nullptr;
+    const btVector3 on_a = drawPlace(0.05), place = arm.localPosToWorld(a, on_a) + drawPlace(0.01);
+    const btMatrix3x3 straight = btMatrix3x3::getIdentity();
+    btMatrix3x3 frame = arm.localFrameToWorld(a, straight);
+    btVector3 on_b = cube ? drawPlace(0.05) : place;
+    if (cube && draw_.chance(0.7))
+      cube->setWorldTransform(toBullet(fromBullet(place - on_b), Quat::Identity()));
+    if (to_link) {
+      on_b = const_cast<btMultiBody&>(arm).worldPosToLocal(b, place);
+      frame = arm.localFrameToWorld(b, straight).transpose() * frame;
+    }
+    if (cube) frame = straight;
+    const btVector3 along = toBullet(draw_.direction());
+    if (to_link) {
+      if (kind == 0) host_.add<btMultiBodyPoint2Point>(a, &host_.arm(), b, on_a, on_b);
+      if (kind == 1)
+        host_.add<btMultiBodyFixedConstraint>(a, &host_.arm(), b, on_a, on_b, straight, frame);
+      if (kind == 2)
+        host_.add<btMultiBodySliderConstraint>(a, &host_.arm(), b, on_a, on_b, straight, frame,
+                                               along);
+    } else {
+      if (kind == 0) host_.add<btMultiBodyPoint2Point>(a, cube, on_a, on_b);
+      if (kind == 1) host_.add<btMultiBodyFixedConstraint>(a, cube, on_a, on_b, straight, frame);
+      if (kind == 2)
+        host_.add<btMultiBodySliderConstraint>(a, cube, on_a, on_b, straight, frame, along);
+    }
+    ties_.push_back(host_.constraints.back().get());
+    if (draw_.chance(0.5)) ties_.back()->setMaxAppliedImpulse(bullet(500.0 / rate_));
+  }
   void act() {
     btMultiBody& arm = host_.arm();
     const int link = drawJoint();
     const int dofs = link < 0 ? 0 : arm.getLink(link).m_dofCount;
-    const int what = draw_.count(0, 9);
+    const int what = draw_.count(0, 12);
     story_ += ", " + std::to_string(step_) + ": " + std::to_string(what);
     if (what == 0 && dofs == 1) {
       arm.setJointPos(link, static_cast<btScalar>(draw_.real(-0.5, 0.5)));
@@ -163,6 +227,7 @@ class ArmWorld {
     } else if (what == 6) {
       leave_ = !leave_;
       if (leave_) {
+        for (btMultiBodyConstraint* tie : ties_) host_.host.multi()->removeMultiBodyConstraint(tie);
         for (const auto& collider : host_.host.colliders)
           host_.host.world->removeCollisionObject(collider.get());
         host_.host.multi()->removeMultiBody(&arm);
@@ -170,6 +235,7 @@ class ArmWorld {
         host_.host.multi()->addMultiBody(&arm);
         for (const auto& collider : host_.host.colliders)
           host_.host.world->addCollisionObject(collider.get(), 1, -1);
+        for (btMultiBodyConstraint* tie : ties_) host_.host.multi()->addMultiBodyConstraint(tie);
       }
     } else if (what == 7) {
       cubes_.back()->setWorldTransform(
@@ -179,6 +245,15 @@ class ArmWorld {
       arm.setLinearDamping(static_cast<btScalar>(draw_.real(0.0, 0.1)));
     } else if (what == 9 && !arm.hasFixedBase()) {
       arm.setBaseVel(toBullet(draw_.inCube(0.5)));
+    } else if (what == 10 && !ties_.empty() && !leave_) {
+      ties_.front()->setMaxAppliedImpulse(bullet(draw_.real(0.1, 500.0) / rate_));
+    } else if (what == 11 && !ties_.empty() && !leave_) {
+      const Vec3 to =
+          draw_.inCube(0.05) + (ties_.front()->getMultiBodyB() ? 0.0 : 0.3) * Vec3::UnitZ();
+      ties_.front()->setPivotInB(toBullet(to));
+    } else if (what == 12 && !ties_.empty() && !leave_) {
+      host_.remove(*ties_.back());
+      ties_.pop_back();
     }
   }
 
@@ -186,6 +261,7 @@ class ArmWorld {
   ArmHost host_;
   std::vector<btRigidBody*> cubes_;
   std::vector<btMultiBodyJointMotor*> motors_;
+  std::vector<btMultiBodyConstraint*> ties_;
   std::string story_;
   Vec3 hand_ = Vec3::Zero();
   double rate_ = 60.0, tick_ = 0.0;

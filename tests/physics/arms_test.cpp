@@ -348,12 +348,16 @@ TEST(Arms, LeaveTheIslandWithTheHand) {
   EXPECT_NE(host.u(1), u);
 }
 
+/// A constraint of the host's own.
+struct OwnPoint final : btMultiBodyPoint2Point {
+  using btMultiBodyPoint2Point::btMultiBodyPoint2Point;
+};
+
 TEST(Arms, StayBulletsWithConstraintsOfOtherKinds) {
   ArmHost host;
   host.build(makeChain(2));
-  host.constraints.push_back(std::make_unique<btMultiBodyPoint2Point>(
-      &host.arm(), 1, nullptr, btVector3(btScalar(0.1), 0, 0), btVector3(btScalar(0.4), 0, 0)));
-  host.host.multi()->addMultiBodyConstraint(host.constraints.back().get());
+  btRigidBody* const nothing = nullptr;
+  host.add<OwnPoint>(1, nothing, btVector3(btScalar(0.1), 0, 0), btVector3(btScalar(0.4), 0, 0));
   host.putHandBeside();
   host.start();
   host.run(0.2, 60.0);

@@ -13,12 +13,16 @@ namespace tandem {
 /// What the island makes of a constraint of multi-bodies.
 enum class ArmConstraintKind : std::uint8_t {
   kUnknown,  ///< nothing: a type of the host's own
+  kGear,     ///< nothing: it couples up to four links, and rows have two ends
   // Of a joint with one degree of freedom: settings of its axis (ArmJoints).
   kJointMotor,
   kJointLimit,
   // Joints of their own (ArmConstraints).
   kSphericalMotor,
   kSphericalLimit,
+  kPoint,
+  kFixed,
+  kSlider,
 };
 
 /// Exactly these types of Bullet, none derived from them.
@@ -29,10 +33,16 @@ enum class ArmConstraintKind : std::uint8_t {
   return kind > ArmConstraintKind::kJointLimit;
 }
 
-/// An end of a constraint.
+/// True if it holds a link at something else than the link's own parent.
+[[nodiscard]] inline bool isTie(ArmConstraintKind kind) noexcept {
+  return kind >= ArmConstraintKind::kPoint;
+}
+
+/// An end of a constraint: a link, a rigid body, or a place of the world.
 struct ArmConstraintEnd {
   btMultiBody* arm = nullptr;
   int link = -1;  ///< of the arm; -1: its base
+  btRigidBody* rigid = nullptr;
 
   [[nodiscard]] bool operator==(const ArmConstraintEnd&) const noexcept = default;
 };
@@ -50,8 +60,11 @@ struct ArmConstraintEnds {
 [[nodiscard]] const char* findObstacleToHold(btMultiBodyConstraint& host) noexcept;
 
 /// Reads a joint of its own as it is now, with Bullet's step and erp. Its frames are those of the
-/// links that it joins. Masses of drives are left out. Real-time safe.
+/// links and bodies that it joins. Masses of drives are left out. Real-time safe.
 [[nodiscard]] JointSettings readConstraint(btMultiBodyConstraint& host,
                                            const HostSolver& solver) noexcept;
+
+/// Turns angular impulses about a slider's own axes to those about axes of its frame A.
+[[nodiscard]] Vec3 turnToFrame(btMultiBodyConstraint& slider, const Vec3& by_axes) noexcept;
 
 }  // namespace tandem

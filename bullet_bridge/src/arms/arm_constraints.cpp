@@ -4,15 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
 #include "arms/arm_watch.h"
+#include "arms/constraint_fields.h"
 #include "arms/link_frame.h"
-#include "arms/spherical_fields.h"
 #include "arms/tell_impulse.h"
+#include "world/world_access.h"
 
 namespace tandem {
 namespace {
@@ -21,13 +23,18 @@ std::size_t placeOfLink(const ArmConstraintEnd& end) {
   return static_cast<std::size_t>(end.link + 1);
 }
 
-/// Pose of a link, or base, that stands.
-RigidState readPose(const btMultiBody& arm, int link) {
+bool doesStand(const btRigidBody& body) {
+  return body.getInvMass() == 0 && !body.isKinematicObject();
+}
+
+/// Pose of an end that stands.
+RigidState readPose(const ArmConstraintEnd& end) {
+  if (end.rigid) return readState(*end.rigid);
   RigidState pose;
-  pose.p_W = fromBullet(arm.localPosToWorld(link, btVector3(0, 0, 0)));
-  const btMatrix3x3 axes = arm.localFrameToWorld(link, btMatrix3x3::getIdentity());
+  if (!end.arm) return pose;
+  pose.p_W = fromBullet(end.arm->localPosToWorld(end.link, btVector3(0, 0, 0)));
   btQuaternion turn;
-  axes.getRotation(turn);
+  end.arm->localFrameToWorld(end.link, btMatrix3x3::getIdentity()).getRotation(turn);
   pose.q_WB = fromBullet(turn);
   return pose;
 }
@@ -50,7 +57,8 @@ bool isSameButForMasses(const JointSettings& before, JointSettings now) {
 
 }  // namespace
 
-void ArmConstraints::look(const std::vector<ArmJoints::Member>& members) {
+void ArmConstraints::look(const HostJoints::Find& find,
+                          const std::vector<ArmJoints::Member>& members) {
   if (!host_) return;
   next_.clear();
   for (int i = 0; i < host_->getNumMultiBodyConstraints() && next_.size() < kMaxJoints; ++i) {
@@ -58,7 +66,7 @@ void ArmConstraints::look(const std::vector<ArmJoints::Member>& members) {
     const ArmConstraintKind kind = findKind(host);
     if (!isJointOfItsOwn(kind)) continue;
     const ArmConstraintEnds host_ends = findEnds(host);
-    const auto a = findEnd(host_ends.a, members), b = findEnd(host_ends.b, members);
+    const auto a = findEnd(host_ends.a, find, members), b = findEnd(host_ends.b, find, members);
     if (!a || !b || a->index == b->index) continue;
     next_.push_back({&host, kind, host_ends, *a, *b, {a->index, b->index, &host}});
   }
@@ -67,12 +75,37 @@ void ArmConstraints::look(const std::vector<ArmJoints::Member>& members) {
   // The thread that ticks allocates nothing.
   acting_.reserve();
   off_.reserve(kMaxJoints);
+  reserveRows();
+}
+
+/// Rows are compared once take() has brought what look() has found.
+void ArmConstraints::reserveRows() {
+  next_held_ = {};
+  arms_.clear();
+  bodies_.clear();
+  const auto note = [](auto& list, const auto* one) {
+    if (one && std::find(list.begin(), list.end(), one) == list.end()) list.push_back(one);
+  };
+  for (const Joint& joint : next_)
+    for (const End* end : {&joint.a, &joint.b}) {
+      note(arms_, end->link ? &end->link->arm() : nullptr);
+      const ArmConstraintEnd& host = end == &joint.a ? joint.host_ends.a : joint.host_ends.b;
+      note(bodies_, host.rigid && end->index != kStanding ? host.rigid : nullptr);
+    }
+  next_held_.reserve(next_.size(), arms_, bodies_);
+  rows_.reserve(kMostJointRows);
 }
 
 /// None: it moves, and the island does not hold it.
 std::optional<ArmConstraints::End> ArmConstraints::findEnd(
-    const ArmConstraintEnd& end, const std::vector<ArmJoints::Member>& members) const {
-  if (isGround(*end.arm, end.link)) return End{};
+    const ArmConstraintEnd& end, const HostJoints::Find& find,
+    const std::vector<ArmJoints::Member>& members) {
+  if (end.rigid) {
+    if (doesStand(*end.rigid)) return End{};
+    const std::optional<BodyIndex> index = find(*end.rigid);
+    return index ? std::optional(End{*index}) : std::nullopt;
+  }
+  if (!end.arm || isGround(*end.arm, end.link)) return End{};
   for (const ArmJoints::Member& member : members) {
     const HostArm& arm = member.link->arm();
     if (&arm.body() == end.arm && arm.model().carrier(placeOfLink(end)) == member.link->number())
@@ -185,6 +218,7 @@ bool ArmConstraints::take() noexcept {
           before.ends.a == joint.ends.a && before.ends.b == joint.ends.b)
         joint = before;
   joints_.swap(next_);
+  std::swap(held_, next_held_);
   acting_.list(joints_);
   return true;
 }
@@ -202,18 +236,62 @@ bool ArmConstraints::refresh(double dt) noexcept {
     has_changed |= !isSameButForMasses(joint.copy.settings(), joint.settings);
     joint.copy = JointCopy(joint.settings);
   }
+  leaveOutHeld();
   return has_changed;
+}
+
+/// Finds rows that say nothing new beside others, where the host's world is.
+void ArmConstraints::leaveOutHeld() noexcept {
+  const auto forEachRow = [&](auto visit) {
+    for (Joint& joint : joints_) {
+      if (joint.is_gone || !isTie(joint.kind)) continue;
+      HeldEnd a, b;
+      evaluateAtHost(joint, a, b);
+      for (const JointRow& row : rows_) visit(joint, row, a, b);
+    }
+  };
+  held_.begin();
+  forEachRow([&](const Joint&, JointRow row, const HeldEnd& a, const HeldEnd& b) {
+    held_.add(row, row.high, a, b);
+  });
+  held_.compare();
+  std::size_t next = 0;
+  forEachRow([&](Joint& joint, const JointRow& row, const HeldEnd&, const HeldEnd&) {
+    const auto number = static_cast<std::size_t>(row.number);
+    joint.is_left_out[number] = held_.isHeld(next);
+    joint.force[number] = held_.greatestForce(next);
+    joint.open[number] = held_.openWay(next++);
+  });
+}
+
+/// Writes the rows of a constraint to `rows_`, where Bullet has its ends.
+void ArmConstraints::evaluateAtHost(const Joint& joint, HeldEnd& a, HeldEnd& b) noexcept {
+  const auto look = [](const End& end, const ArmConstraintEnd& host, HeldEnd& held) {
+    if (end.link) {
+      held.arm = &end.link->arm();
+      held.place = end.link->number();
+      return held.arm->findState(held.place);
+    }
+    if (end.index == kStanding) return end.standing;
+    held.rigid = host.rigid;
+    return readState(*host.rigid);
+  };
+  const RigidState at_a = look(joint.a, joint.host_ends.a, a);
+  const RigidState at_b = look(joint.b, joint.host_ends.b, b);
+  rows_.clear();
+  joint.copy.evaluate(at_a, at_b, rows_);
 }
 
 /// Reads a constraint of the host's world as it is now, between bodies of the island.
 void ArmConstraints::read(Joint& joint, const HostSolver& solver) noexcept {
   joint.by_bullet = {};
   joint.settings = readConstraint(*joint.host, solver);
+  joint.mend = joint.settings.axes[1].erp / solver.dt;
   const auto place = [&](End& end, const ArmConstraintEnd& host_end, JointFrame& frame) {
     if (end.link)
       frame = moveToCarrier(end.link->arm().model(), placeOfLink(host_end), frame);
-    else
-      end.standing = readPose(*host_end.arm, host_end.link);
+    else if (end.index == kStanding)
+      end.standing = readPose(host_end);
   };
   place(joint.a, joint.host_ends.a, joint.settings.a);
   place(joint.b, joint.host_ends.b, joint.settings.b);
@@ -240,21 +318,37 @@ void ArmConstraints::tellHost(Joint& joint, double dt) noexcept {
   const auto given = [&](JointRowKind kind, std::size_t axis) {
     return scale * joint.told.impulse[JointCopy::numberOf(kind, axis)];
   };
+  const auto held = [&](std::size_t axis) { return given(JointRowKind::kHold, axis); };
+  const auto tell = [&](std::size_t row, double impulse) {
+    tellImpulse(*joint.host, static_cast<int>(row), impulse);
+  };
   switch (joint.kind) {
     case ArmConstraintKind::kUnknown:
+    case ArmConstraintKind::kGear:
     case ArmConstraintKind::kJointMotor:
     case ArmConstraintKind::kJointLimit:
       break;
     case ArmConstraintKind::kSphericalMotor:
       for (std::size_t k = 0; k < 3; ++k)
-        tellImpulse(*joint.host, static_cast<int>(k),
-                    given(JointRowKind::kDrive, 3 + k) + joint.by_bullet[k]);
+        tell(k, given(JointRowKind::kDrive, 3 + k) + joint.by_bullet[k]);
       break;
     case ArmConstraintKind::kSphericalLimit:
       for (std::size_t k = 0; k < 3; ++k)
-        tellImpulse(*joint.host, static_cast<int>(k),
-                    given(JointRowKind::kHold, 3 + k) - given(JointRowKind::kHighLimit, 3 + k));
+        tell(k, held(3 + k) - given(JointRowKind::kHighLimit, 3 + k));
       break;
+    case ArmConstraintKind::kPoint:
+      // Bullet's rows point against the axes of the world.
+      for (std::size_t k = 0; k < 3; ++k) tell(k, -held(k));
+      break;
+    case ArmConstraintKind::kFixed:
+      for (std::size_t k = 0; k < 6; ++k) tell(k, held(k));
+      break;
+    case ArmConstraintKind::kSlider: {
+      for (std::size_t k = 0; k < 2; ++k) tell(k, held(1 + k));
+      const Vec3 turn = turnToFrame(*joint.host, Vec3(held(3), held(4), held(5)));
+      for (std::size_t k = 2; k < 5; ++k) tell(k, turn[static_cast<int>(k % 3)]);
+      break;
+    }
   }
 }
 
@@ -277,8 +371,20 @@ double ArmConstraints::rounding() const noexcept {
 void ArmConstraints::evaluate(std::size_t joint, const RigidState& a, const RigidState& b,
                               std::vector<JointRow>& rows) noexcept {
   const Joint& wanted = joints_[acting_.places()[joint]];
+  const auto first = static_cast<std::ptrdiff_t>(rows.size());
   wanted.copy.evaluate(wanted.ends.a == kStanding ? wanted.a.standing : a,
                        wanted.ends.b == kStanding ? wanted.b.standing : b, rows);
+  if (!isTie(wanted.kind)) return;
+  const auto isLeftOut = [&](const JointRow& row) {
+    return wanted.is_left_out[static_cast<std::size_t>(row.number)];
+  };
+  rows.erase(std::remove_if(rows.begin() + first, rows.end(), isLeftOut), rows.end());
+  for (std::size_t i = static_cast<std::size_t>(first); i < rows.size(); ++i) {
+    const auto number = static_cast<std::size_t>(rows[i].number);
+    rows[i].speed += wanted.mend * wanted.open[number];
+    rows[i].high = wanted.force[number];
+    rows[i].low = -rows[i].high;
+  }
 }
 
 }  // namespace tandem

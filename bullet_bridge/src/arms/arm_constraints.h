@@ -9,8 +9,10 @@
 
 #include "arms/arm_constraint.h"
 #include "arms/arm_joints.h"
+#include "arms/held_rows.h"
 #include "coordination/src/island/joint_source.h"
 #include "joints/acting_joints.h"
+#include "joints/host_joints.h"
 #include "joints/joint_copy.h"
 
 class btMultiBodyDynamicsWorld;
@@ -20,16 +22,19 @@ namespace tandem {
 
 /// Constraints of multi-bodies that the island holds as joints of their own (ArmConstraintKind).
 ///
-/// While Bullet's solver runs they are without force, but for motors of spherical joints, which
-/// hold what was handed off. The host finds them as it left them, with the island's impulses.
+/// Each acts within its bound of Bullet's, and mends a part of its error per step of the host. What
+/// others hold already it leaves out (HeldRows). While
+/// Bullet's solver runs they are without force, but for motors of spherical joints, which hold what
+/// was handed off. The host finds them as it left them, with the island's impulses.
 /// Functions and threads are those of HostJoints.
 class ArmConstraints final : public JointSource {
  public:
   /// `host` may have no multi-bodies: null.
   explicit ArmConstraints(btMultiBodyDynamicsWorld* host) noexcept : host_(host) {}
 
-  /// Finds the constraints whose ends the island holds. `members` as for ArmJoints.
-  void look(const std::vector<ArmJoints::Member>& members);
+  /// Finds the constraints whose ends the island holds, or of which one stands. Rigid bodies are
+  /// found as for HostJoints, links among `members` as for ArmJoints.
+  void look(const HostJoints::Find& find, const std::vector<ArmJoints::Member>& members);
   /// Marks those that the host has removed.
   void findGone() noexcept;
   void switchOff() noexcept;
@@ -55,7 +60,7 @@ class ArmConstraints final : public JointSource {
   /// An end in the island.
   struct End {
     BodyIndex index = kStanding;
-    const LinkBody* link = nullptr;  ///< that carries the end; null: it stands
+    const LinkBody* link = nullptr;  ///< that carries the end; null: a rigid body, or it stands
     RigidState standing = {};        ///< of an end that stands
   };
   /// What a constraint gave since the last tell().
@@ -70,10 +75,15 @@ class ArmConstraints final : public JointSource {
     End a, b;
     JointEnds ends;
     JointSettings settings = {};
+    double mend = 0.0;  ///< speed per way that a tie closes [1/s]
     JointCopy copy{JointSettings()};
     Given given = {}, told = {};
     std::array<double, 3> by_bullet = {};  ///< of a motor in Bullet's last step [N m s]
     bool is_gone = false;
+    // By row, as of the host's last step.
+    std::array<bool, kMostJointRows> is_left_out = {};  ///< others hold it
+    std::array<double, kMostJointRows> force = {};      ///< greatest [N or N m]
+    std::array<double, kMostJointRows> open = {};       ///< way that nothing closes [m or rad]
   };
   /// What a constraint had before it was switched off.
   struct Off {
@@ -84,10 +94,14 @@ class ArmConstraints final : public JointSource {
     bool is_each;
   };
 
-  [[nodiscard]] std::optional<End> findEnd(const ArmConstraintEnd& end,
-                                           const std::vector<ArmJoints::Member>& members) const;
+  [[nodiscard]] static std::optional<End> findEnd(const ArmConstraintEnd& end,
+                                                  const HostJoints::Find& find,
+                                                  const std::vector<ArmJoints::Member>& members);
   [[nodiscard]] bool isAsWanted() const noexcept;
   void read(Joint& joint, const HostSolver& solver) noexcept;
+  void reserveRows();
+  void leaveOutHeld() noexcept;
+  void evaluateAtHost(const Joint& joint, HeldEnd& a, HeldEnd& b) noexcept;
   [[gnu::visibility("hidden")]] void holdSpeed(const Joint& joint, Off& off) noexcept;
   [[gnu::visibility("hidden")]] static void giveSettingsBack(const Joint& joint,
                                                              const Off& off) noexcept;
@@ -99,6 +113,10 @@ class ArmConstraints final : public JointSource {
   bool has_next_ = false;
   std::vector<Off> off_;
   ActingJoints acting_;
+  HeldRows held_, next_held_;
+  std::vector<JointRow> rows_;  ///< working memory, as all below
+  std::vector<const HostArm*> arms_;
+  std::vector<const btRigidBody*> bodies_;
 };
 
 }  // namespace tandem

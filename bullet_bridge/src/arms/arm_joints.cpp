@@ -136,7 +136,9 @@ bool ArmJoints::isAsWanted() const noexcept {
 /// The joint that a motor or limit of the host's world belongs to; null: the island does not hold
 /// it, or holds the constraint as a joint of its own.
 ArmJoints::Joint* ArmJoints::findJoint(btMultiBodyConstraint& constraint) noexcept {
-  if (isJointOfItsOwn(findKind(constraint))) return nullptr;
+  const ArmConstraintKind kind = findKind(constraint);
+  if (kind != ArmConstraintKind::kJointMotor && kind != ArmConstraintKind::kJointLimit)
+    return nullptr;
   const auto is_its = [&](const Joint& joint) {
     return !joint.is_gone && &joint.link->arm().body() == constraint.getMultiBodyA() &&
            static_cast<int>(joint.link->number()) - 1 == constraint.getLinkA();

@@ -74,6 +74,14 @@ class HostArm {
   /// Mass, or moment of inertia, that a joint moves along one of its degrees of freedom, as of the
   /// last handOff() [kg or kg m^2].
   [[nodiscard]] double findMass(std::size_t place, std::size_t dof = 0) const noexcept;
+  /// Degrees of freedom: of a base that moves, turns first, and of the joints.
+  [[nodiscard]] std::size_t countFree() const noexcept {
+    return static_cast<std::size_t>(mobility_.rows());
+  }
+  /// Velocity of one of them by a unit impulse along another, as of the last handOff().
+  [[nodiscard]] double mobility(std::size_t one, std::size_t other) const noexcept {
+    return mobility_(static_cast<Eigen::Index>(one), static_cast<Eigen::Index>(other));
+  }
 
  private:
   friend class LinkBody;

@@ -6,7 +6,7 @@ void WorldJoints::look(const HostJoints::Find& find,
                        const std::vector<ArmJoints::Member>& members) {
   rigid_.look(find);
   arms_.look(members);
-  constraints_.look(members);
+  constraints_.look(find, members);
   ends_.reserve(kMaxJoints);
 }
 

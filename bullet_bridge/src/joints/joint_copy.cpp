@@ -122,17 +122,17 @@ class RowWriter {
   /// own point, as Bullet's does.
   void fill(const JointCoordinate& coordinate, const JointAxis& axis, JointRow& row) const {
     const PlainVec direction(coordinate.direction_W);
-    const bool is_bounded = axis.hold_force < HUGE_VAL;
+    const bool pulls = axis.hold_force < HUGE_VAL && joint_.kind != JointKind::kRail;
     if (coordinate.is_angular) {
       row.turn_a_W = coordinate.direction_W;
       row.turn_b_W = -coordinate.direction_W;
     } else {
       row.n_W = coordinate.direction_W;
-      const PlainVec at_a = is_bounded ? PlainVec(Vec3(placed_.p_a - a_.p_W)) : r_a_;
+      const PlainVec at_a = pulls ? PlainVec(Vec3(placed_.p_a - a_.p_W)) : r_a_;
       row.turn_a_W = cross(at_a, direction).toVec3();
       row.turn_b_W = cross(direction, r_b_).toVec3();
     }
-    row.tells_bend = coordinate.goes != Goes::kAlone && !is_bounded;
+    row.tells_bend = coordinate.goes != Goes::kAlone && !pulls;
     if (row.tells_bend) row.bend = dot(direction, bends_.of(coordinate));
   }
 

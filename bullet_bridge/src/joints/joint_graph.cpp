@@ -17,50 +17,68 @@ namespace {
 /// A joint is open beyond this way, with a part of the smaller body's radius, or angle [m], [rad].
 constexpr double kOpenWay = 1e-3, kOpenPart = 0.1, kOpenAngle = 0.1;
 
-/// Calls `visit` for all joints that act.
+/// Calls `visit` for all joints of rigid bodies that act.
 template <typename Visit>
 void forEachJoint(btDiscreteDynamicsWorld& world, Visit visit) {
   for (int i = 0; i < world.getNumConstraints(); ++i)
     if (btTypedConstraint* joint = world.getConstraint(i); joint->isEnabled()) visit(*joint);
 }
 
-/// The host's order, which addresses do not keep from run to run.
-bool comesBefore(const btRigidBody* a, const btRigidBody* b) {
-  return a->getWorldArrayIndex() < b->getWorldArrayIndex();
+bool doesEndChain(const btRigidBody& body) {
+  return body.isStaticOrKinematicObject() || body.getInvMass() == 0;
 }
 
 }  // namespace
 
-void JointGraph::list() {
-  nodes_.clear();
+template <typename Visit>
+void JointGraph::forEachPair(const std::vector<ArmTie>& ties, Visit visit) const {
   forEachJoint(host_, [&](btTypedConstraint& joint) {
-    for (btRigidBody* body : {&joint.getRigidBodyA(), &joint.getRigidBodyB()})
-      nodes_.push_back({body, body->isStaticOrKinematicObject() || body->getInvMass() == 0});
+    visit(Jointed{&joint.getRigidBodyA()}, Jointed{&joint.getRigidBodyB()});
   });
-  const auto isLess = [](const Node& a, const Node& b) {
-    return std::less<const btRigidBody*>()(a.body, b.body);
+  for (const ArmTie& tie : ties) visit(tie.a, tie.b);
+}
+
+void JointGraph::list(const std::vector<ArmTie>& ties) {
+  listNodes(ties);
+  nameChains(ties);
+  listMembers(ties);
+}
+
+void JointGraph::listNodes(const std::vector<ArmTie>& ties) {
+  nodes_.clear();
+  int arms = host_.getNumCollisionObjects();  // they come last, in the order of their ties
+  const auto add = [&](const Jointed& of) {
+    if (of.body)
+      nodes_.push_back({of, of.body->getWorldArrayIndex(), doesEndChain(*of.body)});
+    else
+      nodes_.push_back({of, arms++});
   };
-  std::sort(nodes_.begin(), nodes_.end(), isLess);
+  forEachPair(ties, [&](const Jointed& a, const Jointed& b) {
+    add(a);
+    add(b);
+  });
+  std::sort(nodes_.begin(), nodes_.end(), [](const Node& a, const Node& b) {
+    const void *at_a = a.of.address(), *at_b = b.of.address();
+    return at_a == at_b ? a.order < b.order : std::less<const void*>()(at_a, at_b);
+  });
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end(),
-                           [](const Node& a, const Node& b) { return a.body == b.body; }),
+                           [](const Node& a, const Node& b) { return a.of == b.of; }),
                nodes_.end());
-  nameChains();
-  listMembers();
 }
 
 /// Joins what each joint connects, and gives each set a number.
-void JointGraph::nameChains() {
+void JointGraph::nameChains(const std::vector<ArmTie>& ties) {
   parent_.resize(nodes_.size());
   for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
   const auto root = [&](std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   };
-  const auto placeOf = [&](const btRigidBody& body) {
-    return static_cast<std::size_t>(find(body) - nodes_.data());
+  const auto placeOf = [&](const Jointed& of) {
+    return static_cast<std::size_t>(find(of.address()) - nodes_.data());
   };
-  forEachJoint(host_, [&](btTypedConstraint& joint) {
-    const std::size_t a = placeOf(joint.getRigidBodyA()), b = placeOf(joint.getRigidBodyB());
+  forEachPair(ties, [&](const Jointed& of_a, const Jointed& of_b) {
+    const std::size_t a = placeOf(of_a), b = placeOf(of_b);
     if (!nodes_[a].is_end && !nodes_[b].is_end) parent_[root(a)] = root(b);
   });
   chains_.clear();
@@ -74,7 +92,7 @@ void JointGraph::nameChains() {
   forEachJoint(host_, [&](btTypedConstraint& joint) {
     if (mayBeHeld(joint)) return;
     for (const btRigidBody* body : {&joint.getRigidBodyA(), &joint.getRigidBodyB()})
-      if (const Node& node = *find(*body); !node.is_end) chains_[node.chain].may_be_held = false;
+      if (const Node& node = *find(body); !node.is_end) chains_[node.chain].may_be_held = false;
   });
 }
 
@@ -100,34 +118,39 @@ bool JointGraph::mayBeHeld(btTypedConstraint& joint) {
   });
 }
 
-void JointGraph::listMembers() {
+void JointGraph::listMembers(const std::vector<ArmTie>& ties) {
   listed_.clear();
   for (const Node& node : nodes_)
-    if (!node.is_end) listed_.emplace_back(node.chain, node.body);
+    if (!node.is_end) listed_.push_back({node.chain, node.order, node.of});
   // A kinematic end may be that of several chains.
-  forEachJoint(host_, [&](btTypedConstraint& joint) {
-    const Node &a = *find(joint.getRigidBodyA()), &b = *find(joint.getRigidBodyB());
+  forEachPair(ties, [&](const Jointed& of_a, const Jointed& of_b) {
+    const Node &a = *find(of_a.address()), &b = *find(of_b.address());
     if (a.is_end == b.is_end) return;
     const Node& end = a.is_end ? a : b;
-    if (end.body->isKinematicObject()) listed_.emplace_back((a.is_end ? b : a).chain, end.body);
+    if (end.of.body->isKinematicObject())
+      listed_.push_back({(a.is_end ? b : a).chain, end.order, end.of});
   });
-  std::sort(listed_.begin(), listed_.end(), [](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : comesBefore(a.second, b.second);
+  std::sort(listed_.begin(), listed_.end(), [](const Listed& a, const Listed& b) {
+    return a.chain != b.chain ? a.chain < b.chain : a.order < b.order;
   });
-  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
+  listed_.erase(std::unique(listed_.begin(), listed_.end(),
+                            [](const Listed& a, const Listed& b) {
+                              return a.chain == b.chain && a.of == b.of;
+                            }),
+                listed_.end());
   members_.clear();
-  for (const auto& [chain, body] : listed_) {
-    if (chains_[chain].count++ == 0) chains_[chain].first = members_.size();
-    members_.push_back(body);
+  for (const Listed& listed : listed_) {
+    if (chains_[listed.chain].count++ == 0) chains_[listed.chain].first = members_.size();
+    members_.push_back(listed.of);
   }
 }
 
-const JointGraph::Node* JointGraph::find(const btRigidBody& body) const {
-  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), &body,
-                                      [](const Node& node, const btRigidBody* wanted) {
-                                        return std::less<const btRigidBody*>()(node.body, wanted);
+const JointGraph::Node* JointGraph::find(const void* address) const {
+  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), address,
+                                      [](const Node& node, const void* wanted) {
+                                        return std::less<const void*>()(node.of.address(), wanted);
                                       });
-  return place != nodes_.end() && place->body == &body ? &*place : nullptr;
+  return place != nodes_.end() && place->of.address() == address ? &*place : nullptr;
 }
 
 }  // namespace tandem

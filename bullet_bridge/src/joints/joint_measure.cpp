@@ -83,7 +83,7 @@ void measureTurn(const PlacedJoint& placed, JointCoordinates& out) {
   const Eigen::AngleAxisd turn(Axes(placed.axes_b.transpose() * placed.axes_a));
   for (int i = 0; i < 3; ++i)
     out[static_cast<std::size_t>(i + 3)].setAngle(placed.axes_a.col(i),
-                                                  turn.angle() * turn.axis()[i]);
+                                                  turn.angle() * turn.axis()[i], Goes::kWithA);
 }
 
 }  // namespace
@@ -112,6 +112,10 @@ JointCoordinates measureJoint(const JointSettings& joint, const PlacedJoint& pla
       break;
     case JointKind::kWeld:
       if (joint.holds_points) measurePin(placed, out);
+      measureTurn(placed, out);
+      break;
+    case JointKind::kRail:
+      measureShift(placed, out);
       measureTurn(placed, out);
       break;
     case JointKind::kTiltTurn:

@@ -83,6 +83,7 @@ enum class JointKind : std::uint8_t {
   kGear,
   // Of multi-bodies.
   kWeld,      ///< points as kPoint, and the turn of frame a beside frame b, about axes of a
+  kRail,      ///< ways along axes of a, and the turn as of kWeld
   kTiltTurn,  ///< tilts of z of frame a in frame b, about axes x and y of a; its turn about z
 };
 

@@ -10,6 +10,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "arms/arm_constraint.h"
 #include "arms/arm_model.h"
 #include "arms/arm_watch.h"
 #include "bodies/body_look.h"
@@ -66,6 +67,9 @@ class Visitor final : public btBroadphaseAabbCallback {
   Visit visit_;
 };
 
+/// The search only looks at what it is not asked to take.
+Jointed asJointed(const btRigidBody& body) { return {const_cast<btRigidBody*>(&body), nullptr}; }
+
 template <typename Body>
 bool contains(const std::vector<Body*>& bodies, const Body* body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
@@ -84,7 +88,8 @@ const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<Neighbo
   found_arms_.clear();
   arms_.clear();
   taken_ = 0;
-  joints_.look([&](const btRigidBody& body) { return isExcluded(body) || mayBeHeld(body); });
+  listTies();
+  joints_.look(ties_, [&](const btRigidBody& body) { return isExcluded(body) || mayBeHeld(body); });
   wave_ = seeds;
   takeChainsOfExcluded();
   while (!wave_.empty() && taken_ < capacity_) {
@@ -94,6 +99,31 @@ const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<Neighbo
     takeNearest();
   }
   return found_;
+}
+
+/// Constraints of multi-bodies with others, or with rigid bodies.
+void NeighbourSearch::listTies() {
+  ties_.clear();
+  const int count = arms_host_ ? arms_host_->getNumMultiBodyConstraints() : 0;
+  for (int i = 0; i < count; ++i) {
+    btMultiBodyConstraint& constraint = *arms_host_->getMultiBodyConstraint(i);
+    const ArmConstraintKind kind = findKind(constraint);
+    if (!isTie(kind) && kind != ArmConstraintKind::kGear) continue;
+    const auto [a, b] = findEnds(constraint);
+    const auto isFixed = [](const ArmConstraintEnd& end) {
+      return !end.rigid && (!end.arm || isGround(*end.arm, end.link));
+    };
+    if (a.arm == b.arm || isFixed(a) || isFixed(b)) continue;
+    ties_.push_back({{a.rigid, a.arm}, {b.rigid, b.arm}});
+  }
+}
+
+template <typename Visit>
+void NeighbourSearch::visitChainOf(const Jointed& of, Visit visit) const {
+  if (of.body)
+    joints_.visitChainOf(*of.body, visit);
+  else
+    joints_.visitChainOf(*of.arm, visit);
 }
 
 /// Calls `take(body, gap)` for each body that is near the seed and not found yet.
@@ -130,9 +160,7 @@ bool NeighbourSearch::isAnythingComing(const NeighbourSeed& seed, double horizon
 
 bool NeighbourSearch::leavesJointsOf(const btRigidBody& body) const {
   bool leaves = joints_.isJointed(body) && !joints_.mayHoldChainOf(body);
-  joints_.visitChainOf(body, [&](const btRigidBody& mate) {
-    leaves |= !contains(found_, &mate) && !isExcluded(mate);
-  });
+  joints_.visitChainOf(body, [&](const Jointed& mate) { leaves |= !isTaken(mate); });
   return leaves;
 }
 
@@ -172,25 +200,35 @@ void NeighbourSearch::takeNearest() {
   for (const Candidate& candidate : candidates_) {
     if (taken_ == capacity_) return;
     if (isFound(*candidate.object)) continue;
-    btRigidBody* rigid = btRigidBody::upcast(candidate.object);
-    if (rigid == nullptr) {
-      const Arm* arm = findArm(*candidate.object);
-      if (taken_ + arm->places <= capacity_) takeArm(*arm);
-      continue;
-    }
-    if (!hasRoomFor(*rigid)) continue;
-    take(*rigid);
-    joints_.visitChainOf(*rigid, [&](btRigidBody& body) {
-      if (!contains(found_, &body) && !isExcluded(body)) take(body);
-    });
+    takeWithChain({btRigidBody::upcast(candidate.object), multiBodyOf(*candidate.object)});
   }
 }
 
-void NeighbourSearch::take(btRigidBody& body) {
+/// Nothing if its whole chain does not fit.
+void NeighbourSearch::takeWithChain(const Jointed& of) {
+  if (!hasRoomFor(of)) return;
+  take(of);
+  visitChainOf(of, [&](const Jointed& mate) { take(mate); });
+}
+
+void NeighbourSearch::take(const Jointed& of) {
+  if (isTaken(of)) return;
+  if (of.body)
+    takeBody(*of.body);
+  else
+    takeArm(lookUpArm(*of.arm));
+}
+
+void NeighbourSearch::takeBody(btRigidBody& body) {
   found_.push_back(&body);
   ++taken_;
   // A kinematic body passes no push on.
   if (!body.isKinematicObject()) wave_.push_back(makeSeed(body));
+}
+
+bool NeighbourSearch::isTaken(const Jointed& of) const {
+  return of.body ? contains(found_, of.body) || isExcluded(*of.body)
+                 : contains(found_arms_, of.arm);
 }
 
 /// All links pass a push on.
@@ -209,10 +247,16 @@ void NeighbourSearch::takeArm(const Arm& arm) {
 const NeighbourSearch::Arm* NeighbourSearch::findArm(const btCollisionObject& object) const {
   btMultiBody* body = multiBodyOf(object);
   if (body == nullptr || arms_host_ == nullptr) return nullptr;
+  const Arm& arm = lookUpArm(*body);
+  return arm.places > 0 ? &arm : nullptr;
+}
+
+/// Reads a multi-body once per find().
+NeighbourSearch::Arm& NeighbourSearch::lookUpArm(btMultiBody& body) const {
   auto known =
-      std::find_if(arms_.begin(), arms_.end(), [&](const Arm& arm) { return arm.body == body; });
-  if (known == arms_.end()) known = arms_.insert(known, readArm(*body));
-  return known->places > 0 ? &*known : nullptr;
+      std::find_if(arms_.begin(), arms_.end(), [&](const Arm& arm) { return arm.body == &body; });
+  if (known == arms_.end()) known = arms_.insert(known, readArm(body));
+  return *known;
 }
 
 NeighbourSearch::Arm NeighbourSearch::readArm(btMultiBody& body) const {
@@ -234,7 +278,7 @@ NeighbourSearch::Arm NeighbourSearch::readArm(btMultiBody& body) const {
 void NeighbourSearch::explainArms(std::vector<std::string>& lines) const {
   // Compares addresses only: the host may have deleted them.
   for (const Arm& arm : arms_) {
-    if (contains(found_arms_, arm.body) || !arm.moves) continue;
+    if (contains(found_arms_, arm.body) || !arm.moves || !arm.is_near) continue;
     const char* why = arm.why_not ? arm.why_not : "its links have no room; raise max_neighbours";
     lines.push_back(std::string("a multi-body nearby stays Bullet's, at the host's rate: ") + why);
   }
@@ -266,26 +310,44 @@ bool NeighbourSearch::wasHeld(const btCollisionObject& object) const {
 
 bool NeighbourSearch::mayBeFound(const btCollisionObject& object) const {
   if (const btRigidBody* body = btRigidBody::upcast(&object)) return mayBeNeighbour(*body);
-  return object.hasContactResponse() && findArm(object) && !isGround(object);
+  btMultiBody* body = multiBodyOf(object);
+  if (!body || !arms_host_ || !object.hasContactResponse() || isGround(object)) return false;
+  lookUpArm(*body).is_near = true;
+  if (!findArm(object)) return false;
+  if (!joints_.isJointed(*body) || mayHoldChainOf({nullptr, body})) return true;
+  lookUpArm(*body).why_not = "what its constraints connect it with cannot be held";
+  return false;
 }
 
 /// The island holds their bodies whatever is near: they need their joints.
 void NeighbourSearch::takeChainsOfExcluded() {
   for (const btRigidBody* excluded : excluded_) {
-    if (!joints_.mayHoldChainOf(*excluded) || !hasRoomFor(*excluded)) continue;
-    joints_.visitChainOf(*excluded, [&](btRigidBody& body) {
-      if (!contains(found_, &body) && !isExcluded(body)) take(body);
-    });
+    const Jointed of = asJointed(*excluded);
+    if (mayHoldChainOf(of)) takeWithChain(of);
   }
 }
 
+/// True if the island could hold all of the chain of what is in joints.
+bool NeighbourSearch::mayHoldChainOf(const Jointed& of) const {
+  bool may_hold = of.body ? joints_.mayHoldChainOf(*of.body) : joints_.mayHoldChainOf(*of.arm);
+  visitChainOf(of, [&](const Jointed& mate) {
+    may_hold = may_hold && (mate.body || lookUpArm(*mate.arm).places > 0);
+  });
+  return may_hold;
+}
+
 /// True if the rest of its chain fits, too.
-bool NeighbourSearch::hasRoomFor(const btRigidBody& body) const {
-  std::size_t count = isExcluded(body) || joints_.isJointed(body) ? 0 : 1;
-  joints_.visitChainOf(body, [&](const btRigidBody& mate) {
-    if (!contains(found_, &mate) && !isExcluded(mate)) ++count;
+bool NeighbourSearch::hasRoomFor(const Jointed& of) const {
+  std::size_t count = countPlaces(of);
+  visitChainOf(of, [&](const Jointed& mate) {
+    if (!(mate == of)) count += countPlaces(mate);
   });
   return taken_ + count <= capacity_;
+}
+
+std::size_t NeighbourSearch::countPlaces(const Jointed& of) const {
+  if (isTaken(of)) return 0;
+  return of.body ? 1 : lookUpArm(*of.arm).places;
 }
 
 bool NeighbourSearch::isExcluded(const btRigidBody& body) const {
@@ -303,7 +365,7 @@ bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
   if (!body.hasContactResponse() || isExcluded(body)) return false;
   if (body.isKinematicObject())
     return body.getCollisionShape()->getShapeType() != STATIC_PLANE_PROXYTYPE;
-  return mayBeHeld(body) && (!joints_.isJointed(body) || joints_.mayHoldChainOf(body));
+  return mayBeHeld(body) && (!joints_.isJointed(body) || mayHoldChainOf(asJointed(body)));
 }
 
 /// True if the island could hold a moving body, but for its joints.

@@ -40,7 +40,8 @@ struct NeighbourSeed {
 /// contact.
 ///
 /// Bodies in joints come with all of their chain, or not at all (JointGraph); so do the chains of
-/// excluded bodies, and multi-bodies: each of their links that moves takes a place. Kinematic
+/// excluded bodies, and multi-bodies: each of their links that moves takes a place. Constraints of
+/// multi-bodies with something else are joints of chains, too. Kinematic
 /// bodies of any shape but a plane are taken too; the chain ends at them. Left out are static
 /// bodies, and dynamic bodies of shapes neither convex nor compound. So are bodies without contact
 /// response or with simulation disabled. For the thread that steps the host's world.
@@ -93,6 +94,7 @@ class NeighbourSearch {
     btMultiBody* body;
     std::size_t places = 0;               ///< that it takes; 0: the island cannot hold it
     bool moves = true;                    ///< false: all of it is fixed
+    bool is_near = false;                 ///< not only what it is in joints with
     const char* why_not = nullptr;        ///< it cannot be held; null: it has too many links
     std::vector<RigidState> states = {};  ///< of base and links
   };
@@ -100,16 +102,26 @@ class NeighbourSearch {
   template <typename Take>
   void visitNear(const NeighbourSeed& seed, double horizon, Take take) const;
   void findAround(const NeighbourSeed& seed, double horizon);
+  void listTies();
+  /// Nothing for what is in no joints.
+  template <typename Visit>
+  void visitChainOf(const Jointed& of, Visit visit) const;
   void takeNearest();
-  void take(btRigidBody& body);
+  void takeWithChain(const Jointed& of);
+  void take(const Jointed& of);
+  void takeBody(btRigidBody& body);
   void takeArm(const Arm& arm);
+  [[nodiscard]] bool isTaken(const Jointed& of) const;
+  [[nodiscard]] bool hasRoomFor(const Jointed& of) const;
+  [[nodiscard]] std::size_t countPlaces(const Jointed& of) const;
+  [[nodiscard]] bool mayHoldChainOf(const Jointed& of) const;
+  [[nodiscard]] Arm& lookUpArm(btMultiBody& body) const;
   [[nodiscard]] Arm readArm(btMultiBody& body) const;
   [[nodiscard]] const Arm* findArm(const btCollisionObject& object) const;
   [[nodiscard]] RigidState readVelocities(const btCollisionObject& object) const;
   [[nodiscard]] bool isFound(const btCollisionObject& object) const;
   [[nodiscard]] bool wasHeld(const btCollisionObject& object) const;
   void takeChainsOfExcluded();
-  [[nodiscard]] bool hasRoomFor(const btRigidBody& body) const;
   [[nodiscard]] bool isExcluded(const btRigidBody& body) const;
   [[nodiscard]] bool mayBeHeld(const btRigidBody& body) const;
   [[nodiscard]] bool mayBeNeighbour(const btRigidBody& body) const;
@@ -120,6 +132,7 @@ class NeighbourSearch {
   btMultiBodyDynamicsWorld* arms_host_;  ///< the same; null: it can have no multi-bodies
   std::size_t capacity_;
   JointGraph joints_;
+  std::vector<ArmTie> ties_;
   std::vector<const btRigidBody*> excluded_;
   std::vector<btRigidBody*> held_, found_;
   mutable std::vector<Arm> arms_;  ///< that came near since the last find() began

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+#include <BulletDynamics/Featherstone/btMultiBodySliderConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodySphericalJointLimit.h>
 #include <BulletDynamics/Featherstone/btMultiBodySphericalJointMotor.h>
 
@@ -19,6 +22,19 @@ struct SphericalLimitFields : btMultiBodySphericalJointLimit {
   static constexpr auto kX = &SphericalLimitFields::m_swingxRange;
   static constexpr auto kY = &SphericalLimitFields::m_swingyRange;
   static constexpr auto kTwist = &SphericalLimitFields::m_twistRange;
+};
+
+struct PointFields : btMultiBodyPoint2Point {
+  static constexpr auto kRigidB = &PointFields::m_rigidBodyB;
+  static constexpr auto kPivotA = &PointFields::m_pivotInA;
+};
+
+struct FixedFields : btMultiBodyFixedConstraint {
+  static constexpr auto kRigidB = &FixedFields::m_rigidBodyB;
+};
+
+struct SliderFields : btMultiBodySliderConstraint {
+  static constexpr auto kRigidB = &SliderFields::m_rigidBodyB;
 };
 
 }  // namespace tandem
