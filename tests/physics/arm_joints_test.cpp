@@ -63,6 +63,19 @@ TEST_P(ArmJointsAtRates, AMotorReachesItsSpeedByItsForce) {
   EXPECT_NEAR(static_cast<double>(motor.getMaxAppliedImpulse()), kForce / GetParam(), 1e-6);
 }
 
+TEST_P(ArmJointsAtRates, AMotorAtItsBoundTellsIt) {
+  constexpr double kTorque = 0.2;  // [N m]: too weak for the link
+  ArmHost host;
+  host.build(makeChain(1));
+  btMultiBodyJointMotor& motor = host.addMotor(0, 0.0, kTorque / GetParam());
+  host.putHandBeside();
+  host.start();
+  host.run(0.2, GetParam());
+  EXPECT_EQ(host.site->counters().promoted, 1U);
+  EXPECT_NEAR(static_cast<double>(motor.getAppliedImpulse(0)), -kTorque / GetParam(),
+              byWidth(1e-9, 1e-5) * kTorque);
+}
+
 // PyBullet's position control: gains of 0.1 and 1.
 TEST_P(ArmJointsAtRates, AMotorHoldsALinkInPlace) {
   ArmHost host;

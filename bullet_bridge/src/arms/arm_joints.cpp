@@ -176,12 +176,14 @@ void ArmJoints::switchOff() noexcept {
 
 void ArmJoints::switchOn() noexcept {
   for (const Off& off : off_) {
+    // Without a bound that is left Bullet made no row, and its impulse is an old one.
+    const bool has_acted = off.constraint->getMaxAppliedImpulse() > 0;
     off.constraint->setMaxAppliedImpulse(off.impulse);
     Joint* joint = findJoint(*off.constraint);
     if (!joint || joint->motor != off.constraint) continue;
     auto& motor = static_cast<btMultiBodyJointMotor&>(*off.constraint);
     for (std::size_t k = 0; k < off.motor.size(); ++k) motor.*kMotorFields[k] = off.motor[k];
-    joint->by_bullet = readImpulse(motor, 0);
+    joint->by_bullet = has_acted ? readImpulse(motor, 0) : 0.0;
   }
   off_.clear();
 }
