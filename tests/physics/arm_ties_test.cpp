@@ -218,6 +218,33 @@ TEST_P(ArmTiesAtRates, AMovedPivotIsFollowedAsInBullet) {
   EXPECT_LT(worst, byWidth(0.08, 0.12) * 0.058);
 }
 
+// PyBullet's robots have a motor on each joint, and a host may pull their ends by constraints.
+TEST_P(ArmTiesAtRates, AStrongPinMovesAnArmAgainstItsMotors) {
+  constexpr double kTorque = 20.0, kForce = 500.0;  // [N m], [N]
+  ArmHost host;
+  host.build(makeChain(4));
+  const double bent[] = {1.3, -0.9, -0.9, 0.5};
+  for (int i = 0; i < 4; ++i) {
+    host.arm().setJointPos(i, static_cast<btScalar>(bent[i]));
+    host.addMotor(i, 0.0, kTorque / GetParam())
+        .setPositionTarget(static_cast<btScalar>(bent[i]), btScalar(0.1));
+  }
+  host.showPose();
+  const btVector3 place = host.arm().localPosToWorld(3, at(0.1)) + at(0.03, 0.0, 0.03);
+  auto& pin = host.add<btMultiBodyPoint2Point>(3, kNoBody, at(0.1), place);
+  pin.setMaxAppliedImpulse(static_cast<btScalar>(kForce / GetParam()));
+  start(host);
+  host.run(1.0, GetParam());
+  EXPECT_EQ(host.site->counters().promoted, 4U);
+  EXPECT_LT((host.arm().localPosToWorld(3, at(0.1)) - place).length(), btScalar(1e-3));
+  // The two motors that give way push with all they may, as in Bullet.
+  const auto torque = [&](std::size_t i) {
+    return GetParam() * static_cast<double>(host.constraints[i]->getAppliedImpulse(0));
+  };
+  EXPECT_NEAR(torque(0), kTorque, 1e-3);
+  EXPECT_NEAR(torque(2), -kTorque, 1e-3);
+}
+
 TEST_P(ArmTiesAtRates, TwoArmsMeetInAPin) {
   const auto run = [&](double rate, bool has_site) {
     ArmHost host;

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+
 #include "bullet_bridge/src/arms/host_arm.h"
 #include "physics/arm_host.h"
 #include "realtime/allocation_count.h"
@@ -16,11 +19,13 @@ namespace {
 using test::AllocationCount;
 using test::ArmHost;
 
-TEST(ArmAllocation, NoneInTheTick) {
-  ArmHost host;
-  host.build(test::makeChain(4));
-  for (int i = 0; i < 4; ++i) host.addMotor(i, 0.0, 1.0);
-  host.addLimit(1, -0.5, 0.5);
+/// The most force of a hand that presses a link, and allocations in ticks after some host steps.
+struct Pressing {
+  double most = 0.0;
+  std::size_t allocations = 0;
+};
+
+Pressing press(ArmHost& host) {
   SiteSettings settings;
   settings.tick_source = TickSource::kCaller;
   settings.host_step = 1.0 / 60.0;
@@ -29,21 +34,46 @@ TEST(ArmAllocation, NoneInTheTick) {
   host.device.sample.hip.p_W = handAt(0.0);
   host.start(settings);
   int tick = 0;
-  std::size_t allocations = 0;
-  double most = 0.0;
+  Pressing pressing;
   for (int i = 0; i < 120; ++i) {
     for (; tick < 1000 * (i + 1) / 60; ++tick) {
       host.device.sample.hip.p_W = handAt(1e-3 * tick);
       const AllocationCount count(false);
       host.site->tick(1e-3 * tick);
-      if (i >= 30) allocations += count.count();
-      most = std::max(most, host.device.force_W.norm());
+      if (i >= 30) pressing.allocations += count.count();
+      pressing.most = std::max(pressing.most, host.device.force_W.norm());
     }
     host.step(1.0 / 60.0);
   }
+  return pressing;
+}
+
+TEST(ArmAllocation, NoneInTheTick) {
+  ArmHost host;
+  host.build(test::makeChain(4));
+  for (int i = 0; i < 4; ++i) host.addMotor(i, 0.0, 1.0);
+  host.addLimit(1, -0.5, 0.5);
+  const Pressing pressing = press(host);
   EXPECT_EQ(host.site->counters().promoted, 4U);
-  EXPECT_GT(most, 1.0);
-  EXPECT_EQ(allocations, 0U);
+  EXPECT_GT(pressing.most, 1.0);
+  EXPECT_EQ(pressing.allocations, 0U);
+}
+
+TEST(ArmAllocation, NoneInTheTickWithConstraints) {
+  ArmHost host;
+  host.build(test::makeChain(4));
+  for (int i = 0; i < 3; ++i) host.addMotor(i, 0.0, 1.0);
+  btRigidBody* const nothing = nullptr;
+  const btVector3 end(btScalar(0.1), 0, 0), place(btScalar(0.8), 0, 0);
+  host.add<btMultiBodyPoint2Point>(3, nothing, end, place);
+  btRigidBody& cube = host.host.addCube(0.1, Vec3(0.3, 0.0, 0.05));
+  const btMatrix3x3 straight = btMatrix3x3::getIdentity();
+  host.add<btMultiBodyFixedConstraint>(1, &cube, btVector3(0, 0, btScalar(0.05)),
+                                       btVector3(0, 0, 0), straight, straight);
+  const Pressing pressing = press(host);
+  EXPECT_EQ(host.site->counters().promoted, 5U);
+  EXPECT_GT(pressing.most, 1.0);
+  EXPECT_EQ(pressing.allocations, 0U);
 }
 
 TEST(ArmAllocation, NoneInHandOff) {

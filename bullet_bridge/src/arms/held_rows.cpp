@@ -17,9 +17,9 @@ namespace {
 constexpr double kNew = 1e-3;
 /// A row that moves less than this is held by joints [1/kg].
 constexpr double kLeastMobility = 1e-6;
-/// Motions ask for no more than this, 100 g: rows that still contradict others pull no harder
-/// [m/s^2].
-constexpr double kMostAcceleration = 1e3;
+/// Motions ask for no more than this, 100 g. Where rows say what others do, they may contradict
+/// motors and limits, too, and pull no harder than 30 g [m/s^2].
+constexpr double kMostAcceleration = 1e3, kMostInLoops = 3e2;
 /// Lever by which turns count as much as ways [m].
 constexpr double kLever = 0.1;
 
@@ -95,9 +95,9 @@ void HeldRows::compare() noexcept {
   }
   while (Row* next = count_ < dofs_ ? chooseNext() : nullptr) hold(*next);
   findOpenWays();
+  const double most = count_ == rows_.size() ? kMostAcceleration : kMostInLoops;
   for (Row& row : rows_)
-    if (row.is_new)
-      row.force = std::min(row.force, kMostAcceleration * std::sqrt(row.weight) / row.mobility);
+    if (row.is_new) row.force = std::min(row.force, most * std::sqrt(row.weight) / row.mobility);
 }
 
 /// The row that is to be held next; null: all others are held.
