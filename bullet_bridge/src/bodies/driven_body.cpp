@@ -21,6 +21,8 @@ constexpr double kSameTime = 1e-6;
 constexpr double kLongestCall = 0.5;
 constexpr double kJump = 0.05, kJumpTurn = 0.5;  // [m], [rad]
 constexpr double kNear = 1e-7;                   // [m, rad]
+/// No body becomes faster by as much in a step, but by a jump [m/s, rad/s].
+constexpr double kLeap = 3.0, kLeapTurn = 30.0;
 
 bool isSamePose(const RigidState& a, const RigidState& b) {
   return a.p_W == b.p_W && a.q_WB.coeffs() == b.q_WB.coeffs();
@@ -28,6 +30,11 @@ bool isSamePose(const RigidState& a, const RigidState& b) {
 
 bool stands(const RigidState& s) {
   return s.v_W.norm() < kStillBelow && s.w_W.norm() < kStillBelow;
+}
+
+/// True if a step made the body so much faster that its way was a jump.
+bool isLeap(const RigidState& before, const RigidState& now) {
+  return (now.v_W - before.v_W).norm() >= kLeap || (now.w_W - before.w_W).norm() >= kLeapTurn;
 }
 
 /// Time from one pose to another at the velocities of the latter [s]; 0 for a jump.
@@ -43,6 +50,8 @@ double computeWayTime(const RigidState& from, const RigidState& to) {
 DrivenBody::DrivenBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double time) noexcept
     : world_(world), body_(body), world_index_(findInWorld(world, &body)), stamp_(time) {
   seen_ = read();
+  // What it did before is unknown: it may have been made elsewhere.
+  was_put_ = isLeap({}, seen_);
 }
 
 bool DrivenBody::isInWorld() const noexcept {
@@ -64,10 +73,13 @@ void DrivenBody::look(double time) noexcept {
   if (isSamePose(now, before)) {
     if (time < stamp_ + kSameTime) return;
     is_belt_ = !stands(now);
+    was_put_ = false;
     stamp_ = time;
     return;
   }
   is_belt_ = false;
+  // After a jump it moves on as the jump said, or as one that stood there.
+  was_put_ = isLeap(before, now) && !(was_put_ && !isLeap({}, now));
   // The first of several sub-steps already has the pose of the last.
   const double arrival = stamp_ + std::min(computeWayTime(before, now), kLongestCall);
   stamp_ = arrival > time + kSameTime ? arrival : time;
@@ -79,7 +91,8 @@ Motion DrivenBody::motion() const noexcept {
 
 RigidState DrivenBody::at(double time) const noexcept {
   RigidState state = seen_;
-  if (is_belt_) return state;
+  if (was_put_) state.v_W = state.w_W = Vec3::Zero();
+  if (!goesOn()) return state;
   state.p_W += (time - stamp_) * state.v_W;
   state.q_WB = (makeRotation((time - stamp_) * state.w_W) * state.q_WB).normalized();
   return state;
@@ -87,7 +100,7 @@ RigidState DrivenBody::at(double time) const noexcept {
 
 RigidState DrivenBody::steer(const RigidState& now, double time, double within) const noexcept {
   RigidState goal = at(time);
-  if (is_belt_ || !(within > 0.0)) return goal;
+  if (!goesOn() || !(within > 0.0)) return goal;
   const Vec3 way_W = goal.p_W - now.p_W, turn_W = computeRotationVector(now.q_WB, goal.q_WB);
   const double way = way_W.norm(), turn = turn_W.norm();
   if (way > kJump || turn > kJumpTurn) return goal;

@@ -13,8 +13,9 @@ namespace tandem {
 ///
 /// Bullet computes a kinematic body's velocity when stepSimulation() begins, over all its
 /// sub-steps. The body has the final pose from the first sub-step on. A body with a velocity whose
-/// pose stays is a belt: only its surface moves. For the thread that steps the host's world;
-/// real-time safe.
+/// pose stays is a belt: only its surface moves. One that Bullet says has become faster by 3 m/s or
+/// 30 rad/s in a step was put elsewhere: it stands there until the next step says the same. For the
+/// thread that steps the host's world; real-time safe.
 class DrivenBody {
  public:
   /// Reads the body at the host's simulated time `time` [s]. The world must outlive this; the body
@@ -38,11 +39,12 @@ class DrivenBody {
   [[nodiscard]] RigidState at(double time) const noexcept;
 
   /// State to set an island body that is at `now` at `time`, so that it is right after `within`
-  /// [s]. It does not jump unless it is more than 5 cm or 0.5 rad off.
+  /// [s]. It does not jump unless it was put elsewhere, or is more than 5 cm or 0.5 rad off.
   [[nodiscard]] RigidState steer(const RigidState& now, double time, double within) const noexcept;
 
  private:
   [[nodiscard]] RigidState read() const noexcept;
+  [[nodiscard]] bool goesOn() const noexcept { return !is_belt_ && !was_put_; }
 
   btDiscreteDynamicsWorld& world_;
   btRigidBody& body_;
@@ -50,6 +52,7 @@ class DrivenBody {
   RigidState seen_;
   double stamp_;
   bool is_belt_ = false;
+  bool was_put_ = false;  ///< its last way is no motion
 };
 
 }  // namespace tandem
