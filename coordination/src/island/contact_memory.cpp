@@ -160,6 +160,22 @@ void ContactMemory::match(std::vector<ContactPoint>& points, double h) noexcept 
   }
 }
 
+/// Force that a known point was expected to have [N].
+double ContactMemory::expectedForceOf(const ContactPoint& point) const noexcept {
+  if (point.known < 0) return 0.0;
+  const Known& known = trial_[static_cast<std::size_t>(point.known)];
+  return (known.is_learned ? known.f_learned_W : known.last.f_W).norm();
+}
+
+/// Where bodies are jammed, sweeps ask for impulses that do not fall with the step's length: what
+/// is beyond the expected force is not foreseen.
+void ContactMemory::limit(Force& force, double most) noexcept {
+  const double size = force.f_W.norm();
+  if (size <= most) return;
+  force.f_W *= most / size;
+  force.t_W *= most / size;
+}
+
 /// A point as it is known after a step.
 ContactMemory::Known ContactMemory::describe(const ContactPoint& point, const States& after,
                                              double h) const noexcept {
@@ -180,6 +196,7 @@ ContactMemory::Known ContactMemory::describe(const ContactPoint& point, const St
   known.turn_W = of_b.w_W;
   known.last = {point.row.toWorld(point.steady).toVec3() / h,
                 point.row.toWorld(point.steady_twist).toVec3() / h, contact.n_W, h, 1};
+  if (point.row.is_swept) limit(known.last, expectedForceOf(point));
   if (point.known < 0) return known;
   const Known& old = trial_[static_cast<std::size_t>(point.known)];
   const double reach = computeReach(contact.a, contact.p_W, after);

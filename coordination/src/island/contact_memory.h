@@ -101,6 +101,8 @@ class ContactMemory {
     bool is_taken;
   };
 
+  [[nodiscard]] double expectedForceOf(const ContactPoint& point) const noexcept;
+  static void limit(Force& force, double most) noexcept;
   [[nodiscard]] Known describe(const ContactPoint& point, const States& after,
                                double h) const noexcept;
   [[nodiscard]] Known* findNearest(const ContactPoint& point, double h) noexcept;
