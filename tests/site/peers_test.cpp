@@ -49,20 +49,30 @@ TEST(Peers, IgnoreAnOlderStateOfOneObjectOnly) {
   Conversation talk;
   StatePacket newer = talk.makePacket(5), older = talk.makePacket(4), oldest = talk.makePacket(3);
   newer.user.p_W = Vec3(0, 2, 0);
-  Conversation::addObject(newer, 0, Vec3(1.5, 0, 0));
-  Conversation::addObject(older, 0, Vec3(1.4, 0, 0));
-  Conversation::addObject(older, 1, Vec3(2.4, 0, 0));
-  Conversation::addObject(oldest, 0, Vec3(1.3, 0, 0));
-  Conversation::addObject(oldest, 1, Vec3(2.3, 0, 0));
+  Conversation::addObject(newer, 0, Vec3(1.03, 0, 0));
+  Conversation::addObject(older, 0, Vec3(1.02, 0, 0));
+  Conversation::addObject(older, 1, Vec3(2.02, 0, 0));
+  Conversation::addObject(oldest, 0, Vec3(1.01, 0, 0));
+  Conversation::addObject(oldest, 1, Vec3(2.01, 0, 0));
   talk.arrive(newer, 0.01);
   talk.arrive(older, 0.011);
   talk.arrive(oldest, 0.012);
-  EXPECT_EQ(talk.target(0).p_W, Vec3(1.5, 0, 0));
-  EXPECT_EQ(talk.target(1).p_W, Vec3(2.4, 0, 0));
+  EXPECT_EQ(talk.target(0).p_W, Vec3(1.03, 0, 0));
+  EXPECT_EQ(talk.target(1).p_W, Vec3(2.02, 0, 0));
   EXPECT_EQ(talk.peer.latest.sequence, 5u);
   EXPECT_EQ(talk.rig.island.target(*talk.peer.user.coupler).p_W, Vec3(0, 2, 0));
   EXPECT_EQ(talk.rig.log.counters.packets_taken, 2u);
   EXPECT_EQ(talk.rig.log.counters.packets_stale, 1u);
+}
+
+// The first state that a peer tells is where its copy is, and ours is led there.
+TEST(Peers, LeadOurCopyToOneThatIsFoundElsewhere) {
+  Conversation talk;
+  StatePacket first = talk.makePacket(0);
+  Conversation::addObject(first, 0, Vec3(1.5, 0, 0));
+  talk.arrive(first, 0.01);
+  EXPECT_EQ(talk.target(0).p_W, Vec3(1, 0, 0));
+  EXPECT_TRUE(talk.peer.is_detouring);
 }
 
 TEST(Peers, RefusePacketsOfOthersAndWithoutNumbers) {

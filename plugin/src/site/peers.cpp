@@ -5,6 +5,7 @@
 
 #include "site/energy_port.h"
 #include "site/moments.h"
+#include "site/teleport.h"
 
 namespace tandem {
 namespace {
@@ -139,6 +140,16 @@ void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
                                [](const Peer& other) { return other.keeps_account; });
 }
 
+/// True if the first state of a peer's copy has it elsewhere. A site joined late, or began with
+/// another world: nobody has stretched a spring between the copies.
+bool Peers::isFoundElsewhere(const Tie& tie, const SharedObject& object,
+                             const ObjectState& copy) const noexcept {
+  if (tie.sequence) return false;
+  const RigidState& ours = island_.state(object.body.index);
+  const Quat turn = copy.state.q_WB * ours.q_WB.conjugate();
+  return isTeleport((copy.state.p_W - ours.p_W).norm(), turn, object.bounding_radius);
+}
+
 void Peers::noteJump(Peer& peer) noexcept {
   ++log_.counters.peer_jumps;
   peer.is_restrained = true;  // so that ticks lead its targets
@@ -154,7 +165,7 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
     Tie& tie = peer.ties[copy.id];
     if (tie.sequence && packet.sequence <= *tie.sequence) continue;
     SharedObject& object = bodies_.objects[copy.id];
-    const bool was_renewed = peer.isRenewed(tie, object);
+    const bool was_renewed = peer.isRenewed(tie, object) && !isFoundElsewhere(tie, object, copy);
     const bool is_reset = isNewer(copy.epoch, object.epoch);
     if (is_reset) adopt(object, copy, peer.place);
     tie.epoch = copy.epoch;

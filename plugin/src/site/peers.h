@@ -86,6 +86,8 @@ class Peers {
   void beginAnew(Peer& peer, const StatePacket& packet) noexcept;
   void hear(Peer& peer, const StatePacket& packet, double time) noexcept;
   void hearEnergy(Peer& peer, const StatePacket& packet) noexcept;
+  [[nodiscard]] bool isFoundElsewhere(const Tie& tie, const SharedObject& object,
+                                      const ObjectState& copy) const noexcept;
   void noteJump(Peer& peer) noexcept;
   bool hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept;
   void letGoOfMissing(Peer& peer) noexcept;
