@@ -12,7 +12,7 @@ void HoldLaw::add(JointHold& next, ContactJacobian& J, double stiffness) noexcep
   u[i] = next.speed() - next.wanted;
   P0[i] = next.impulse;
   const double mobility = J.mobility(i);
-  rho[i] = mobility > 0.0 ? stiffness / mobility : 0.0;
+  rho[i] = mobility > 0.0 ? stiffness / std::max(mobility, next.free_inverse) : 0.0;
   mode[i] = Mode::kBetween;
 }
 

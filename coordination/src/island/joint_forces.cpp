@@ -4,8 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "island/joint_hold.h"
-
 namespace tandem {
 namespace {
 
@@ -159,10 +157,8 @@ void JointForces::setUpMovers() noexcept {
   movers_.clear();
   for (const BodyIndex b : bodies_) {
     const ModelBody& body = model_->bodies[static_cast<std::size_t>(b)];
-    movers_.push_back({{body, PlainRotation(stateOf(b).q_WB)},
-                       body.inverse_mass,
-                       body.bounding_radius * body.bounding_radius,
-                       body.factors.areEven()});
+    movers_.push_back(
+        {{body, PlainRotation(stateOf(b).q_WB)}, body.bounding_radius * body.bounding_radius});
   }
 }
 
@@ -188,9 +184,9 @@ void JointForces::gather(std::size_t j) noexcept {
     double& force = force_[place(joint.index, row)];
     force = 0.0;
     const Direction along = findDirection(joint, row);
-    const double mobility = mobilityOf(joint, row, along);
-    if (mobility == 0.0) continue;
-    if (isSoft(row, mobility)) {
+    const RowMobility mobility = mobilityOf(joint, row, along);
+    if (mobility.perImpulse() == 0.0) continue;
+    if (isSoft(row, mobility.speed)) {
       force = computeSpringForce(row, measureSpeed(row, a, b));
       push(joint, along, force);
       continue;
@@ -198,7 +194,7 @@ void JointForces::gather(std::size_t j) noexcept {
     const JointMode mode = memory_.mode(joint.index, row);
     if (mode == JointMode::kLow) push(joint, along, force = row.low);
     if (mode == JointMode::kHigh) push(joint, along, force = row.high);
-    if (mode == JointMode::kHolds) hold(j, row, along);
+    if (mode == JointMode::kHolds) hold(j, row, along, mobility.freed());
   }
 }
 
@@ -245,17 +241,17 @@ JointForces::Direction JointForces::findDirection(const Joint& joint,
   return {scale(joint.block_a, n, row.turn_a_W), scale(joint.block_b, -1.0 * n, row.turn_b_W)};
 }
 
-double JointForces::mobilityOf(const Joint& joint, const JointRow& row,
-                               const Direction& along) const noexcept {
-  const auto of = [&](int block, const Six& six, const Vec3& turn_W) {
-    if (block < 0) return 0.0;
-    const Mover& mover = movers_[static_cast<std::size_t>(block)];
-    const double mobility = dot(six, six);
-    if (mover.is_even) return mobility;
-    return leaveOutLocked(mobility, row.n_W.squaredNorm() * mover.inverse_mass +
-                                        turn_W.squaredNorm() * mover.roots.mostTurning());
+RowMobility JointForces::mobilityOf(const Joint& joint, const JointRow& row,
+                                    const Direction& along) const noexcept {
+  RowMobility mobility;
+  const auto add = [&](int block, const Six& six, const Vec3& turn_W) {
+    if (block < 0) return;
+    const MassRoots& roots = movers_[static_cast<std::size_t>(block)].roots;
+    mobility.add(roots, six, PlainVec(row.n_W), PlainVec(turn_W));
   };
-  return of(joint.block_a, along.of_a, row.turn_a_W) + of(joint.block_b, along.of_b, row.turn_b_W);
+  add(joint.block_a, along.of_a, row.turn_a_W);
+  add(joint.block_b, along.of_b, row.turn_b_W);
+  return mobility;
 }
 
 void JointForces::push(const Joint& joint, const Direction& along, double force) noexcept {
@@ -266,7 +262,8 @@ void JointForces::push(const Joint& joint, const Direction& along, double force)
   move(joint.block_b, along.of_b);
 }
 
-void JointForces::hold(std::size_t j, const JointRow& row, const Direction& along) noexcept {
+void JointForces::hold(std::size_t j, const JointRow& row, const Direction& along,
+                       double freed) noexcept {
   const Joint& joint = joints_[j];
   if (panels_.size() == first_panel_.back() || panels_.back().count == kPanelRows) {
     if (panels_.size() == panels_.capacity()) return;
@@ -279,6 +276,7 @@ void JointForces::hold(std::size_t j, const JointRow& row, const Direction& alon
     panel.of_b[m].at[panel.count] = along.of_b.at[m];
   }
   panel.wanted.at[panel.count] = row.speed_rate - row.bend - rateOf(joint, row);
+  panel.freed[panel.count] = freed;
   panel.place[panel.count++] = place(joint.index, row);
 }
 
@@ -305,7 +303,10 @@ bool JointForces::factorise() noexcept {
     if (!matrix_.hasRoomFor(first)) return false;
     SixBySix* const blocks = matrix_.addPanel(panel.count, first);
     for (std::size_t j = first; j <= i; ++j) fillBlock(panel, panels_[j], blocks[j - first]);
-    for (int c = 0; c < panel.count; ++c) blocks[i - first].column[c].at[c] *= 1.0 + kCompliance;
+    for (int c = 0; c < panel.count; ++c) {
+      double& mobility = blocks[i - first].column[c].at[c];
+      mobility += kCompliance * std::max(mobility, panel.freed[c]);
+    }
   }
   return matrix_.factorise();
 }

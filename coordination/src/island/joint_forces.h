@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "island/island_model.h"
+#include "island/joint_hold.h"
 #include "island/joint_memory.h"
 #include "island/joint_source.h"
 #include "island/mass_roots.h"
@@ -65,8 +66,7 @@ class JointForces {
   /// A body that joints move.
   struct Mover {
     MassRoots roots;
-    double inverse_mass = 0.0, radius_squared = 0.0;
-    bool is_even = true;  ///< no factors
+    double radius_squared = 0.0;
   };
   /// What a row says to its ends in their units: speed per velocity, and motion per impulse.
   struct Direction {
@@ -80,6 +80,7 @@ class JointForces {
     /// Directions by component: its value in each row.
     Six of_a[6], of_b[6];
     Six wanted;                          ///< rates of their speeds that the bodies lack
+    double freed[kPanelRows] = {};       ///< RowMobility::freed()
     std::size_t place[kPanelRows] = {};  ///< in force_
   };
 
@@ -94,11 +95,11 @@ class JointForces {
   void measureBends(const Joint& joint) noexcept;
   [[nodiscard]] double chooseMoment() const noexcept;
   [[nodiscard]] Direction findDirection(const Joint& joint, const JointRow& row) const noexcept;
-  [[nodiscard]] double mobilityOf(const Joint& joint, const JointRow& row,
-                                  const Direction& along) const noexcept;
+  [[nodiscard]] RowMobility mobilityOf(const Joint& joint, const JointRow& row,
+                                       const Direction& along) const noexcept;
   void push(const Joint& joint, const Direction& along, double force) noexcept;
   [[nodiscard]] double rateOf(const Joint& joint, const JointRow& row) const noexcept;
-  void hold(std::size_t joint, const JointRow& row, const Direction& along) noexcept;
+  void hold(std::size_t joint, const JointRow& row, const Direction& along, double freed) noexcept;
   [[nodiscard]] bool factorise() noexcept;
   void fillBlock(const Panel& panel, const Panel& other, SixBySix& block) const noexcept;
   [[nodiscard]] double measureMissing() noexcept;

@@ -17,30 +17,28 @@ double computeSpringForce(const JointRow& row, double speed) noexcept {
   return row.law == JointLaw::kLimit ? std::max(0.0, force) : force;
 }
 
-double leaveOutLocked(double mobility, double without_factors) noexcept {
-  // A planar body that is tilted out of its plane by less has no way there that a joint could use.
-  constexpr double kLeast = 1e-6;
-  return mobility > kLeast * without_factors ? mobility : 0.0;
-}
-
-double computeMobility(const RigidMover& mover, const PlainVec& n, const PlainVec& turn) noexcept {
-  const double mobility =
-      dot(n, multiplyEach(mover.inverse_mass_W, n)) + dot(turn, mover.turnBy(turn));
-  if (mover.is_even) return mobility;
-  return leaveOutLocked(
-      mobility, dot(n, n) * mover.inverse_mass + dot(turn, turn) * mover.roots.mostTurning());
+void RowMobility::add(const MassRoots& roots, const Six& along, const PlainVec& n,
+                      const PlainVec& turn) noexcept {
+  const double own = dot(along, along);
+  speed += own;
+  has_factors |= !roots.is_even;
+  free += roots.is_even ? own : roots.findFreeMobility(n, turn);
 }
 
 void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {
   mode = mode_before;
   const bool is_angular = row.n_W == Vec3::Zero();
+  RowMobility mobility;
   const auto look = [&](const RigidMover* mover, const Vec3& turn_W) {
     if (!mover) return;
-    inverse += computeMobility(*mover, PlainVec(row.n_W), PlainVec(turn_W));
+    const PlainVec n(row.n_W), turn(turn_W);
+    mobility.add(mover->roots, mover->roots.scale(n, turn), n, turn);
     if (is_angular && mover->inverse_mass > 0.0) reach = std::sqrt(mover->radius_squared);
   };
   look(a, row.turn_a_W);
   look(b, row.turn_b_W);
+  inverse = mobility.perImpulse();
+  free_inverse = mobility.freed();
   const bool is_motor = row.law == JointLaw::kMotor;
   low = least = is_motor ? h * row.low : row.law == JointLaw::kLimit ? 0.0 : -HUGE_VAL;
   high = most = is_motor ? h * row.high : HUGE_VAL;

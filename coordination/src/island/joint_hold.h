@@ -4,6 +4,7 @@
 
 #include "island/contact_law.h"
 #include "island/joint_memory.h"
+#include "island/locked_axis.h"
 #include "island/rigid_row.h"
 
 namespace tandem {
@@ -15,6 +16,7 @@ struct JointHold {
   JointRow row;
   RigidMover *a = nullptr, *b = nullptr;
   double inverse = 0.0;            ///< speed per impulse
+  double free_inverse = 0.0;       ///< RowMobility::freed()
   double reach = 1.0;              ///< way of a part of the bodies per way along the row [1 or m]
   double opening = 0.0;            ///< speed at the start of the step
   double at_start = 0.0;           ///< way at that time, about
@@ -89,12 +91,23 @@ struct JointHold {
 /// Force of a soft row that goes at `speed`.
 [[nodiscard]] double computeSpringForce(const JointRow& row, double speed) noexcept;
 
-/// A mobility along a row; 0 if it is next to nothing beside what it could be without linear and
-/// angular factors.
-[[nodiscard]] double leaveOutLocked(double mobility, double without_factors) noexcept;
-/// Speed along a row per impulse by one end, if factors leave any.
-[[nodiscard]] double computeMobility(const RigidMover& mover, const PlainVec& n,
-                                     const PlainVec& turn) noexcept;
+/// Speed along a row per impulse, by both ends. Linear and angular factors may lock it, but for 6
+/// degrees: isLocked(). Then it has none.
+struct RowMobility {
+  double speed = 0.0, free = 0.0;  ///< with factors, and without them
+  bool has_factors = false;
+
+  /// Adds an end. `along`: MassRoots::scale() of n and turn.
+  void add(const MassRoots& roots, const Six& along, const PlainVec& n,
+           const PlainVec& turn) noexcept;
+  [[nodiscard]] double perImpulse() const noexcept {
+    return has_factors && tandem::isLocked(speed, free) ? 0.0 : speed;
+  }
+  /// Weighs a row of ends with unequal factors; else 0. A host may move a body along locked axes as
+  /// no joint allows. By its own mobility, a row that is nearly locked would have the most weight,
+  /// and throw the bodies.
+  [[nodiscard]] double freed() const noexcept { return has_factors ? free : 0.0; }
+};
 
 /// Writes the velocity along a joint's row into direction `i` of `J`, in units in which each end
 /// has mass and inertia 1. An end without a block row is null; J.a stands for the first that is

@@ -31,7 +31,6 @@ RigidMover::RigidMover(const ModelBody& body, const RigidState& state) noexcept
       ready(true) {
   const MassFactors& factors = body.factors;
   is_free = factors.way_is_even;
-  is_even = factors.areEven();
   inverse_mass_W = is_free ? PlainVec(inverse_mass, inverse_mass, inverse_mass)
                            : inverse_mass * PlainVec(factors.way_W);
   inertia_x = roots.x.x * roots.x + roots.y.x * roots.y + roots.z.x * roots.z;

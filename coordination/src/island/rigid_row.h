@@ -19,7 +19,6 @@ struct RigidMover {
   double inverse_mass = 0.0, radius_squared = 0.0;
   PlainVec inverse_mass_W;                   ///< along the axes of W: with linear factors
   bool is_free = true;                       ///< no linear factors
-  bool is_even = true;                       ///< no factors
   PlainVec inertia_x, inertia_y, inertia_z;  ///< rows of the inverse inertia in W
   MassRoots roots;
   PlainVec way;        ///< of the centre since the start of the step [m]
