@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,12 @@ int indexOf(GuestWorld& world, const btCollisionObject* object) {
   return object == &world.floor() ? -1 : -2;
 }
 
+/// In rising order: Bullet only asks whether a body is among them.
 std::vector<int> ignoredBy(GuestWorld& world, btRigidBody& body) {
   std::vector<int> ignored;
   for (int i = 0; i < body.getNumObjectsWithoutCollision(); ++i)
     ignored.push_back(indexOf(world, body.getObjectWithoutCollision(i)));
+  std::sort(ignored.begin(), ignored.end());
   return ignored;
 }
 
