@@ -185,7 +185,7 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
         is_met_[index][b] = 1;
       // Bullet sees supports, and more sweeps change the rounding of all that it solves.
       if (site.world().world().sweeps() != site.twin().world().sweeps()) is_met_[index][b] = 1;
-      const double near = kMeets + kReach * fastest_ * case_.frame;
+      const double near = kMeets + kReach * fastest_ * std::max(case_.frame, case_.step());
       for (std::size_t c = 0; c < bodies.size(); ++c)
         if (c != b && ((placeOf(*bodies[c]) - placeOf(own)).norm() < near ||
                        (placeOf(*site.twin().bodies()[c]) - placeOf(twin)).norm() < near))
