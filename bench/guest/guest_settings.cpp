@@ -43,7 +43,9 @@ std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t bod
   };
   expect(a.getInvMass() == b.getInvMass(), "mass");
   expect(equalBits(a.getInvInertiaDiagLocal(), b.getInvInertiaDiagLocal()), "inertia");
-  expect(equalBits(a.getGravity(), b.getGravity()), "gravity");
+  // Bullet tells sleeping bodies no gravity, and sleep is not compared.
+  const bool has_all_gravity = !twin.bodies()[body]->missed_gravity;
+  expect(!has_all_gravity || equalBits(a.getGravity(), b.getGravity()), "gravity");
   expect(a.getFlags() == b.getFlags(), "flags");
   expect(a.getCollisionFlags() == b.getCollisionFlags(), "collision_flags");
   expect(a.getLinearDamping() == b.getLinearDamping(), "linear_damping");
@@ -78,7 +80,7 @@ std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t bod
   b.clearForces();
   a.applyGravity();
   b.applyGravity();
-  expect(equalBits(a.getTotalForce(), b.getTotalForce()), "weight");
+  expect(!has_all_gravity || equalBits(a.getTotalForce(), b.getTotalForce()), "weight");
   a.clearForces();
   b.clearForces();
   return text;

@@ -85,6 +85,7 @@ void GuestWorld::add(GuestBody& body) {
     world().addRigidBody(body.rigid);
   }
   body.is_in_world = true;
+  body.missed_gravity = false;
 }
 
 /// Joints of a body go before it, as Bullet asks of its hosts.

@@ -26,7 +26,8 @@ struct GuestBody {
   bool has_filter = false;  ///< added with group and mask
   bool is_in_world = false;
   bool was_shared = false;
-  bool may_fall = false;  ///< what was done to it may let it fall through what stands
+  bool missed_gravity = false;  ///< it slept when the world's gravity changed last
+  bool may_fall = false;        ///< what was done to it may let it fall through what stands
 };
 
 /// A Bullet world that shows what a site must restore.
