@@ -90,6 +90,7 @@ GuestVerdict::GuestVerdict(const GuestCase& one, std::vector<std::unique_ptr<Gue
     allowed_ += energyOf(site->world());
     twins_ += energyOf(site->twin());
     is_met_.emplace_back(one.bodies.size(), char{0});
+    has_felt_.push_back(0);
   }
 }
 
@@ -175,6 +176,12 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
   for (int r = 0; site.site() && r < site.site()->remoteCount(); ++r)
     if (const RigidState* proxy = site.site()->proxy(r))
       fastest_ = std::max(fastest_, proxy->v_W.norm());
+  const double near = kMeets + kReach * fastest_ * std::max(case_.frame, case_.step());
+  // What flies to a far hand is felt there, and the island holds it.
+  for (const auto& body : bodies)
+    if (case_.hand_feels && (placeOf(*body) - site.device().position()).norm() < near)
+      has_felt_[index] = 1;
+  if (case_.is_idle && has_felt_[index]) return std::nullopt;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const GuestBody &own = *bodies[b], &twin = *site.twin().bodies()[b];
     if (!case_.is_idle) {
@@ -185,7 +192,6 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
         is_met_[index][b] = 1;
       // Bullet sees supports, and more sweeps change the rounding of all that it solves.
       if (site.world().world().sweeps() != site.twin().world().sweeps()) is_met_[index][b] = 1;
-      const double near = kMeets + kReach * fastest_ * std::max(case_.frame, case_.step());
       for (std::size_t c = 0; c < bodies.size(); ++c)
         if (c != b && ((placeOf(*bodies[c]) - placeOf(own)).norm() < near ||
                        (placeOf(*site.twin().bodies()[c]) - placeOf(twin)).norm() < near))

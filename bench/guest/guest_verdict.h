@@ -47,6 +47,7 @@ class GuestVerdict {
   bool diverges_ = false;  ///< a joint that gives energy in Bullet alone
   double fastest_ = 1.0;   ///< body or proxy so far [m/s]
   double before_ = 0.0, twins_ = 0.0;
+  std::vector<char> has_felt_;             ///< by site: a hand that feels bodies had one near
   std::vector<std::vector<char>> is_met_;  ///< by site and body: something came near a far body
 };
 
