@@ -68,6 +68,14 @@ bool isOblique(const btRigidBody& rigid) {
   return false;
 }
 
+/// True if its host moves a kinematic body: what is joined to it gets any energy, in Bullet alone,
+/// too.
+bool isDriven(const btRigidBody& rigid) {
+  constexpr btScalar kSlow = btScalar(0.1), kSlowTurn = 1;  // [m/s], [rad/s]
+  return rigid.isKinematicObject() && (rigid.getLinearVelocity().length() > kSlow ||
+                                       rigid.getAngularVelocity().length() > kSlowTurn);
+}
+
 std::string tell(const GuestBody& body) {
   const Vec3 p_W = placeOf(body), v_W = fromBullet(body.rigid->getLinearVelocity());
   return fmt::format("{:.4f} {:.4f} {:.4f}, {:.3g} {:.3g} {:.3g} m/s", p_W.x(), p_W.y(), p_W.z(),
@@ -117,7 +125,8 @@ std::optional<GuestFinding> GuestVerdict::look() {
     excuse(site.twin());
     excuseSunk(site.twin());
     for (const auto& joint : site.twin().joints())
-      diverges_ |= isOblique(joint->getRigidBodyA()) || isOblique(joint->getRigidBodyB());
+      for (const btRigidBody* end : {&joint->getRigidBodyA(), &joint->getRigidBodyB()})
+        diverges_ |= isOblique(*end) || isDriven(*end);
     if (!case_.has_large_margins)
       if (auto found = findFallen(site)) return found;
     if (auto found = findDifferent(i)) return found;
