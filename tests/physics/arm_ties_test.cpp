@@ -80,7 +80,9 @@ Vec3 runLoop(double rate, double duration, bool has_site, Tie tie) {
   tie(host);
   if (has_site) start(host);
   host.run(duration, rate);
-  if (has_site) EXPECT_EQ(host.site->counters().promoted, 3U);
+  if (has_site) {
+    EXPECT_EQ(host.site->counters().promoted, 3U);
+  }
   return Vec3(host.q(0), host.q(1), host.q(2));
 }
 
@@ -263,7 +265,9 @@ TEST_P(ArmTiesAtRates, TwoArmsMeetInAPin) {
     host.host.multi()->addMultiBodyConstraint(host.constraints.back().get());
     if (has_site) start(host);
     host.run(0.5, rate);
-    if (has_site) EXPECT_EQ(host.site->counters().promoted, 4U);
+    if (has_site) {
+      EXPECT_EQ(host.site->counters().promoted, 4U);
+    }
     return Vec3(host.q(0), host.q(1), static_cast<double>(first.getJointPos(1)));
   };
   const Vec3 ours = run(GetParam(), true), fine = run(4000.0, false);
