@@ -63,7 +63,9 @@ std::vector<Quat> turnTo(const Quat& target, double rate, bool has_site) {
     host.run(0.1, rate);
     way.push_back(turnOf(host));
   }
-  if (has_site) EXPECT_EQ(host.site->counters().promoted, 1U);
+  if (has_site) {
+    EXPECT_EQ(host.site->counters().promoted, 1U);
+  }
   EXPECT_LT(turnOf(host).angularDistance(target), byWidth(1e-4, 2e-3));
   EXPECT_EQ(motor.getMaxAppliedImpulse(), most);
   return way;
