@@ -281,5 +281,14 @@ TEST(ArmWorlds, NothingBreaks) {
   EXPECT_GT(promoted, 150U);
 }
 
+// Weak motors, limits and ties of a loop ask for what no joint can do. Rows that held pulled each
+// other by 1e9 N, 1e7 times what a motor has, and then threw the arm: in one world of 400.
+TEST(ArmWorlds, MotorsThatContradictEachOtherLetGo) {
+  ArmWorld world(396);
+  world.run(1.5);
+  EXPECT_TRUE(world.isSane()) << world.story();
+  EXPECT_TRUE(world.isGivenBack()) << world.story();
+}
+
 }  // namespace
 }  // namespace tandem

@@ -10,6 +10,9 @@ namespace {
 /// Compliance of a row beside its own mobility: far below what anybody feels.
 constexpr double kCompliance = 1e-11;
 constexpr int kMaxIterations = 4;
+/// Solutions of an evaluation, and force beside a motor's greatest with which it lets go.
+constexpr int kMaxRounds = 4;
+constexpr double kOverload = 100.0;
 /// Error of an acceleration that is none, beside the largest.
 constexpr double kSettled = 1e-9;
 /// Acceleration that no joint gives: that of a whip's end at 300 m/s and 0.1 m [m/s^2].
@@ -147,9 +150,13 @@ const RigidState& JointForces::stateOf(BodyIndex body) const noexcept {
 
 void JointForces::solve() noexcept {
   setUpMovers();
-  gather();
-  x_ = pushed_;
-  if (!panels_.empty() && factorise()) iterate();
+  for (int round = 0; round < kMaxRounds; ++round) {
+    gather();
+    x_ = pushed_;
+    if (panels_.empty() || !factorise()) break;
+    iterate();
+    if (!letGo()) break;
+  }
   accelerate();
 }
 
@@ -277,6 +284,9 @@ void JointForces::hold(std::size_t j, const JointRow& row, const Direction& alon
   }
   panel.wanted.at[panel.count] = row.speed_rate - row.bend - rateOf(joint, row);
   panel.freed[panel.count] = freed;
+  panel.bound[panel.count] =
+      row.law == JointLaw::kMotor ? std::max(std::abs(row.low), std::abs(row.high)) : HUGE_VAL;
+  panel.number[panel.count] = row.number;
   panel.place[panel.count++] = place(joint.index, row);
 }
 
@@ -394,6 +404,21 @@ void JointForces::iterate() noexcept {
   x_ = pushed_;
   for (const Panel& panel : panels_)
     for (int r = 0; r < panel.count; ++r) force_[panel.place[r]] = 0.0;
+}
+
+/// A motor that would need far more than its force does not hold, now and in the rest of the try:
+/// where motors contradict each other their forces are without limit. True if any let go.
+bool JointForces::letGo() noexcept {
+  bool has_let_go = false;
+  for (const Panel& panel : panels_)
+    for (int r = 0; r < panel.count; ++r) {
+      const double force = force_[panel.place[r]];
+      if (!(std::abs(force) > kOverload * panel.bound[r])) continue;
+      memory_.setMode(joints_[panel.joint].index, panel.number[r],
+                      force < 0.0 ? JointMode::kLow : JointMode::kHigh);
+      has_let_go = true;
+    }
+  return has_let_go;
 }
 
 /// Adds the motion by joints to the accelerations of their ends.

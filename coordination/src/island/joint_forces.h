@@ -81,6 +81,8 @@ class JointForces {
     Six of_a[6], of_b[6];
     Six wanted;                          ///< rates of their speeds that the bodies lack
     double freed[kPanelRows] = {};       ///< RowMobility::freed()
+    double bound[kPanelRows] = {};       ///< greatest force; HUGE_VAL: none [N, N m]
+    int number[kPanelRows] = {};         ///< JointRow::number
     std::size_t place[kPanelRows] = {};  ///< in force_
   };
 
@@ -105,6 +107,7 @@ class JointForces {
   [[nodiscard]] double measureMissing() noexcept;
   void addForces() noexcept;
   [[nodiscard]] bool isBelievable() const noexcept;
+  [[nodiscard]] bool letGo() noexcept;
   void iterate() noexcept;
   void accelerate() noexcept;
   [[nodiscard]] int blockOf(BodyIndex body) const noexcept {

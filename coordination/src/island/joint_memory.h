@@ -43,14 +43,16 @@ class JointMemory {
   /// Mode of a row in the present try.
   [[nodiscard]] JointMode mode(std::size_t joint, const JointRow& row) const noexcept {
     if (row.law == JointLaw::kLocked) return JointMode::kHolds;
+    if (row.law == JointLaw::kMotor && row.low == row.high) return JointMode::kLow;
     const Modes& modes = trial_[joint];
     const auto place = static_cast<std::size_t>(row.number);
     if (modes.is_known[place]) return modes.at[place];
     return row.law == JointLaw::kLimit ? JointMode::kIdle : JointMode::kHolds;
   }
-  void setMode(std::size_t joint, const JointRow& row, JointMode mode) noexcept {
+  /// `number`: JointRow::number
+  void setMode(std::size_t joint, int number, JointMode mode) noexcept {
     Modes& modes = trial_[joint];
-    const auto place = static_cast<std::size_t>(row.number);
+    const auto place = static_cast<std::size_t>(number);
     modes.at[place] = mode;
     modes.is_known[place] = true;
   }

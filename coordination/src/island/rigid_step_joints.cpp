@@ -86,7 +86,7 @@ bool RigidStep::haveJointModesChanged() const noexcept {
 
 void RigidStep::learnJointModes() noexcept {
   for (const JointHold& hold : holds_)
-    joints_->memory().setMode(hold.joint, hold.row, hold.findMode());
+    joints_->memory().setMode(hold.joint, hold.row.number, hold.findMode());
 }
 
 }  // namespace tandem
