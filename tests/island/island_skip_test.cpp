@@ -140,6 +140,27 @@ TEST(IslandSkip, AnEmptySlotCostsNothing) {
   EXPECT_EQ(island.counters().exact_bodies, 10u);
 }
 
+// A ball on a spring bounces on a cube: each touch is made and lost within some step. Bisection to
+// 1e-13 s would take 33 tries.
+TEST(IslandSkip, MomentsOfTouchAreFoundInAFewTries) {
+  Island island({});
+  IslandBody ball = makeBall(Motion::kDynamic, Vec3(-0.04, 0.0, 0.0));
+  const BodyIndex index = island.addBody(ball);
+  IslandBody cube = makeCube();
+  cube.motion = Motion::kHeld;
+  const BodyIndex other = island.addBody(cube);
+  island.addContact(index, other, {2000.0, 1.0});
+  const CouplerIndex spring = island.addCoupler(index, {{200.0, 0.0}, {}});
+  island.prepare();
+  RigidState aim;
+  aim.p_W = Vec3(-0.025, 0.0, 0.0);
+  island.setTarget(spring, aim);
+  for (int tick = 0; tick < 2000; ++tick) island.advance(kPeriod);
+  const IslandCounters& counters = island.counters();
+  EXPECT_GT(counters.events, 20u);
+  EXPECT_LT(counters.event_tries, 7 * counters.events);
+}
+
 TEST(IslandSkip, AbsurdGainsTakeABoundedNumberOfSteps) {
   for (const double damping : {0.0, 1e3}) {
     Island island({});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 // Runge-Kutta 5(4) of Tsitouras (2011, Computers & Mathematics with Applications 62, 770-775). It
 // has seven stages; the last is the first of the next step. The result is of order 5, and an
@@ -121,7 +122,7 @@ void SmoothMotion::advance(States& states, double dt, IslandCounters& counters) 
       }
     }
     if (changed && events_left > 0) {
-      h = locateChange(done, h);
+      h = locateChange(done, h, counters);
       --events_left;
       ++counters.events;
     }
@@ -253,7 +254,7 @@ double SmoothMotion::findHiddenTouch(double h) const noexcept {
   return earliest;
 }
 
-double SmoothMotion::locateChange(double from, double h) noexcept {
+double SmoothMotion::locateChange(double from, double h, IslandCounters& counters) noexcept {
   // y_ is the state at `from`, next_ that at from + h. False position (Illinois) on the guard of a
   // touch finds the earliest change. It starts with the touch that seems first; an earlier one
   // takes over. The step ends just behind the change.
@@ -277,15 +278,22 @@ double SmoothMotion::locateChange(double from, double h) noexcept {
     double g_low = starts_[first].guard, g_high = contact.guard;
     // A guard that starts on the wrong side by rounding changes at once.
     if ((g_low > 0.0) != contact.pushes) g_low = contact.pushes ? 1e-30 : -1e-30;
-    for (int i = 0; i < 60 && high - low > 1e-13 + 1e-10 * h; ++i) {
+    const double exact = 1e-13 + 1e-10 * h;
+    int kept = 0;  // the end that the last try has left: -1 low, 1 high
+    for (int i = 0; i < 60 && high - low > exact; ++i) {
       double middle = (low * g_high - high * g_low) / (g_high - g_low);
-      if (!(middle > low && middle < high) || i > 20) middle = 0.5 * (low + high);
-      tryStep(from, at = middle);
+      if (!std::isfinite(middle) || i > 20) middle = 0.5 * (low + high);
+      // One end may be the change itself: the other comes near it at once.
+      tryStep(from, at = std::clamp(middle, low + 0.5 * exact, high - 0.5 * exact));
+      ++counters.event_tries;
       const double g = contact.guard;
+      // An end that is left twice counts half, or the other would creep.
       if ((g > 0.0) == contact.pushes) {
-        low = middle, g_low = g, g_high *= 0.5;
+        low = at, g_low = g;
+        if (std::exchange(kept, 1) == 1) g_high *= 0.5;
       } else {
-        high = middle, g_high = g, g_low *= 0.5;
+        high = at, g_high = g;
+        if (std::exchange(kept, -1) == -1) g_low *= 0.5;
       }
     }
     if (at != high) tryStep(from, high);

@@ -47,7 +47,7 @@ class SmoothMotion {
   double takeStep(double from, double rest, IslandCounters& counters) noexcept;
   [[nodiscard]] bool hasChanged() const noexcept;
   [[nodiscard]] double findHiddenTouch(double h) const noexcept;
-  double locateChange(double from, double h) noexcept;
+  double locateChange(double from, double h, IslandCounters& counters) noexcept;
   void rememberStart() noexcept;
 
   SmoothForces forces_;

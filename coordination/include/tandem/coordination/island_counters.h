@@ -16,6 +16,7 @@ struct IslandCounters {
   std::uint64_t integrated_steps = 0;   ///< steps of the integrator
   std::uint64_t rejected_steps = 0;     ///< integrator steps rejected as too long for the tolerance
   std::uint64_t events = 0;             ///< contacts made and broken inside a step
+  std::uint64_t event_tries = 0;        ///< steps tried to find their moments
   std::uint64_t contact_searches = 0;   ///< exact geometry queries of a pair of bodies
   std::uint64_t contact_searches_skipped = 0;  ///< pairs whose bounding spheres are far apart
   std::uint64_t repeated = 0;      ///< advances repeated because a body moved alone met another
