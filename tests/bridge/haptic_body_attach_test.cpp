@@ -210,6 +210,19 @@ TEST(HapticBodyAttach, LeavesTheHostsActivationState) {
   EXPECT_EQ(cube.getActivationState(), DISABLE_DEACTIVATION);
 }
 
+// Parked, it looks asleep to activate(), which then made it an ordinary body for good.
+TEST(HapticBodyAttach, EndsWithABodyThatNeverSleepsAfterItsHostWokeIt) {
+  BulletRig rig;
+  btRigidBody& cube = rig.addCube(0.3);
+  cube.forceActivationState(DISABLE_DEACTIVATION);
+  {
+    HapticBody attached(rig.world, cube);
+    attached.park();
+    cube.activate(true);
+  }
+  EXPECT_EQ(cube.getActivationState(), DISABLE_DEACTIVATION);
+}
+
 TEST(HapticBodyAttach, WarnsOfBuiltInDampingAndSwitchesItOff) {
   BulletRig rig;
   btRigidBody& cube = rig.addCube(0.3);

@@ -43,7 +43,7 @@ constexpr double kTooLittleToWake = 5e-5;
 
 /// Restores sleep and its timer, unless the host has changed how the body is simulated.
 void HapticBody::restoreActivation() {
-  if (parked_ && body_.getActivationState() == ISLAND_SLEEPING) keepAwake();
+  if (parked_) keepAwake();  // it may have been woken by its host
   if (body_.getActivationState() != ACTIVE_TAG) return;
   const bool slept = mayFallAsleep(original_.activation_state);
   const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
