@@ -474,5 +474,26 @@ TEST_P(JointsAtRates, AHandFeelsADoor) {
   EXPECT_LT(off, byWidth(1e-9, 1e-6));
 }
 
+// A blow makes a body go round its pin by radians within a haptic period. Its forces were
+// integrated in steps of a quarter period, whatever the error.
+TEST(HostJoints, CloseAgainWhenABlowTurnsThemByRadiansInAHapticPeriod) {
+  constexpr double kArm = 0.11;                         // [m]
+  for (const double rate : {2000.0, 4000.0, 6000.0}) {  // [rad/s]
+    JointHost host;
+    host.rig.world.setGravity(btVector3(0, 0, 0));
+    btCollisionShape& shape = host.rig.makeShape<btCapsuleShapeZ>(btScalar(0.016), btScalar(0.03));
+    btRigidBody& body = host.add(shape, 0.25, Vec3(kArm, 0.0, 0.0));
+    host.join<btPoint2PointConstraint>(body, toBullet(Vec3(-kArm, 0.0, 0.0)));
+    host.share(body);
+    const Vec3 w_W = rate * Vec3(0.0, 0.6, 0.8);
+    body.setLinearVelocity(toBullet(w_W.cross(Vec3(kArm, 0.0, 0.0))));
+    body.setAngularVelocity(toBullet(w_W));
+    const double before = host.energy();
+    for (int i = 0; i < 24; ++i) host.rig.step(1.0 / 240.0);
+    EXPECT_LT(JointHost::gap(body, Vec3(-kArm, 0.0, 0.0), Vec3::Zero()), byWidth(1e-9, 1e-5));
+    EXPECT_LT(host.energy(), 1.001 * before) << rate;
+  }
+}
+
 }  // namespace
 }  // namespace tandem

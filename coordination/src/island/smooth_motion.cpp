@@ -30,6 +30,9 @@ constexpr double kAtEdges = 1.0 / 64.0;
 /// noise that no shorter step takes out.
 constexpr double kShortestOfJoints = 0.25;
 
+/// Joined bodies turn at most this far in such a step [rad]. Beyond, errors of their forces grow.
+constexpr double kMostTurnOfJoints = 0.36;
+
 /// Shortest step as a share of what the gains require. An error that does not shrink with the step
 /// comes from a kink of the geometry.
 constexpr double kShortest = 1.0 / 1024.0;
@@ -150,12 +153,21 @@ double SmoothMotion::takeStep(double from, double rest, IslandCounters& counters
       return h;
     }
     // The margin allows for rounding: the rest is divided evenly.
-    const double shortest =
-        forces_.hasJoints() ? std::max(min_step_, kShortestOfJoints * period_) : min_step_;
+    const double shortest = computeShortestStep();
     if (h <= shortest * (1.0 + 1e-6)) return h;
     ++counters.rejected_steps;
     step_ = std::max(shortest, (error < 32.0 * allowed_error_ ? 0.5 : 0.25) * h);
   }
+}
+
+double SmoothMotion::computeShortestStep() const noexcept {
+  if (!forces_.hasJoints()) return min_step_;
+  double fastest = 0.0;
+  for (const SmoothForces::Mover& mover : forces_.movers())
+    if (mover.turns)
+      fastest = std::max(fastest, y_.segment<3>(mover.offset + SmoothForces::kW).matrix().norm());
+  const double shortest = kShortestOfJoints * period_;
+  return std::max(min_step_, std::min(shortest, kMostTurnOfJoints / fastest));
 }
 
 void SmoothMotion::tryStep(double from, double h) noexcept {

@@ -44,6 +44,8 @@ class SmoothMotion {
   void tryStep(double from, double h) noexcept;
   [[nodiscard]] double estimateError(double h) noexcept;
   [[nodiscard]] bool hasPassedEdge() const noexcept;
+  /// A step as short as this is accepted whatever its error [s].
+  [[nodiscard]] double computeShortestStep() const noexcept;
   double takeStep(double from, double rest, IslandCounters& counters) noexcept;
   [[nodiscard]] bool hasChanged() const noexcept;
   [[nodiscard]] double findHiddenTouch(double h) const noexcept;
