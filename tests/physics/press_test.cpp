@@ -356,5 +356,47 @@ TEST(Press, LeavesTheCubeWhereItIsWhenItGoes) {
   }
 }
 
+// A ram pushes a pinned figure off its pin, and that touches a ball. Bullet holds the figure by
+// itself against the pin, and gave the ball the ram's whole force as well: 40 m/s.
+TEST(Press, ThrowsNoNeighbourOfAPinnedFigure) {
+  constexpr double kRadius = 0.025, kLow = 0.012, kHalfRam = 0.02, kGap = 0.05,
+                   kPace = 0.6;  // [m], [m/s]
+  test::BulletRig rig(Vec3(0, 0, -9.81));
+  rig.addBody(rig.makeShape<btBoxShape>(btVector3(2, 2, btScalar(0.1))), 0.0, Vec3(0, 0, -0.1));
+  btCollisionShape& round = rig.makeShape<btSphereShape>(btScalar(kRadius));
+  btRigidBody& figure = rig.addBody(round, 1.6, Vec3(0, 0, kRadius));
+  figure.setAngularFactor(btVector3(0, 0, 0));
+  figure.setLinearFactor(btVector3(1, 0, 1));
+  btRigidBody& ball = rig.addBody(round, 0.6, Vec3(2.0 * kRadius + kGap, 0, kRadius));
+  const auto placeOfRam = [&](double time) {
+    return toBullet(Vec3(-kRadius - kHalfRam + kPace * time, 0, kLow), Quat::Identity());
+  };
+  btCollisionShape& block = rig.makeShape<btSphereShape>(btScalar(kHalfRam));
+  btRigidBody& ram = rig.addBody(block, 0.0, fromBullet(placeOfRam(0.0).getOrigin()));
+  rig.world.removeRigidBody(&ram);
+  ram.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+  ram.setActivationState(DISABLE_DEACTIVATION);
+  rig.world.addRigidBody(&ram);
+  btPoint2PointConstraint pin(figure, btVector3(0, 0, 0));
+  rig.world.addConstraint(&pin);
+  test::FakeDevice device(Vec3(0, 0, 10));
+  SiteSettings settings;
+  settings.max_neighbours = 0;
+  settings.host_step = 1e-3;
+  std::optional<Site> site;
+  site.emplace(settings, rig.world, device);
+  site->share(figure);
+  site->share(ball);
+  double fastest = 0.0;
+  for (int i = 1; i <= 150; ++i) {
+    ram.setWorldTransform(placeOfRam(i * settings.host_step));
+    rig.step(settings.host_step);
+    fastest = std::max(fastest, static_cast<double>(ball.getLinearVelocity().length()));
+  }
+  EXPECT_LT(fastest, 10.0 * kPace);
+  site.reset();
+  rig.world.removeConstraint(&pin);
+}
+
 }  // namespace
 }  // namespace tandem

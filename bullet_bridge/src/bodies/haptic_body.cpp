@@ -254,9 +254,11 @@ void HapticBody::handOff(const RigidState& end, double dt, const Momentum& fores
   btVector3 v = toBullet(Vec3((end.p_W - start.p_W) / dt)) - by_force;
   btVector3 w = toBullet(Vec3(computeRotationVector(start.q_WB, end.q_WB) / dt)) - by_torque;
   handed_.is_foreseen = !foreseen.isZero();
+  handed_.foreseen_v = toBullet(foreseen.linear_W) * body_.getInvMass();
+  handed_.foreseen_w = body_.getInvInertiaTensorWorld() * toBullet(foreseen.angular_W);
   if (handed_.is_foreseen) {
-    v -= toBullet(foreseen.linear_W) * body_.getInvMass();
-    w -= body_.getInvInertiaTensorWorld() * toBullet(foreseen.angular_W);
+    v -= handed_.foreseen_v;
+    w -= handed_.foreseen_w;
   }
   body_.setLinearVelocity(v);
   body_.setAngularVelocity(w);
@@ -270,6 +272,11 @@ void HapticBody::handOff(const RigidState& end, double dt, const Momentum& fores
 Vec3 HapticBody::computeExpectedVelocity(const Vec3& arm_W) const noexcept {
   if (!handed_.pending) return Vec3::Zero();
   return fromBullet(handed_.expected_v) + fromBullet(handed_.expected_w).cross(arm_W);
+}
+
+Vec3 HapticBody::computeForeseenVelocity(const Vec3& arm_W) const noexcept {
+  if (!handed_.pending) return Vec3::Zero();
+  return fromBullet(handed_.foreseen_v) + fromBullet(handed_.foreseen_w).cross(arm_W);
 }
 
 HostChange HapticBody::restore() noexcept {

@@ -103,6 +103,8 @@ class HapticBody final : public HostBody {
   /// Pre-tick, after handOff(). Velocity of the point at `arm_W` from the centre [m] that Bullet's
   /// solver starts with, in W [m/s].
   [[nodiscard]] Vec3 computeExpectedVelocity(const Vec3& arm_W) const noexcept;
+  /// The same of the velocity that handOff() took out as foreseen: the solver is to give it back.
+  [[nodiscard]] Vec3 computeForeseenVelocity(const Vec3& arm_W) const noexcept;
 
   /// Angular momentum of a turning body, in W [N m s]. Knows no factors.
   [[nodiscard]] Vec3 computeAngularMomentum(const Quat& q_WB, const Vec3& w_W) const noexcept;
@@ -172,7 +174,8 @@ class HapticBody final : public HostBody {
     Vec3 p_W_start = Vec3::Zero();     // position when Bullet's solver acted
     Quat q_WB_start;                   // orientation then
     btVector3 expected_v, expected_w;  // velocities after the step if only known forces act
-    bool is_foreseen = false;          // `end` holds impulses of Bullet's solver
+    btVector3 foreseen_v{0, 0, 0}, foreseen_w{0, 0, 0};  // taken out of the velocities handed off
+    bool is_foreseen = false;                            // `end` holds impulses of Bullet's solver
     int flags = 0;
     bool pending = false;
     bool asleep = false;  // Bullet received no velocity

@@ -29,6 +29,10 @@ Vec3 SupportSide::expect() const noexcept {
   return body.bullet ? body.bullet->computeExpectedVelocity(arm_W) : Vec3(Vec3::Zero());
 }
 
+Vec3 SupportSide::foresee() const noexcept {
+  return body.bullet ? body.bullet->computeForeseenVelocity(arm_W) : Vec3(Vec3::Zero());
+}
+
 Vec3 SupportSide::computeChange() const noexcept {
   if (!body.change) return Vec3::Zero();
   const Vec3 turn_W = free_inverse_inertia_W * body.change->angular_impulse_W;

@@ -27,6 +27,8 @@ struct SupportSide {
 
   /// Velocity of the contact that Bullet's solver starts with [m/s].
   [[nodiscard]] Vec3 expect() const noexcept;
+  /// Change of that velocity that the island has had already, and its contacts with it [m/s].
+  [[nodiscard]] Vec3 foresee() const noexcept;
   /// Change of that velocity by the solver [m/s].
   [[nodiscard]] Vec3 computeChange() const noexcept;
   /// Inverse of the mass that an impulse along an axis moves [1/kg].
@@ -47,6 +49,8 @@ struct SupportLine {
 
   /// Relative velocity along the axis that Bullet's solver starts with [m/s].
   [[nodiscard]] double expect() const noexcept { return along_W.dot(a.expect() - b.expect()); }
+  /// The same of what the island has had already [m/s].
+  [[nodiscard]] double foresee() const noexcept { return along_W.dot(a.foresee() - b.foresee()); }
   /// One step of a sweep: changes the impulse within limits [N s] until the axis holds. Returns the
   /// size of the change.
   double improve(double least, double most, double dt) noexcept;

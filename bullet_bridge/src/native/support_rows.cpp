@@ -123,7 +123,9 @@ void SupportRows::addFace(const RigidContact* contacts, std::size_t count, const
 void SupportRows::addRow(const RigidContact& contact, const SupportBody& a, const SupportBody& b,
                          double dt) {
   const double closing = -std::max(0.0, contact.distance) / dt;
-  const SupportLine line(a, b, contact.p_W, contact.n_W, closing);
+  SupportLine line(a, b, contact.p_W, contact.n_W, closing);
+  // The island has resisted what it foresaw. Here it would push a neighbour once more.
+  line.free_speed += std::min(0.0, line.foresee());
   if (!(line.inverse_mass > 0.0)) return;
   rows_.push_back(std::make_unique<Row>(a.bullet ? a.bullet->body() : ground_,
                                         b.bullet ? b.bullet->body() : ground_, line));
