@@ -90,9 +90,11 @@ void noteChanges(const std::vector<Obstacle>& before, std::vector<Obstacle>& now
     const auto is_it = [&](const Obstacle& other) { return other.id == obstacle.id; };
     auto known = std::find_if(next, before.end(), is_it);
     if (known == before.end()) known = std::find_if(before.begin(), before.end(), is_it);
-    const bool has_grown = known != before.end() && computeBoundingRadius(known->shape) !=
-                                                        computeBoundingRadius(obstacle.shape);
-    if (known == before.end() || has_grown || !(known->filter == obstacle.filter)) {
+    const bool has_other_shape =
+        known != before.end() &&
+        (known->shape.index() != obstacle.shape.index() ||
+         computeBoundingRadius(known->shape) != computeBoundingRadius(obstacle.shape));
+    if (known == before.end() || has_other_shape || !(known->filter == obstacle.filter)) {
       obstacle.change = ObstacleChange::kNew;
       continue;
     }

@@ -165,6 +165,7 @@ void Island::setObstacles(const std::vector<Obstacle>& obstacles) noexcept {
   if (has_changed) {
     impl_->model.has_arrivals = true;
     impl_->noteJumps();
+    impl_->forgetFacesOfNew();
   }
   // The same vector may have new contents.
   if (impl_->asleep && computeHash(&obstacles) != impl_->obstacles_hash) wake();

@@ -62,6 +62,14 @@ struct Island::Impl {
   }
 
   void noteJumps() noexcept { model.has_jumps = model.remembers_touches; }
+  /// A new shape in an old one's place has other faces.
+  void forgetFacesOfNew() noexcept {
+    for (std::size_t place = 0; place < model.obstacles->size(); ++place) {
+      const Obstacle& obstacle = (*model.obstacles)[place];
+      if (obstacle.change == ObstacleChange::kNew)
+        model.faces.forgetObstacle(obstacle.id != 0 ? obstacle.id : place + 1);
+    }
+  }
   [[nodiscard]] bool isLettingIn() const noexcept {
     return model.has_jumps || !model.memory.isEmpty();
   }

@@ -62,6 +62,10 @@ class TouchedFaces {
       return entry.key.sphere == body || entry.key.other == body;
     });
   }
+  /// Forgets the touches of an obstacle, by TouchKey::obstacle.
+  void forgetObstacle(std::uint64_t obstacle) noexcept {
+    std::erase_if(entries_, [&](const Entry& entry) { return entry.key.obstacle == obstacle; });
+  }
   /// Forgets a touch.
   void forget(const TouchKey& key) noexcept {
     std::erase_if(entries_, [&](const Entry& entry) { return entry.key == key; });
