@@ -177,6 +177,20 @@ TEST(WorldEndsEarly, GivesNativeModelsBack) {
   }
 }
 
+// A world of multi-bodies loses these first, before it is known to end.
+TEST(WorldEndsEarly, LetsTheLinksOfAnArmGo) {
+  AnyHost host(WorldKind::kMultiBody);
+  host.addMultiBody(Vec3::Zero());
+  FakeDevice device{Vec3(0.0, 0.0, 0.03)};
+  Site site({}, *host.world, device);
+  for (int i = 0; i < 5; ++i) host.world->stepSimulation(btScalar(1.0 / 60.0), 0);
+  ASSERT_EQ(site.neighbourCount(), 2);
+  host.world.reset();
+  EXPECT_TRUE(site.status() & kWorldGone);
+  EXPECT_EQ(site.neighbourCount(), 0);
+  EXPECT_EQ(host.multi_body->getMaxCoordinateVelocity(), btScalar(100));
+}
+
 TEST(WorldEndsEarly, TakesNothingFromAWorldAtTheSameAddress) {
   FakeDevice device;
   btDefaultCollisionConfiguration configuration;

@@ -68,10 +68,11 @@ bool isGround(const btMultiBody& body, int link) noexcept {
   return !is_driven && isLinkGround(body, link);
 }
 
-bool hasMultiBody(btMultiBodyDynamicsWorld& world, const btMultiBody* body) noexcept {
+bool hasMultiBody(btDiscreteDynamicsWorld& world, const btMultiBody* body) noexcept {
+  const btMultiBodyDynamicsWorld* multi = asMultiBodyWorld(world);
   bool is_there = false;
-  for (int i = 0; i < world.getNumMultibodies() && !is_there; ++i)
-    is_there = world.getMultiBody(i) == body;
+  for (int i = 0; multi && i < multi->getNumMultibodies() && !is_there; ++i)
+    is_there = multi->getMultiBody(i) == body;
   if (!is_there) return false;
   for (int link = -1; link < body->getNumLinks(); ++link) {
     const btCollisionObject* collider = colliderOf(*body, link);

@@ -26,8 +26,8 @@ namespace tandem {
 [[nodiscard]] bool isGround(const btMultiBody& body, int link) noexcept;
 
 /// True if the world has the multi-body and all of its colliders. Compares addresses first: it may
-/// have been deleted.
-[[nodiscard]] bool hasMultiBody(btMultiBodyDynamicsWorld& world, const btMultiBody* body) noexcept;
+/// have been deleted. False while the world is destroyed: its multi-bodies go before all else.
+[[nodiscard]] bool hasMultiBody(btDiscreteDynamicsWorld& world, const btMultiBody* body) noexcept;
 
 /// Why the island cannot hold a multi-body of the world, as the end of a sentence; null: it can.
 [[nodiscard]] const char* findObstacleToHold(btMultiBodyDynamicsWorld& world,

@@ -48,7 +48,7 @@ Vec3 turnMomentum(const Quat& q_WB, const Vec3& inertia, const Vec3& w_W) {
 
 }  // namespace
 
-HostArm::HostArm(btMultiBodyDynamicsWorld& world, btMultiBody& body)
+HostArm::HostArm(btDiscreteDynamicsWorld& world, btMultiBody& body)
     : world_(world),
       body_(body),
       model_(body),

@@ -13,7 +13,7 @@
 #include "arms/link_body.h"
 
 class btMultiBody;
-class btMultiBodyDynamicsWorld;
+class btDiscreteDynamicsWorld;
 
 #pragma GCC visibility push(default)
 namespace tandem {
@@ -36,7 +36,7 @@ namespace tandem {
 class HostArm {
  public:
   /// The multi-body must be in the world, and one that the island can hold.
-  HostArm(btMultiBodyDynamicsWorld& world, btMultiBody& body);
+  HostArm(btDiscreteDynamicsWorld& world, btMultiBody& body);
   ~HostArm();
   HostArm(const HostArm&) = delete;
   HostArm& operator=(const HostArm&) = delete;
@@ -51,7 +51,7 @@ class HostArm {
   /// False once the host has made it another one, or one that the island cannot hold. It must be in
   /// its world.
   [[nodiscard]] bool isAsHeld() const noexcept {
-    return look_.isOf(body_) && !findObstacleToHold(world_, body_);
+    return look_.isOf(body_) && !findObstacleToHold(*asMultiBodyWorld(world_), body_);
   }
 
   void look(double dt) noexcept;
@@ -107,7 +107,7 @@ class HostArm {
   void addMomentum(std::size_t place, const Momentum& momentum) noexcept;
   void shiftOrigin(const Vec3& offset_W) noexcept;
 
-  btMultiBodyDynamicsWorld& world_;
+  btDiscreteDynamicsWorld& world_;
   btMultiBody& body_;
   ArmModel model_;
   ArmLook look_;

@@ -276,12 +276,11 @@ void Surroundings::setContact(Neighbour& neighbour, btCollisionObject& collider)
 
 /// Fills a slot for each link of a multi-body that moves, if there are enough.
 void Surroundings::promoteArm(btMultiBody& body) {
-  auto* world = asMultiBodyWorld(world_);
   const auto empty = static_cast<std::size_t>(
       std::count_if(neighbours_.begin(), neighbours_.end(),
                     [](const Neighbour& neighbour) { return neighbour.isEmpty(); }));
-  if (!world || ArmModel(body).countBodies() > empty) return;
-  arms_.push_back(std::make_unique<HostArm>(*world, body));
+  if (ArmModel(body).countBodies() > empty) return;
+  arms_.push_back(std::make_unique<HostArm>(world_, body));
   HostArm& arm = *arms_.back();
   arm.remember();
   for (const auto& link : arm.links()) {
