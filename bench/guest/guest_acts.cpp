@@ -12,9 +12,19 @@ const std::vector<GuestAct>& guestActs() {
     appendWorldActs(all);
     appendJointActs(all);
     appendSiteActs(all);
+    appendArmActs(all);
     return all;
   }();
   return acts;
+}
+
+std::size_t countWorldActs() {
+  static const std::size_t count = [] {
+    std::vector<GuestAct> of_arms;
+    appendArmActs(of_arms);
+    return guestActs().size() - of_arms.size();
+  }();
+  return count;
 }
 
 }  // namespace tandem::demos::bench

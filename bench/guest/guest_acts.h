@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace tandem::demos::bench {
@@ -22,6 +23,9 @@ struct GuestAct {
 /// and calls of Site.
 [[nodiscard]] const std::vector<GuestAct>& guestActs();
 
+/// The first so many are done in all worlds. Those after them are done to arms.
+[[nodiscard]] std::size_t countWorldActs();
+
 /// @name Parts of the table.
 /// @{
 void appendMassActs(std::vector<GuestAct>& acts);
@@ -31,6 +35,7 @@ void appendPresenceActs(std::vector<GuestAct>& acts);
 void appendWorldActs(std::vector<GuestAct>& acts);
 void appendJointActs(std::vector<GuestAct>& acts);
 void appendSiteActs(std::vector<GuestAct>& acts);
+void appendArmActs(std::vector<GuestAct>& acts);
 /// @}
 
 }  // namespace tandem::demos::bench

@@ -83,11 +83,12 @@ void drawBodies(Draw& draw, GuestCase& one) {
 
 void drawActs(Draw& draw, GuestCase& one) {
   const std::vector<GuestAct>& acts = guestActs();
+  const auto last = static_cast<int>(countWorldActs()) - 1;
   double time = draw.even(0.0, 0.05);
   while (time < one.duration - 0.03) {
     GuestActPlan plan;
     plan.time = time;
-    plan.act = draw.count(0, static_cast<int>(acts.size()) - 1);
+    plan.act = draw.count(0, last);
     plan.site = one.sites > 1 && draw.chance(0.2) ? -1 : draw.count(0, one.sites - 1);
     plan.in_callback = draw.chance(0.1) && acts[static_cast<std::size_t>(plan.act)].in_step;
     plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
@@ -128,6 +129,7 @@ GuestCase drawGuestCase(std::uint64_t seed, std::uint64_t index) {
   drawBodies(draw, one);
   one.world_ends_first = draw.chance(0.1);
   drawActs(draw, one);
+  drawArms(one);
   return one;
 }
 
@@ -155,6 +157,8 @@ std::string describeCase(const GuestCase& one) {
                         static_cast<int>(b) < one.shared ? ", shared" : "", plan.mass,
                         1e3 * plan.size, plan.p_W.x(), plan.p_W.y(), plan.p_W.z());
   }
+  for (std::size_t a = 0; a < one.arms.size(); ++a)
+    text += fmt::format("  arm {}: {}\n", a, describeArm(one.arms[a]));
   for (const GuestActPlan& act : one.acts)
     text += fmt::format("  {:.4f} s, {}: {}{}\n", act.time,
                         act.site < 0 ? "all hosts" : fmt::format("host {}", act.site + 1),

@@ -6,6 +6,8 @@
 
 #include "tandem/coordination/types.h"
 
+#include "bench/guest/guest_arm_plan.h"
+
 namespace tandem::demos::bench {
 
 /// Shapes of the bodies of a random world.
@@ -84,6 +86,7 @@ struct GuestCase {
   bool world_ends_first = false;
   std::vector<GuestHand> hands;  ///< one per site
   std::vector<GuestPlan> bodies;
+  std::vector<GuestArmPlan> arms;  ///< the world is one with multi-bodies if there is any
   std::vector<GuestActPlan> acts;
 
   [[nodiscard]] double step() const { return max_substeps > 0 ? fixed_step : frame; }

@@ -44,6 +44,8 @@ bool isMoving(const GuestBody& body) {
 double energyOf(const GuestWorld& world) {
   double energy = 0.0;
   for (const auto& body : world.bodies()) energy += energyOf(*body);
+  const Vec3 g_W = fromBullet(world.gravity());
+  for (const auto& arm : world.arms()) energy += arm->energy(g_W);
   return energy;
 }
 

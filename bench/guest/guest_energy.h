@@ -9,7 +9,7 @@ namespace tandem::demos::bench {
 [[nodiscard]] bool isInArena(const GuestBody& body);
 /// True if forces move it.
 [[nodiscard]] bool isMoving(const GuestBody& body);
-/// Energy of motion and weight of all bodies in the arena, with the masses that the host sees [J].
+/// Energy of motion and weight of all bodies in the arena and of all arms, as the host sees it [J].
 [[nodiscard]] double energyOf(const GuestWorld& world);
 /// Index of the body with the most energy.
 [[nodiscard]] std::size_t findLiveliest(const GuestWorld& world);

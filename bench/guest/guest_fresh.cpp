@@ -35,6 +35,10 @@ std::string compareFreshWorlds(GuestSite& site) {
     other.forceActivationState(body.getActivationState());
     other.setDeactivationTime(body.getDeactivationTime());
   }
+  for (std::size_t a = 0; a < own.arms().size(); ++a) {
+    own.arms()[a]->takeMotion(*own.arms()[a]);
+    twin.arms()[a]->takeMotion(*own.arms()[a]);
+  }
   takeMotion(twin.floor(), own.floor());
   own.beginNewWorld();
   twin.beginNewWorld();
@@ -49,6 +53,9 @@ std::string compareFreshWorlds(GuestSite& site) {
         continue;
       return fmt::format("body {} differs from a fresh one after {} steps", b, step + 1);
     }
+    for (std::size_t a = 0; a < own.arms().size(); ++a)
+      if (!own.arms()[a]->isAt(*twin.arms()[a]))
+        return fmt::format("arm {} differs from a fresh one after {} steps", a, step + 1);
   }
   return {};
 }

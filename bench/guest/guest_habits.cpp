@@ -48,6 +48,7 @@ void GuestWorld::moveFloor(btScalar up) {
 void GuestWorld::putBack() {
   if (!has_floor_) toggleFloor();
   for (const auto& body : bodies_) add(*body);
+  for (const auto& arm : arms_) addArm(*arm);
 }
 
 void GuestWorld::toggleThrong() {
@@ -93,7 +94,7 @@ void GuestWorld::toggleAction(Draw& draw) {
 }
 
 void GuestWorld::replaceSolver() {
-  old_solvers_.push_back(std::make_unique<btSequentialImpulseConstraintSolver>());
+  old_solvers_.push_back(makeSolver());
   world().setConstraintSolver(old_solvers_.back().get());
 }
 
@@ -113,6 +114,7 @@ void GuestWorld::reset() {
     place(*body,
           {toBullet(body->plan.p_W, body->plan.q_WB), btVector3(0, 0, 0), btVector3(0, 0, 0)});
   for (const auto& body : bodies_) renewPairs(*body);
+  for (const auto& arm : arms_) arm->reset();
   world().getConstraintSolver()->reset();
   world().clearForces();
 }

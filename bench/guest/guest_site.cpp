@@ -14,6 +14,13 @@ constexpr double kTick = 1e-3;        // [s]
 constexpr double kTargetTime = 0.15;  // a hand looks for another body after this [s]
 constexpr double kReset = 0.04;       // no body moves as far in a step, but by a reset [m]
 
+/// Multi-bodies of a world, and their motors, limits and ties.
+std::pair<int, int> countArmParts(const btDiscreteDynamicsWorld& world) {
+  const auto* multi = dynamic_cast<const btMultiBodyDynamicsWorld*>(&world);
+  if (!multi) return {0, 0};
+  return {multi->getNumMultibodies(), multi->getNumMultiBodyConstraints()};
+}
+
 PeerId peerOf(int site) { return PeerId{static_cast<std::uint32_t>(site) + 1}; }
 
 }  // namespace
@@ -29,10 +36,10 @@ GuestSite::GuestSite(const GuestCase& one, int self)
 }
 
 void GuestSite::noteHooks() {
-  pre_tick_ = world_.world().preTick();
-  post_tick_ = world_.world().postTick();
+  pre_tick_ = world_.watch().preTick();
+  post_tick_ = world_.watch().postTick();
   user_ = world_.world().getWorldUserInfo();
-  islands_ = world_.world().islands();
+  islands_ = world_.watch().islands();
 }
 
 void GuestSite::begin() {
@@ -74,9 +81,10 @@ void GuestSite::doAct(const GuestActPlan& plan) {
 
 void GuestSite::step(double time) {
   const std::size_t target = static_cast<std::size_t>(time / kTargetTime) % world_.bodies().size();
-  const Vec3 p_W = fromBullet(world_.bodies()[target]->rigid->getWorldTransform().getOrigin());
+  const Vec3 p_W = target == 0 && !world_.arms().empty() ? world_.arms()[0]->places().back()
+                                                         : placeOf(*world_.bodies()[target]);
   if (p_W.allFinite() && p_W.norm() < 1.0) device_.setTarget(p_W);
-  simulated_ += world_.world().foresee(case_.frame, case_.max_substeps, case_.fixed_step);
+  simulated_ += world_.watch().foresee(case_.frame, case_.max_substeps, case_.fixed_step);
   if (case_.is_caller)
     for (; static_cast<double>(ticks_) * kTick < simulated_ - 1e-9; ++ticks_)
       if (site_) site_->tick(static_cast<double>(ticks_) * kTick);
@@ -147,12 +155,14 @@ void GuestSite::changeHand(Draw& draw) {
 void GuestSite::end() { site_.reset(); }
 
 std::string GuestSite::findHookLeft() {
-  GuestPhysics &own = world_.world(), &other = twin_.world();
-  if (own.preTick() != pre_tick_ || own.postTick() != post_tick_) return "tick callback";
+  btDiscreteDynamicsWorld &own = world_.world(), &other = twin_.world();
+  const GuestWatch& watch = world_.watch();
+  if (watch.preTick() != pre_tick_ || watch.postTick() != post_tick_) return "tick callback";
   if (own.getWorldUserInfo() != user_) return "user pointer of the world";
-  if (own.islands() != islands_) return "island manager";
+  if (watch.islands() != islands_) return "island manager";
   if (own.getNumCollisionObjects() != other.getNumCollisionObjects()) return "number of objects";
   if (own.getNumConstraints() != other.getNumConstraints()) return "number of joints";
+  if (countArmParts(own) != countArmParts(other)) return "number of multi-bodies or constraints";
   if (own.getForceUpdateAllAabbs() != other.getForceUpdateAllAabbs()) return "update of boxes";
   if (own.getGravity() != other.getGravity()) return "gravity";
   return {};
@@ -164,6 +174,9 @@ std::string GuestSite::findLeftOver() {
   for (std::size_t b = 0; b < world_.bodies().size(); ++b)
     if (std::string what = compareSettings(world_, twin_, b); !what.empty())
       return "body " + std::to_string(b) + ":" + what;
+  for (std::size_t a = 0; a < world_.arms().size(); ++a)
+    if (std::string what = compareArms(*world_.arms()[a], *twin_.arms()[a]); !what.empty())
+      return "arm " + std::to_string(a) + ":" + what;
   return {};
 }
 

@@ -28,7 +28,15 @@ double speedOf(const GuestWorld& world) {
     fastest = std::max(
         fastest, fromBullet(body->rigid->getLinearVelocity()).norm() +
                      2.0 * body->plan.size * fromBullet(body->rigid->getAngularVelocity()).norm());
+  for (const auto& arm : world.arms()) fastest = std::max(fastest, arm->speed());
   return fastest;
+}
+
+/// Most that motors and the host do to arms of a world in a frame, at their present speeds [J].
+double armWorkOf(const GuestWorld& world) {
+  double work = 0.0;
+  for (const auto& arm : world.arms()) work += arm->mostWork(world.plan().frame);
+  return work;
 }
 
 bool isFinite(const btRigidBody& rigid) {
@@ -115,9 +123,22 @@ void GuestVerdict::afterActs() {
   }
   allowed_ += std::max(0.0, after - before_) + std::max(0.0, twins - twins_);
   twins_ = twins;
+  motors_ = 0.0;
+  for (const auto& site : sites_) motors_ += armWorkOf(site->world());
+}
+
+void GuestVerdict::allowArms() {
+  double work = 0.0;
+  for (const auto& site : sites_) {
+    work += armWorkOf(site->world());
+    for (const auto& arm : site->world().arms()) arm->forgetPushes();
+    for (const auto& arm : site->twin().arms()) diverges_ |= arm->wasTied();
+  }
+  allowed_ += std::max(work, motors_);
 }
 
 std::optional<GuestFinding> GuestVerdict::look() {
+  allowArms();
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     GuestSite& site = *sites_[i];
     if (auto found = findNotFinite(site)) return found;
@@ -139,6 +160,9 @@ std::optional<GuestFinding> GuestVerdict::findNotFinite(GuestSite& site) const {
   for (std::size_t b = 0; b < site.world().bodies().size(); ++b)
     if (!isFinite(*site.world().bodies()[b]->rigid) && isFinite(*site.twin().bodies()[b]->rigid))
       return GuestFinding{GuestFailure::kNotFinite, fmt::format("body {} is not finite", b)};
+  for (std::size_t a = 0; a < site.world().arms().size(); ++a)
+    if (!site.world().arms()[a]->isFinite() && site.twin().arms()[a]->isFinite())
+      return GuestFinding{GuestFailure::kNotFinite, fmt::format("arm {} is not finite", a)};
   if (!site.device().isForceSane())
     return GuestFinding{GuestFailure::kNotFinite, "the device got no sane force"};
   if (site.site() && (site.site()->status() & kStateNotFinite))
@@ -153,6 +177,13 @@ void GuestVerdict::excuse(GuestWorld& world) const {
     if (!(way > 0.5 * body->plan.size) || !isInArena(*body)) continue;
     for (const auto& other : world.bodies())
       if ((placeOf(*other) - placeOf(*body)).norm() < 0.1 + way) other->may_fall = true;
+  }
+  for (const auto& arm : world.arms()) {
+    const double way = arm->speed() * case_.step();
+    for (const Vec3& p_W : arm->places())
+      for (const auto& body : world.bodies())
+        if (way > 0.5 * body->plan.size && (placeOf(*body) - p_W).norm() < 0.2 + way)
+          body->may_fall = true;
   }
 }
 
@@ -190,7 +221,13 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
   for (const auto& body : bodies)
     if (case_.hand_feels && (placeOf(*body) - site.device().position()).norm() < near)
       has_felt_[index] = 1;
+  if (case_.hand_feels && isArmNearHand(site, near)) has_felt_[index] = 1;
   if (case_.is_idle && has_felt_[index]) return std::nullopt;
+  // An arm may come near a far body, and Bullet solves its joints in that one's batch.
+  if (!case_.is_idle && !case_.arms.empty()) return std::nullopt;
+  for (std::size_t a = 0; a < site.world().arms().size(); ++a)
+    if (!site.world().arms()[a]->isAt(*site.twin().arms()[a]))
+      return GuestFinding{GuestFailure::kTwin, fmt::format("arm {} is not where its twin is", a)};
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const GuestBody &own = *bodies[b], &twin = *site.twin().bodies()[b];
     if (!case_.is_idle) {
@@ -200,7 +237,7 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
       if (site.world().world().getSolverInfo().m_solverMode & SOLVER_RANDMIZE_ORDER)
         is_met_[index][b] = 1;
       // Bullet sees supports, and more sweeps change the rounding of all that it solves.
-      if (site.world().world().sweeps() != site.twin().world().sweeps()) is_met_[index][b] = 1;
+      if (site.world().watch().sweeps() != site.twin().watch().sweeps()) is_met_[index][b] = 1;
       for (std::size_t c = 0; c < bodies.size(); ++c)
         if (c != b && ((placeOf(*bodies[c]) - placeOf(own)).norm() < near ||
                        (placeOf(*site.twin().bodies()[c]) - placeOf(twin)).norm() < near))
@@ -214,6 +251,13 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
                         fmt::format("body {} is at {}; its twin: {}", b, tell(own), tell(twin))};
   }
   return std::nullopt;
+}
+
+bool GuestVerdict::isArmNearHand(GuestSite& site, double near) const {
+  for (const auto& arm : site.world().arms())
+    for (const Vec3& p_W : arm->places())
+      if ((p_W - site.device().position()).norm() < near) return true;
+  return false;
 }
 
 std::optional<GuestFinding> GuestVerdict::findEnergy() {

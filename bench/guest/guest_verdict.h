@@ -38,14 +38,18 @@ class GuestVerdict {
   [[nodiscard]] std::optional<GuestFinding> findFallen(GuestSite& site) const;
   [[nodiscard]] std::optional<GuestFinding> findDifferent(std::size_t index);
   [[nodiscard]] std::optional<GuestFinding> findEnergy();
+  /// Adds what motors, and the host's torques and forces on arms, may have given in a frame.
+  void allowArms();
+  [[nodiscard]] bool isArmNearHand(GuestSite& site, double near) const;
   void excuse(GuestWorld& world) const;
   void excuseSunk(GuestWorld& twin) const;
 
   const GuestCase& case_;
   std::vector<std::unique_ptr<GuestSite>>& sites_;
   double allowed_ = 0.0, share_ = 0.0;
-  bool diverges_ = false;  ///< a joint that gives energy in Bullet alone
+  bool diverges_ = false;  ///< a joint or tie that gives energy in Bullet alone
   double fastest_ = 1.0;   ///< body or proxy so far [m/s]
+  double motors_ = 0.0;    ///< they could do this at the speeds before the frame [J]
   double before_ = 0.0, twins_ = 0.0;
   std::vector<char> has_felt_;             ///< by site: a hand that feels bodies had one near
   std::vector<std::vector<char>> is_met_;  ///< by site and body: something came near a far body

@@ -16,7 +16,8 @@ constexpr int kStepsOfAStride = 5;     // steps between two of a character's com
 
 }  // namespace
 
-GuestWorld::GuestWorld(const GuestCase& one) : case_(one) {
+GuestWorld::GuestWorld(const GuestCase& one)
+    : case_(one), physics_(std::make_unique<Physics>(!one.arms.empty())) {
   world().setGravity(toBullet(Vec3(0.0, 0.0, -kGravity)));
   world().setInternalTickCallback(inPreTick, this, true);
   world().setWorldUserInfo(this);
@@ -39,6 +40,7 @@ GuestWorld::GuestWorld(const GuestCase& one) : case_(one) {
   }
   Draw draw(one.seed ^ 0x6a6f696e74U, one.index);
   for (int j = 0; j < one.joints; ++j) addJoint(draw);
+  makeArms();
 }
 
 GuestWorld::~GuestWorld() {
@@ -88,12 +90,13 @@ void GuestWorld::add(GuestBody& body) {
   body.missed_gravity = false;
 }
 
-/// Joints of a body go before it, as Bullet asks of its hosts.
+/// Joints and ties of a body go before it, as Bullet asks of its hosts.
 void GuestWorld::remove(GuestBody& body) {
   if (!body.is_in_world) return;
   for (std::size_t j = joints_.size(); j-- > 0;)
     if (&joints_[j]->getRigidBodyA() == body.rigid || &joints_[j]->getRigidBodyB() == body.rigid)
       removeJoint(j);
+  for (const auto& arm : arms_) arm->removeTiesOf(*body.rigid);
   world().removeRigidBody(body.rigid);
   body.is_in_world = false;
 }
@@ -155,9 +158,11 @@ void GuestWorld::inPreTick(btDynamicsWorld* world, btScalar) {
 
 void GuestWorld::endWorld() {
   while (!joints_.empty()) removeJoint(joints_.size() - 1);
+  for (const auto& arm : arms_) arm->removeAllHolds();
   if (action_) world().removeAction(action_.get());
   if (ghost_) toggleGhost();
   if (!throng_.empty()) toggleThrong();
+  for (const auto& arm : arms_) arm->forgetWorld();
   physics_.reset();
   for (const auto& body : bodies_) body->is_in_world = false;
 }
@@ -171,13 +176,18 @@ void GuestWorld::beginNewWorld() {
     while (!joints_.empty()) removeJoint(joints_.size() - 1);
     if (has_floor_) world().removeRigidBody(floor_.get());
     for (const auto& body : bodies_) remove(*body);
+    for (const auto& arm : arms_) {
+      arm->removeAllHolds();
+      arm->remove();
+    }
     endWorld();
   }
-  physics_ = std::make_unique<Physics>();
+  physics_ = std::make_unique<Physics>(!case_.arms.empty());
   world().getSolverInfo() = info;
   world().addRigidBody(floor_.get());
   has_floor_ = true;
   for (const auto& body : bodies_) add(*body);
+  for (const auto& arm : arms_) addArm(*arm);
   world().setGravity(gravity);
 }
 

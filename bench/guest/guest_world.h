@@ -9,7 +9,9 @@
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "bench/guest/guest_arm.h"
 #include "bench/guest/guest_case.h"
+#include "bench/guest/guest_watch.h"
 #include "bench/program/draw.h"
 
 namespace tandem::demos::bench {
@@ -30,31 +32,6 @@ struct GuestBody {
   bool may_fall = false;        ///< what was done to it may let it fall through what stands
 };
 
-/// A Bullet world that shows what a site must restore.
-class GuestPhysics final : public btDiscreteDynamicsWorld {
- public:
-  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
-  [[nodiscard]] btInternalTickCallback preTick() const { return m_internalPreTickCallback; }
-  [[nodiscard]] btInternalTickCallback postTick() const { return m_internalTickCallback; }
-  /// Time that the next stepSimulation() call simulates [s].
-  [[nodiscard]] double foresee(double frame, int most, double fixed) const {
-    const auto steps = static_cast<int>((static_cast<double>(m_localTime) + frame) / fixed);
-    return most > 0 ? fixed * std::min(steps, most) : frame;
-  }
-  [[nodiscard]] const btSimulationIslandManager* islands() const { return m_islandManager; }
-  /// Sweeps of its solver in all steps.
-  [[nodiscard]] int sweeps() const { return sweeps_; }
-
- protected:
-  void solveConstraints(btContactSolverInfo& info) override {
-    sweeps_ += info.m_numIterations;
-    btDiscreteDynamicsWorld::solveConstraints(info);
-  }
-
- private:
-  int sweeps_ = 0;
-};
-
 /// A host's world of a case, and what the host does to it. Its twin is another of the same case.
 class GuestWorld {
  public:
@@ -63,10 +40,13 @@ class GuestWorld {
   GuestWorld(const GuestWorld&) = delete;
   GuestWorld& operator=(const GuestWorld&) = delete;
 
-  [[nodiscard]] GuestPhysics& world() { return *physics_->world; }
+  [[nodiscard]] btDiscreteDynamicsWorld& world() { return *physics_->world; }
+  [[nodiscard]] const GuestWatch& watch() const { return *physics_->watch; }
+  [[nodiscard]] btVector3 gravity() const { return physics_->world->getGravity(); }
   [[nodiscard]] bool hasWorld() const { return physics_ != nullptr; }
   [[nodiscard]] const std::vector<std::unique_ptr<GuestBody>>& bodies() const { return bodies_; }
   [[nodiscard]] std::vector<std::unique_ptr<btTypedConstraint>>& joints() { return joints_; }
+  [[nodiscard]] const std::vector<std::unique_ptr<GuestArm>>& arms() const { return arms_; }
   [[nodiscard]] const GuestCase& plan() const { return case_; }
   [[nodiscard]] btRigidBody& floor() { return *floor_; }
   [[nodiscard]] btScalar floorTop() const;
@@ -92,6 +72,10 @@ class GuestWorld {
   void addJoint(Draw& draw);
   void removeJoint(std::size_t index);
 
+  /// Ties a link to a body, to another link or to the world.
+  void addTie(Draw& draw);
+  void toggleArm(GuestArm& arm);
+
   void toggleFloor();
   void moveFloor(btScalar up);
   void putBack();
@@ -112,13 +96,13 @@ class GuestWorld {
 
  private:
   struct Physics {
+    explicit Physics(bool has_arms);
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
     btDbvtBroadphase broadphase;
-    std::unique_ptr<btConstraintSolver> solver =
-        std::make_unique<btSequentialImpulseConstraintSolver>();
-    std::unique_ptr<GuestPhysics> world =
-        std::make_unique<GuestPhysics>(&dispatcher, &broadphase, solver.get(), &configuration);
+    std::unique_ptr<btConstraintSolver> solver;
+    std::unique_ptr<btDiscreteDynamicsWorld> world;
+    const GuestWatch* watch = nullptr;  ///< the world
   };
   struct Saved {
     btTransform pose;
@@ -129,6 +113,9 @@ class GuestWorld {
   [[nodiscard]] btCollisionShape& makeOwnShape(GuestShape kind, double size, std::uint64_t seed);
   [[nodiscard]] btCollisionShape& makeCompound(Draw& draw, double size);
   void place(GuestBody& body, const Saved& state);
+  void makeArms();
+  void addArm(GuestArm& arm);
+  [[nodiscard]] std::unique_ptr<btConstraintSolver> makeSolver() const;
   [[nodiscard]] btCollisionShape& keep(std::unique_ptr<btCollisionShape> shape);
   static void inPreTick(btDynamicsWorld* world, btScalar dt);
 
@@ -136,7 +123,7 @@ class GuestWorld {
   std::vector<btScalar> heights_;
   btTriangleMesh triangles_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
-  std::unique_ptr<Physics> physics_ = std::make_unique<Physics>();
+  std::unique_ptr<Physics> physics_;
   std::unique_ptr<btRigidBody> floor_;
   bool has_floor_ = true;
   std::vector<std::unique_ptr<GuestBody>> bodies_;
@@ -144,6 +131,7 @@ class GuestWorld {
   std::unique_ptr<btGhostObject> ghost_;
   std::unique_ptr<btActionInterface> action_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  std::vector<std::unique_ptr<GuestArm>> arms_;
   std::vector<std::unique_ptr<btConstraintSolver>> old_solvers_;
   std::vector<Saved> saved_;
   const std::function<void()>* pending_ = nullptr;

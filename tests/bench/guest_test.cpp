@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/guest/guest_energy.h"
 #include "bench/guest/guest_site.h"
 
 namespace tandem::demos::bench {
@@ -48,7 +49,7 @@ TEST(GuestBench, EqualSeedsGiveEqualCases) {
 GuestCase drawQuietCase() {
   for (std::uint64_t index = 0;; ++index) {
     GuestCase one = drawGuestCase(11, index);
-    if (one.sites != 1 || one.shared == 0 || one.joints > 0) continue;
+    if (one.sites != 1 || one.shared == 0 || one.joints > 0 || !one.arms.empty()) continue;
     one.acts.clear();
     return one;
   }
@@ -80,7 +81,47 @@ TEST(GuestBench, CountsTheSweepsOfAllSubSteps) {
   one.max_substeps = 4;
   GuestWorld world(one);
   world.step(0.0, {});
-  EXPECT_EQ(world.world().sweeps(), 2 * world.world().getSolverInfo().m_numIterations);
+  EXPECT_EQ(world.watch().sweeps(), 2 * world.world().getSolverInfo().m_numIterations);
+}
+
+/// A case of one site with an arm without ties, and no acts.
+GuestCase drawArmCase() {
+  for (std::uint64_t index = 0;; ++index) {
+    GuestCase one = drawGuestCase(11, index);
+    if (one.sites != 1 || one.arms.size() != 1 || one.arms[0].has_tie || one.joints > 0) continue;
+    one.acts.clear();
+    return one;
+  }
+}
+
+TEST(GuestBench, OneWorldInSixHasArms) {
+  int arms = 0;
+  for (std::uint64_t index = 0; index < 600; ++index)
+    arms += drawGuestCase(5, index).arms.empty() ? 0 : 1;
+  EXPECT_NEAR(arms, 100, 30);
+}
+
+TEST(GuestBench, NoticesAnArmThatIsNotRestored) {
+  const GuestCase one = drawArmCase();
+  GuestSite site(one, 0);
+  site.step(0.0);
+  site.end();
+  EXPECT_EQ(site.findLeftOver(), "");
+  site.world().arms()[0]->body().setMaxCoordinateVelocity(7);
+  EXPECT_EQ(site.findLeftOver(), "arm 0: most_velocity");
+}
+
+TEST(GuestBench, CountsTheEnergyOfArms) {
+  const GuestCase one = drawArmCase();
+  GuestWorld world(one);
+  const double before = energyOf(world);
+  GuestArm& arm = *world.arms()[0];
+  const double mass = static_cast<double>(arm.body().getLinkMass(0));
+  for (int i = 0; i < arm.body().getNumLinks(); ++i)
+    for (int k = 0; k < arm.body().getLink(i).m_dofCount; ++k)
+      arm.body().getJointVelMultiDof(i)[k] = 50;
+  EXPECT_GT(arm.speed(), 0.0);
+  EXPECT_GT(energyOf(world) - before, 1e-3 * mass);
 }
 
 }  // namespace
