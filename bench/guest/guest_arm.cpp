@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+
 #include "tandem/bullet_bridge/convert.h"
 
 namespace tandem::demos::bench {
