@@ -178,6 +178,9 @@ ArmConstraintEnds findEnds(btMultiBodyConstraint& host) noexcept {
 }
 
 const char* findObstacleToHold(btMultiBodyConstraint& host) noexcept {
+  // Bullet makes rows of a tie even where it has no force, and the body may not be in its solver.
+  const ArmConstraintEnds ends = isTie(findKind(host)) ? findEnds(host) : ArmConstraintEnds();
+  if (ends.a.rigid || ends.b.rigid) return "it is tied to a rigid body";
   switch (findKind(host)) {
     case ArmConstraintKind::kUnknown:
       return "it has a constraint of a type that the island does not know";
