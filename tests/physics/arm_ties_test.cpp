@@ -295,45 +295,6 @@ TEST_P(ArmTiesAtRates, AWeldTurnsABodyBackAsInBullet) {
   EXPECT_NEAR(left[1].back(), 0.0, 1e-3);
 }
 
-/// A body on a link's rail, pushed along while the link turns: its place, and the link's angle.
-Vec3 slideOnRail(double rate) {
-  ArmHost host(Vec3::Zero());
-  host.build(makeChain(1));
-  btRigidBody& cube = host.host.addCube(0.2, Vec3(0.1, 0.0, 0.06));
-  cube.setSleepingThresholds(0, 0);
-  host.add<btMultiBodySliderConstraint>(0, &cube, at(0.0, 0.0, 0.06), at(0.0), kStraight, kStraight,
-                                        at(1.0));
-  start(host);
-  for (int i = 0; i < static_cast<int>(0.5 * rate); ++i) {
-    cube.applyCentralForce(at(0.3));
-    host.arm().addJointTorque(0, btScalar(0.02));
-    host.step(1.0 / rate);
-  }
-  EXPECT_EQ(host.site->counters().promoted, 2U);
-  const Vec3 p_W = fromBullet(cube.getCenterOfMassPosition());
-  return {p_W.x(), p_W.z(), host.q(0)};
-}
-
-/// The same body as a link of the arm, on a prismatic joint, in Bullet alone.
-Vec3 slideAsLink(double rate) {
-  ArmHost host(Vec3::Zero());
-  std::vector<ArmLinkPlan> plan = makeChain(2);
-  plan[1].joint = btMultibodyLink::ePrismatic;
-  plan[1].axis = Vec3::UnitX();
-  plan[1].mass = 0.2;
-  plan[1].half = Vec3::Constant(0.02);
-  plan[1].e = Vec3(0.0, 0.0, 0.06);
-  plan[1].d = Vec3::Zero();
-  host.build(plan);
-  for (int i = 0; i < static_cast<int>(0.5 * rate); ++i) {
-    host.arm().addLinkForce(1, at(0.3));
-    host.arm().addJointTorque(0, btScalar(0.02));
-    host.step(1.0 / rate);
-  }
-  const Vec3 p_W = host.linkPosition(1);
-  return {p_W.x(), p_W.z(), host.q(0)};
-}
-
 // A gear couples two joints, and so up to four links.
 // Bullet makes rows of a tie even where it has no force. A rigid body that the island holds may not
 // be in its solver: 2 of 3000 drawn worlds crashed there.
