@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
 #include "bullet_bridge/src/arms/host_arm.h"
@@ -65,8 +66,12 @@ TEST(ArmAllocation, NoneInTheTickWithConstraints) {
   btRigidBody* const nothing = nullptr;
   const btVector3 end(btScalar(0.1), 0, 0), place(btScalar(0.8), 0, 0);
   host.add<btMultiBodyPoint2Point>(3, nothing, end, place);
+  btRigidBody& cube = host.host.addCube(0.1, Vec3(0.3, 0.0, 0.05));
+  const btMatrix3x3 straight = btMatrix3x3::getIdentity();
+  host.add<btMultiBodyFixedConstraint>(1, &cube, btVector3(0, 0, btScalar(0.05)),
+                                       btVector3(0, 0, 0), straight, straight);
   const Pressing pressing = press(host);
-  EXPECT_EQ(host.site->counters().promoted, 4U);
+  EXPECT_EQ(host.site->counters().promoted, 5U);
   EXPECT_GT(pressing.most, 1.0);
   EXPECT_EQ(pressing.allocations, 0U);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <typeinfo>
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
@@ -178,9 +179,11 @@ ArmConstraintEnds findEnds(btMultiBodyConstraint& host) noexcept {
 }
 
 const char* findObstacleToHold(btMultiBodyConstraint& host) noexcept {
-  // Bullet makes rows of a tie even where it has no force, and the body may not be in its solver.
-  const ArmConstraintEnds ends = isTie(findKind(host)) ? findEnds(host) : ArmConstraintEnds();
-  if (ends.a.rigid || ends.b.rigid) return "it is tied to a rigid body";
+  const btRigidBody* const rigid = findRigid(host);
+  // Bullet's solver has no number for such a body, and reads before the start of its list.
+  if (rigid && rigid->isStaticOrKinematicObject())
+    return "a constraint ties it to a static or kinematic body, which Bullet's solver does not "
+           "find";
   switch (findKind(host)) {
     case ArmConstraintKind::kUnknown:
       return "it has a constraint of a type that the island does not know";

@@ -23,13 +23,8 @@ std::size_t placeOfLink(const ArmConstraintEnd& end) {
   return static_cast<std::size_t>(end.link + 1);
 }
 
-bool doesStand(const btRigidBody& body) {
-  return body.getInvMass() == 0 && !body.isKinematicObject();
-}
-
 /// Pose of an end that stands.
 RigidState readPose(const ArmConstraintEnd& end) {
-  if (end.rigid) return readState(*end.rigid);
   RigidState pose;
   if (!end.arm) return pose;
   pose.p_W = fromBullet(end.arm->localPosToWorld(end.link, btVector3(0, 0, 0)));
@@ -101,7 +96,6 @@ std::optional<ArmConstraints::End> ArmConstraints::findEnd(
     const ArmConstraintEnd& end, const HostJoints::Find& find,
     const std::vector<ArmJoints::Member>& members) {
   if (end.rigid) {
-    if (doesStand(*end.rigid)) return End{};
     const std::optional<BodyIndex> index = find(*end.rigid);
     return index ? std::optional(End{*index}) : std::nullopt;
   }
