@@ -141,6 +141,7 @@ void changeCcd(GuestWorld& world, Draw& draw) {
 
 void flipKinematic(GuestWorld& world, Draw& draw) {
   GuestBody& body = world.drawDynamicBody(draw);
+  world.removeTiesOf(body);
   flipFlag(*body.rigid, btCollisionObject::CF_KINEMATIC_OBJECT);
 }
 

@@ -96,7 +96,7 @@ void GuestWorld::remove(GuestBody& body) {
   for (std::size_t j = joints_.size(); j-- > 0;)
     if (&joints_[j]->getRigidBodyA() == body.rigid || &joints_[j]->getRigidBodyB() == body.rigid)
       removeJoint(j);
-  for (const auto& arm : arms_) arm->removeTiesOf(*body.rigid);
+  removeTiesOf(body);
   world().removeRigidBody(body.rigid);
   body.is_in_world = false;
 }
@@ -107,7 +107,12 @@ void GuestWorld::destroy(GuestBody& body) {
   body.rigid = nullptr;
 }
 
+void GuestWorld::removeTiesOf(const GuestBody& body) {
+  for (const auto& arm : arms_) arm->removeTiesOf(*body.rigid);
+}
+
 void GuestWorld::setMass(GuestBody& body, double mass) {
+  if (mass == 0.0) removeTiesOf(body);
   btVector3 inertia(0, 0, 0);
   if (mass > 0.0) body.shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
   body.rigid->setMassProps(static_cast<btScalar>(mass), inertia);

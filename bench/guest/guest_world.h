@@ -64,6 +64,8 @@ class GuestWorld {
   void destroy(GuestBody& body);
   void make(GuestBody& body);
   void setMass(GuestBody& body, double mass);
+  /// Before a body goes or stands: Bullet's rows of such a tie read before its list of bodies.
+  void removeTiesOf(const GuestBody& body);
   void setShape(GuestBody& body, btCollisionShape& shape);
   [[nodiscard]] btCollisionShape& makeShape(GuestShape kind, double size, std::uint64_t seed);
   /// Forgets what the broadphase found for a body, as hosts do after they changed its filter.

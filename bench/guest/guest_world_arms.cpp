@@ -62,7 +62,8 @@ void GuestWorld::addTie(Draw& draw) {
   GuestBody& body = drawDynamicBody(draw);
   const int other = draw.count(0, last);
   if (to < 0.4) {
-    if (body.is_in_world && body.plan.role != GuestRole::kFar)
+    if (body.is_in_world && body.plan.role != GuestRole::kFar &&
+        !body.rigid->isStaticOrKinematicObject())
       arm.addTie(link, body.rigid, -1, draw);
   } else {
     arm.addTie(link, nullptr, to < 0.7 ? other : -1, draw);
