@@ -5,16 +5,15 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bench/guest/guest_acts.h"
+#include "bench/guest/guest_scalar.h"
 #include "bench/guest/guest_world.h"
 
-// What hosts do to multi-bodies. A world without arms is left as it is.
+// Hosts do these things to multi-bodies. A world without arms is left as it is.
 
 namespace tandem::demos::bench {
 namespace {
 
 constexpr double kMostTieForce = 500.0;  // [N]
-
-btScalar scalar(double number) { return static_cast<btScalar>(number); }
 
 /// An arm of the world, and one of its links.
 struct Part {

@@ -8,14 +8,14 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bench/guest/guest_scalar.h"
+
 namespace tandem::demos::bench {
 namespace {
 
 const Vec3 kHalfBase(0.05, 0.04, 0.03);  // [m]
 constexpr double kDamping = 0.04;        // Bullet's default
 constexpr btScalar kMargin = btScalar(0.001);
-
-btScalar scalar(double number) { return static_cast<btScalar>(number); }
 
 btVector3 inertiaOf(const Vec3& half, double mass) {
   btVector3 inertia(0, 0, 0);

@@ -13,6 +13,7 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bench/guest/guest_arm.h"
+#include "bench/guest/guest_scalar.h"
 
 // Motors, limits and ties of an arm.
 
@@ -22,8 +23,6 @@ namespace {
 constexpr double kLimitForce = 100.0;  // of a spherical limit [N m]
 constexpr double kTieForce = 500.0;    // of half the ties [N]
 constexpr double kGap = 0.01;          // a tie may be open by this [m]
-
-btScalar scalar(double number) { return static_cast<btScalar>(number); }
 
 /// Two ends of a tie, each in the frame of what it holds.
 struct Ends {

@@ -2,24 +2,13 @@
 #include <string>
 
 #include "bench/guest/guest_arm.h"
+#include "bench/guest/guest_differences.h"
 #include "bullet_bridge/src/bodies/equal_bits.h"
 
 // Settings of arms that a site must leave or restore, to the bit.
 
 namespace tandem::demos::bench {
 namespace {
-
-/// Collects the names of what differs.
-class Differences {
- public:
-  void expect(bool is_equal, const char* name) {
-    if (!is_equal) text_ += std::string(" ") + name;
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
 
 void compareBodies(const btMultiBody& a, const btMultiBody& b, Differences& found) {
   found.expect(a.getMaxCoordinateVelocity() == b.getMaxCoordinateVelocity(), "most_velocity");

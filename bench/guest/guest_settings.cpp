@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/guest/guest_differences.h"
 #include "bench/guest/guest_site.h"
 #include "bullet_bridge/src/bodies/equal_bits.h"
 
@@ -37,53 +38,51 @@ std::vector<int> ignoredBy(GuestWorld& world, btRigidBody& body) {
 std::string compareSettings(GuestWorld& world, GuestWorld& twin, std::size_t body) {
   const GuestBody& own = *world.bodies()[body];
   btRigidBody &a = *own.rigid, &b = *twin.bodies()[body]->rigid;
-  std::string text;
-  const auto expect = [&](bool is_equal, const char* name) {
-    if (!is_equal) text += std::string(" ") + name;
-  };
-  expect(a.getInvMass() == b.getInvMass(), "mass");
-  expect(equalBits(a.getInvInertiaDiagLocal(), b.getInvInertiaDiagLocal()), "inertia");
+  Differences found;
+  found.expect(a.getInvMass() == b.getInvMass(), "mass");
+  found.expect(equalBits(a.getInvInertiaDiagLocal(), b.getInvInertiaDiagLocal()), "inertia");
   // Bullet tells sleeping bodies no gravity, and sleep is not compared.
   const bool has_all_gravity = !twin.bodies()[body]->missed_gravity;
-  expect(!has_all_gravity || equalBits(a.getGravity(), b.getGravity()), "gravity");
-  expect(a.getFlags() == b.getFlags(), "flags");
-  expect(a.getCollisionFlags() == b.getCollisionFlags(), "collision_flags");
-  expect(a.getLinearDamping() == b.getLinearDamping(), "linear_damping");
-  expect(a.getAngularDamping() == b.getAngularDamping(), "angular_damping");
-  expect(equalBits(a.getLinearFactor(), b.getLinearFactor()), "linear_factor");
-  expect(equalBits(a.getAngularFactor(), b.getAngularFactor()), "angular_factor");
-  expect(a.getLinearSleepingThreshold() == b.getLinearSleepingThreshold(), "sleeping_threshold");
-  expect(a.getFriction() == b.getFriction(), "friction");
-  expect(a.getRollingFriction() == b.getRollingFriction(), "rolling_friction");
-  expect(a.getSpinningFriction() == b.getSpinningFriction(), "spinning_friction");
-  expect(a.getRestitution() == b.getRestitution(), "restitution");
-  expect(a.getContactStiffness() == b.getContactStiffness(), "contact_stiffness");
-  expect(a.getContactProcessingThreshold() == b.getContactProcessingThreshold(), "threshold");
-  expect(a.getCcdMotionThreshold() == b.getCcdMotionThreshold(), "ccd");
-  expect(a.getUserIndex() == b.getUserIndex(), "user_index");
-  expect(
+  found.expect(!has_all_gravity || equalBits(a.getGravity(), b.getGravity()), "gravity");
+  found.expect(a.getFlags() == b.getFlags(), "flags");
+  found.expect(a.getCollisionFlags() == b.getCollisionFlags(), "collision_flags");
+  found.expect(a.getLinearDamping() == b.getLinearDamping(), "linear_damping");
+  found.expect(a.getAngularDamping() == b.getAngularDamping(), "angular_damping");
+  found.expect(equalBits(a.getLinearFactor(), b.getLinearFactor()), "linear_factor");
+  found.expect(equalBits(a.getAngularFactor(), b.getAngularFactor()), "angular_factor");
+  found.expect(a.getLinearSleepingThreshold() == b.getLinearSleepingThreshold(),
+               "sleeping_threshold");
+  found.expect(a.getFriction() == b.getFriction(), "friction");
+  found.expect(a.getRollingFriction() == b.getRollingFriction(), "rolling_friction");
+  found.expect(a.getSpinningFriction() == b.getSpinningFriction(), "spinning_friction");
+  found.expect(a.getRestitution() == b.getRestitution(), "restitution");
+  found.expect(a.getContactStiffness() == b.getContactStiffness(), "contact_stiffness");
+  found.expect(a.getContactProcessingThreshold() == b.getContactProcessingThreshold(), "threshold");
+  found.expect(a.getCcdMotionThreshold() == b.getCcdMotionThreshold(), "ccd");
+  found.expect(a.getUserIndex() == b.getUserIndex(), "user_index");
+  found.expect(
       equalBits(a.getCollisionShape()->getLocalScaling(), b.getCollisionShape()->getLocalScaling()),
       "scaling");
-  expect(a.getCollisionShape()->getMargin() == b.getCollisionShape()->getMargin(), "margin");
-  expect(kindOfActivation(a) == kindOfActivation(b), "activation");
-  expect(ignoredBy(world, a) == ignoredBy(twin, b), "ignored_pairs");
-  expect(a.getNumConstraintRefs() == b.getNumConstraintRefs(), "joints");
-  if (!world.hasWorld() || !own.is_in_world) return text;
-  expect(a.getBroadphaseHandle()->m_collisionFilterGroup ==
-             b.getBroadphaseHandle()->m_collisionFilterGroup,
-         "group");
-  expect(a.getBroadphaseHandle()->m_collisionFilterMask ==
-             b.getBroadphaseHandle()->m_collisionFilterMask,
-         "mask");
+  found.expect(a.getCollisionShape()->getMargin() == b.getCollisionShape()->getMargin(), "margin");
+  found.expect(kindOfActivation(a) == kindOfActivation(b), "activation");
+  found.expect(ignoredBy(world, a) == ignoredBy(twin, b), "ignored_pairs");
+  found.expect(a.getNumConstraintRefs() == b.getNumConstraintRefs(), "joints");
+  if (!world.hasWorld() || !own.is_in_world) return found.text();
+  found.expect(a.getBroadphaseHandle()->m_collisionFilterGroup ==
+                   b.getBroadphaseHandle()->m_collisionFilterGroup,
+               "group");
+  found.expect(a.getBroadphaseHandle()->m_collisionFilterMask ==
+                   b.getBroadphaseHandle()->m_collisionFilterMask,
+               "mask");
   // The weight that applyGravity() adds has the rounding of setMassProps().
   a.clearForces();
   b.clearForces();
   a.applyGravity();
   b.applyGravity();
-  expect(!has_all_gravity || equalBits(a.getTotalForce(), b.getTotalForce()), "weight");
+  found.expect(!has_all_gravity || equalBits(a.getTotalForce(), b.getTotalForce()), "weight");
   a.clearForces();
   b.clearForces();
-  return text;
+  return found.text();
 }
 
 }  // namespace tandem::demos::bench

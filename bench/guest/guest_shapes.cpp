@@ -2,6 +2,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bench/guest/guest_scalar.h"
 #include "bench/guest/guest_world.h"
 
 namespace tandem::demos::bench {
@@ -10,8 +11,6 @@ namespace {
 constexpr double kHalfFloor = 4.0;    // [m]
 constexpr double kFloorDepth = 0.25;  // half of a box's [m]
 constexpr int kFloorCells = 6;        // on a side, of meshes
-
-btScalar scalar(double value) { return static_cast<btScalar>(value); }
 
 std::unique_ptr<btCollisionShape> makeHull(Draw& draw, double size) {
   auto hull = std::make_unique<btConvexHullShape>();

@@ -217,7 +217,7 @@ std::optional<GuestFinding> GuestVerdict::findDifferent(std::size_t index) {
     if (const RigidState* proxy = site.site()->proxy(r))
       fastest_ = std::max(fastest_, proxy->v_W.norm());
   const double near = kMeets + kReach * fastest_ * std::max(case_.frame, case_.step());
-  // What flies to a far hand is felt there, and the island holds it.
+  // A far hand feels bodies that fly to it, and the island holds them.
   for (const auto& body : bodies)
     if (case_.hand_feels && (placeOf(*body) - site.device().position()).norm() < near)
       has_felt_[index] = 1;

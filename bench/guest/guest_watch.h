@@ -7,7 +7,7 @@
 
 namespace tandem::demos::bench {
 
-/// What a site must restore in a Bullet world, and what its solver did.
+/// Shows hooks of a Bullet world that a site must restore, and the work of its solver.
 class GuestWatch {
  public:
   virtual ~GuestWatch() = default;
