@@ -10,11 +10,11 @@ class btRigidBody;
 
 namespace tandem {
 
-/// What the island makes of a constraint of multi-bodies.
+/// The island makes this of a constraint of multi-bodies.
 enum class ArmConstraintKind : std::uint8_t {
   kUnknown,  ///< nothing: a type of the host's own
   kGear,     ///< nothing: it couples up to four links, and rows have two ends
-  // Of a joint with one degree of freedom: settings of its axis (ArmJoints).
+  // These are settings of the axis of a joint with one degree of freedom (ArmJoints).
   kJointMotor,
   kJointLimit,
   // Joints of their own (ArmConstraints).

@@ -205,7 +205,7 @@ void ArmConstraints::forgetWorld() noexcept {
 bool ArmConstraints::take() noexcept {
   if (!has_next_) return false;
   has_next_ = false;
-  // Those that stay go on with what they have.
+  // Joints that stay go on with what they have.
   for (Joint& joint : next_)
     for (const Joint& before : joints_)
       if (!before.is_gone && before.host == joint.host && before.host_ends == joint.host_ends &&
@@ -347,8 +347,7 @@ void ArmConstraints::tellHost(Joint& joint, double dt) noexcept {
 }
 
 bool ArmConstraints::dropGone() noexcept {
-  const auto isGone = [&](std::size_t place) { return joints_[place].is_gone; };
-  if (std::none_of(acting_.places().begin(), acting_.places().end(), isGone)) return false;
+  if (!acting_.hasGone(joints_)) return false;
   acting_.list(joints_);
   return true;
 }

@@ -23,10 +23,9 @@ namespace tandem {
 /// Constraints of multi-bodies that the island holds as joints of their own (ArmConstraintKind).
 ///
 /// Each acts within its bound of Bullet's, and mends a part of its error per step of the host. What
-/// others hold already it leaves out (HeldRows). While
-/// Bullet's solver runs they are without force, but for motors of spherical joints, which hold what
-/// was handed off. The host finds them as it left them, with the island's impulses.
-/// Functions and threads are those of HostJoints.
+/// others hold already it leaves out (HeldRows). While Bullet's solver runs they are without force,
+/// but for motors of spherical joints, which hold what was handed off. The host finds them as it
+/// left them, with the island's impulses. Functions and threads are those of HostJoints.
 class ArmConstraints final : public JointSource {
  public:
   /// `host` may have no multi-bodies: null.

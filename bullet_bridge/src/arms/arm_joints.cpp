@@ -13,21 +13,12 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "arms/arm_constraint.h"
+#include "arms/constraint_fields.h"
 #include "arms/link_frame.h"
 #include "arms/tell_impulse.h"
 
 namespace tandem {
 namespace {
-
-/// Bullet shows these of a motor to classes derived from it only.
-struct MotorFields : btMultiBodyJointMotor {
-  static constexpr auto kSpeed = &MotorFields::m_desiredVelocity;
-  static constexpr auto kPlace = &MotorFields::m_desiredPosition;
-  static constexpr auto kP = &MotorFields::m_kp;
-  static constexpr auto kD = &MotorFields::m_kd;
-  static constexpr auto kErp = &MotorFields::m_erp;
-  static constexpr auto kMost = &MotorFields::m_rhsClamp;
-};
 
 /// An impulse below this is rounding [N s, N m s].
 constexpr double kNoImpulse = 1e-13;

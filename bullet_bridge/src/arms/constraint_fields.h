@@ -1,6 +1,7 @@
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 #include <BulletDynamics/Featherstone/btMultiBodySliderConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodySphericalJointLimit.h>
@@ -8,7 +9,21 @@
 
 namespace tandem {
 
-/// Bullet shows these to derived classes only.
+// Bullet shows these to derived classes only.
+
+struct ConstraintFields : btMultiBodyConstraint {
+  static constexpr auto kData = &ConstraintFields::m_data;
+};
+
+struct MotorFields : btMultiBodyJointMotor {
+  static constexpr auto kSpeed = &MotorFields::m_desiredVelocity;
+  static constexpr auto kPlace = &MotorFields::m_desiredPosition;
+  static constexpr auto kP = &MotorFields::m_kp;
+  static constexpr auto kD = &MotorFields::m_kd;
+  static constexpr auto kErp = &MotorFields::m_erp;
+  static constexpr auto kMost = &MotorFields::m_rhsClamp;
+};
+
 struct SphericalMotorFields : btMultiBodySphericalJointMotor {
   static constexpr auto kTarget = &SphericalMotorFields::m_desiredPosition;
   static constexpr auto kP = &SphericalMotorFields::m_kp;

@@ -1,13 +1,8 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include "arms/constraint_fields.h"
 
 namespace tandem {
-
-/// Bullet shows this to derived classes only.
-struct ConstraintFields : btMultiBodyConstraint {
-  static constexpr auto kData = &ConstraintFields::m_data;
-};
 
 /// The impulse of a constraint's row in Bullet's last step [N s or N m s]; 0: it made none yet.
 [[nodiscard]] inline double readImpulse(btMultiBodyConstraint& constraint, int row) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "coordination/src/island/joint_source.h"
@@ -27,7 +28,14 @@ class ActingJoints {
     }
   }
 
-  /// What JointSource::joints() says.
+  /// True if one of them has gone since list().
+  template <typename Joint>
+  [[nodiscard]] bool hasGone(const std::vector<Joint>& joints) const noexcept {
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](std::size_t place) { return joints[place].is_gone; });
+  }
+
+  /// JointSource::joints() says these.
   [[nodiscard]] const std::vector<JointEnds>& ends() const noexcept { return ends_; }
   /// Places in the source's list, by the island's index.
   [[nodiscard]] const std::vector<std::size_t>& places() const noexcept { return places_; }

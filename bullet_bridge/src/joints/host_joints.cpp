@@ -162,8 +162,7 @@ bool HostJoints::tell(double dt) noexcept {
 }
 
 bool HostJoints::dropGone() noexcept {
-  const auto isGone = [&](std::size_t place) { return joints_[place].is_gone; };
-  if (std::none_of(acting_.places().begin(), acting_.places().end(), isGone)) return false;
+  if (!acting_.hasGone(joints_)) return false;
   listActing();
   return true;
 }

@@ -312,9 +312,11 @@ bool NeighbourSearch::mayBeFound(const btCollisionObject& object) const {
   if (const btRigidBody* body = btRigidBody::upcast(&object)) return mayBeNeighbour(*body);
   btMultiBody* body = multiBodyOf(object);
   if (!body || !arms_host_ || !object.hasContactResponse() || isGround(object)) return false;
-  lookUpArm(*body).is_near = true;
-  if (!findArm(object)) return false;
+  Arm& arm = lookUpArm(*body);
+  arm.is_near = true;
+  if (arm.places == 0) return false;
   if (!joints_.isJointed(*body) || mayHoldChainOf({nullptr, body})) return true;
+  // The chain may have brought other arms into the list.
   lookUpArm(*body).why_not = "what its constraints connect it with cannot be held";
   return false;
 }

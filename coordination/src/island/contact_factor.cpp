@@ -19,13 +19,6 @@ bool isNear(const Six& a, const Six& b) noexcept {
   return dot(change, change) <= kNearJacobian * kNearJacobian * dot(b, b);
 }
 
-Six combine(double n, double s, double t, const Six (&along)[3]) noexcept {
-  Six sum = along[0].scaled(n);
-  sum.addScaled(s, along[1]);
-  sum.addScaled(t, along[2]);
-  return sum;
-}
-
 bool isNear(const ContactJacobian& a, const ContactJacobian& b) noexcept {
   if (a.a != b.a || a.b != b.b) return false;
   for (int i = 0; i < 3; ++i) {

@@ -13,6 +13,14 @@ struct ContactStiffness {
   bool operator==(const ContactStiffness&) const noexcept = default;
 };
 
+/// Sum of three directions, each with a factor.
+[[nodiscard]] inline Six combine(double n, double s, double t, const Six (&along)[3]) noexcept {
+  Six sum = along[0].scaled(n);
+  sum.addScaled(s, along[1]);
+  sum.addScaled(t, along[2]);
+  return sum;
+}
+
 /// Velocities along the three directions of a contact point, by velocities of two bodies in units
 /// in which each has mass and inertia 1.
 struct ContactJacobian {

@@ -317,9 +317,7 @@ bool ContactSolver::factorise() noexcept {
 /// Adds J^T push to dx_.
 void ContactSolver::addPush(const ContactJacobian& J, const RigidRow::Local& push) noexcept {
   const auto add = [&](Six& to, const Six(&along)[3]) {
-    to.addScaled(push.n, along[0]);
-    to.addScaled(push.s, along[1]);
-    to.addScaled(push.t, along[2]);
+    to.add(combine(push.n, push.s, push.t, along));
   };
   add(dx_[static_cast<std::size_t>(J.a)], J.of_a);
   if (J.b >= 0) add(dx_[static_cast<std::size_t>(J.b)], J.of_b);

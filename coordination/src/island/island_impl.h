@@ -67,7 +67,7 @@ struct Island::Impl {
     for (std::size_t place = 0; place < model.obstacles->size(); ++place) {
       const Obstacle& obstacle = (*model.obstacles)[place];
       if (obstacle.change == ObstacleChange::kNew)
-        model.faces.forgetObstacle(obstacle.id != 0 ? obstacle.id : place + 1);
+        model.faces.forgetObstacle(keyOf(obstacle, place));
     }
   }
   [[nodiscard]] bool isLettingIn() const noexcept {

@@ -27,9 +27,8 @@ int numberOf(const IslandModel& model, const Touch& touch) noexcept {
 TouchKey keyOf(const IslandModel& model, const Touch& touch) noexcept {
   const int part = numberOf(model, touch);
   if (!touch.obstacle) return {touch.sphere, touch.other, 0, part};
-  const auto place = static_cast<std::uint64_t>(touch.obstacle - model.obstacles->data());
-  return {touch.sphere, touch.other, touch.obstacle->id != 0 ? touch.obstacle->id : place + 1,
-          part};
+  const auto place = static_cast<std::size_t>(touch.obstacle - model.obstacles->data());
+  return {touch.sphere, touch.other, keyOf(*touch.obstacle, place), part};
 }
 
 void addMemory(const IslandModel& model, Touch& touch, double ahead) noexcept {

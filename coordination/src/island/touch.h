@@ -32,6 +32,10 @@ struct Touch {
   return touch.part ? touch.part->shape : wholeShapeOf(model, touch);
 }
 
+/// TouchKey::obstacle of the obstacle at a place of the list.
+[[nodiscard]] inline std::uint64_t keyOf(const Obstacle& obstacle, std::size_t place) noexcept {
+  return obstacle.id != 0 ? obstacle.id : place + 1;
+}
 /// Key of the touch in the model's memory.
 [[nodiscard]] TouchKey keyOf(const IslandModel& model, const Touch& touch) noexcept;
 

@@ -145,9 +145,7 @@ void Peers::hearEnergy(Peer& peer, const StatePacket& packet) noexcept {
 bool Peers::isFoundElsewhere(const Tie& tie, const SharedObject& object,
                              const ObjectState& copy) const noexcept {
   if (tie.sequence) return false;
-  const RigidState& ours = island_.state(object.body.index);
-  const Quat turn = copy.state.q_WB * ours.q_WB.conjugate();
-  return isTeleport((copy.state.p_W - ours.p_W).norm(), turn, object.bounding_radius);
+  return isTeleport(island_.state(object.body.index), copy.state, object.bounding_radius);
 }
 
 void Peers::noteJump(Peer& peer) noexcept {

@@ -50,8 +50,7 @@ void SiteParts::noteTeleports() noexcept {
   for (SharedObject& object : bodies.objects) {
     if (!object.body.is_held) continue;
     const RigidState now = object.body.bullet->state(), last = island.state(object.body.index);
-    const Quat turn = now.q_WB * last.q_WB.conjugate();
-    if (!isTeleport((now.p_W - last.p_W).norm(), turn, object.bounding_radius)) continue;
+    if (!isTeleport(last, now, object.bounding_radius)) continue;
     island.setState(object.body.index, now);
     peers.beginEpoch(object);
   }

@@ -11,4 +11,9 @@ namespace tandem {
   return way + rotation_W.angularDistance(Quat::Identity()) * radius >= kTeleport;
 }
 
+[[nodiscard]] inline bool isTeleport(const RigidState& from, const RigidState& to,
+                                     double radius) noexcept {
+  return isTeleport((to.p_W - from.p_W).norm(), to.q_WB * from.q_WB.conjugate(), radius);
+}
+
 }  // namespace tandem
