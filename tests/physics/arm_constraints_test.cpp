@@ -32,14 +32,6 @@ void buildBall(ArmHost& host) {
   host.build({link});
 }
 
-/// The hand holds what is near, and touches nothing.
-void start(ArmHost& host) {
-  host.device.sample.hip.p_W = Vec3(0.0, 0.4, 0.0);
-  SiteSettings settings;
-  settings.host_stall = 0.2;
-  host.start(settings);
-}
-
 Quat turnOf(const ArmHost& host) {
   const btScalar* q = host.arm().getJointPosMultiDof(0);
   return fromBullet(btQuaternion(q[0], q[1], q[2], q[3]));
@@ -57,7 +49,7 @@ std::vector<Quat> turnTo(const Quat& target, double rate, bool has_site) {
   const auto most = static_cast<btScalar>(100.0 / rate);
   auto& motor = host.add<btMultiBodySphericalJointMotor>(0, most);
   motor.setPositionTarget(toBullet(target), static_cast<btScalar>(12.0 / rate));
-  if (has_site) start(host);
+  if (has_site) host.startApart();
   std::vector<Quat> way;
   for (int i = 0; i < 40; ++i) {
     host.run(0.1, rate);
@@ -96,7 +88,7 @@ TEST_P(ArmConstraintsAtRates, ASoftSphericalMotorSagsAsInBullet) {
     auto& motor = host.add<btMultiBodySphericalJointMotor>(0, btScalar(100.0 / GetParam()));
     motor.setPositionTarget(btQuaternion::getIdentity(), btScalar(20.0 / GetParam()));
     motor.setDamping(btVector3(1, 1, 1) * btScalar(20.0 / GetParam()));
-    if (has_site) start(host);
+    if (has_site) host.startApart();
     host.run(4.0, GetParam());
     turns[has_site ? 1 : 0] = turnOf(host);
   }
@@ -113,7 +105,7 @@ TEST_P(ArmConstraintsAtRates, ASphericalMotorGivesItsGreatestTorque) {
   motor.setPositionTargetMultiDof(toBullet(Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitZ()))),
                                   btVector3(1, 1, 1));
   motor.setMaxAppliedImpulseMultiDof(btVector3(1, 1, 1) * btScalar(kTorque / GetParam()));
-  start(host);
+  host.startApart();
   host.run(0.1, GetParam());
   const double before = speedOf(host).z();
   host.run(0.2, GetParam());
@@ -141,7 +133,7 @@ TEST_P(ArmConstraintsAtRates, ASphericalJointStopsAtItsLimits) {
   host.add<btMultiBodySphericalJointLimit>(0, btScalar(0.3), btScalar(0.4), btScalar(0.5),
                                            btScalar(100.0 / GetParam()));
   host.arm().setAngularDamping(btScalar(0.9));
-  start(host);
+  host.startApart();
   host.run(6.0, GetParam());
   EXPECT_EQ(host.site->counters().promoted, 1U);
   // It falls about y, until its tilt is 0.4.
@@ -157,7 +149,7 @@ TEST_P(ArmConstraintsAtRates, LimitsOfASphericalJointHoldWhateverItsTurn) {
   host.arm().getJointVelMultiDof(0)[0] = btScalar(3);
   host.arm().getJointVelMultiDof(0)[1] = btScalar(-2);
   host.arm().getJointVelMultiDof(0)[2] = btScalar(4);
-  start(host);
+  host.startApart();
   double farthest = 0.0;
   for (int i = 0; i < static_cast<int>(4.0 * GetParam()); ++i) {
     host.step(1.0 / GetParam());
@@ -180,7 +172,7 @@ TEST_P(ArmConstraintsAtRates, AStrangerOnALinkMeetsItsSphericalMotor) {
   btRigidBody& cube = host.host.addCube(0.2, Vec3(0.12, 0.0, 0.042));
   cube.setAnisotropicFriction(btVector3(1, btScalar(0.5), 1));
   cube.setSleepingThresholds(0, 0);
-  start(host);
+  host.startApart();
   host.run(2.0, GetParam());
   EXPECT_EQ(host.site->counters().promoted, 1U);
   EXPECT_LT(turnOf(host).angularDistance(Quat::Identity()), 1e-3);
@@ -191,7 +183,7 @@ TEST_P(ArmConstraintsAtRates, ASphericalMotorEndsWhenItIsRemoved) {
   ArmHost host;
   buildBall(host);
   host.add<btMultiBodySphericalJointMotor>(0, btScalar(100.0 / GetParam()));
-  start(host);
+  host.startApart();
   host.run(0.5, GetParam());
   EXPECT_LT(turnOf(host).angularDistance(Quat::Identity()), byWidth(1e-3, 1e-3));
   const double before = host.energy();

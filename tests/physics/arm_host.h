@@ -147,6 +147,13 @@ struct ArmHost {
   void start(const SiteSettings& settings = {}) {
     site = std::make_unique<Site>(settings, *host.world, device);
   }
+  /// The hand holds what is near, and touches nothing.
+  void startApart() {
+    device.sample.hip.p_W = Vec3(0.0, 0.4, 0.0);
+    SiteSettings settings;
+    settings.host_stall = 0.2;
+    start(settings);
+  }
 
   [[nodiscard]] btMultiBody& arm() const { return *host.multi_body; }
   [[nodiscard]] double q(int link) const { return static_cast<double>(arm().getJointPos(link)); }

@@ -35,14 +35,6 @@ btVector3 at(double x, double y = 0.0, double z = 0.0) { return toBullet(Vec3(x,
 const btMatrix3x3 kStraight = btMatrix3x3::getIdentity();
 btRigidBody* const kNoBody = nullptr;
 
-/// The hand holds what is near, and touches nothing.
-void start(ArmHost& host) {
-  host.device.sample.hip.p_W = Vec3(0.0, 0.4, 0.0);
-  SiteSettings settings;
-  settings.host_stall = 0.2;
-  host.start(settings);
-}
-
 /// A free multi-body without links.
 void buildFree(ArmHost& host, const Vec3& p_W = Vec3::Zero()) {
   host.build({}, kMass, Vec3(0.1, 0.02, 0.02), p_W);
@@ -54,7 +46,7 @@ TEST_P(ArmTiesAtRates, AFreeArmSwingsOnAPin) {
   ArmHost host;
   buildFree(host);
   host.add<btMultiBodyPoint2Point>(-1, kNoBody, at(-0.1), at(-0.1));
-  start(host);
+  host.startApart();
   host.step(1.0 / GetParam());  // Bullet's own, if it was not held at once
   const double before = host.energy();
   double worst = 0.0, open = 0.0;
@@ -79,7 +71,7 @@ Vec3 runLoop(double rate, double duration, bool has_site, Tie tie) {
   for (int i = 0; i < 3; ++i) host.arm().setJointPos(i, static_cast<btScalar>(bent[i]));
   host.showPose();
   tie(host);
-  if (has_site) start(host);
+  if (has_site) host.startApart();
   host.run(duration, rate);
   if (has_site) {
     EXPECT_EQ(host.site->counters().promoted, 3U);
@@ -120,7 +112,7 @@ TEST_P(ArmTiesAtRates, AWeldCarriesABodyWithoutSag) {
   cube.setSleepingThresholds(0, 0);
   auto& weld =
       host.add<btMultiBodyFixedConstraint>(0, &cube, at(0.15), at(0.0), kStraight, kStraight);
-  start(host);
+  host.startApart();
   host.run(1.0, GetParam());
   EXPECT_EQ(host.site->counters().promoted, 2U);
   EXPECT_LT((fromBullet(cube.getCenterOfMassPosition()) - Vec3(0.25, 0.0, 0.0)).norm(),
@@ -145,7 +137,7 @@ std::vector<double> findForces(double rate, bool has_site, AddTie add_tie) {
   ArmHost host;
   buildFree(host);
   btMultiBodyConstraint& tie = add_tie(host);
-  if (has_site) start(host);
+  if (has_site) host.startApart();
   for (int i = 0; i < static_cast<int>(rate); ++i) {
     host.arm().addBaseForce(at(0.5, 0.0, 1.0));
     host.arm().addBaseTorque(at(0.01, 0.02, -0.03));
@@ -188,7 +180,7 @@ TEST_P(ArmTiesAtRates, APinGivesItsGreatestForce) {
   buildFree(host);
   auto& pin = host.add<btMultiBodyPoint2Point>(-1, kNoBody, at(0.0), at(0.0));
   pin.setMaxAppliedImpulse(static_cast<btScalar>(kForce / GetParam()));
-  start(host);
+  host.startApart();
   host.step(1.0 / GetParam());
   const double before = static_cast<double>(host.arm().getBaseVel().z());
   host.run(0.2, GetParam());
@@ -205,7 +197,7 @@ TEST_P(ArmTiesAtRates, AMovedPivotIsFollowedAsInBullet) {
     ArmHost host;
     buildFree(host);
     auto& pin = host.add<btMultiBodyPoint2Point>(-1, kNoBody, at(0.0), at(0.0));
-    if (has_site) start(host);
+    if (has_site) host.startApart();
     host.run(0.2, GetParam());
     pin.setPivotInB(at(0.05, 0.0, 0.03));
     for (int i = 0; i < static_cast<int>(0.5 * GetParam()); ++i) {
@@ -236,7 +228,7 @@ TEST_P(ArmTiesAtRates, AStrongPinMovesAnArmAgainstItsMotors) {
   const btVector3 place = host.arm().localPosToWorld(3, at(0.1)) + at(0.03, 0.0, 0.03);
   auto& pin = host.add<btMultiBodyPoint2Point>(3, kNoBody, at(0.1), place);
   pin.setMaxAppliedImpulse(static_cast<btScalar>(kForce / GetParam()));
-  start(host);
+  host.startApart();
   host.run(1.0, GetParam());
   EXPECT_EQ(host.site->counters().promoted, 4U);
   EXPECT_LT((host.arm().localPosToWorld(3, at(0.1)) - place).length(), btScalar(1e-3));
@@ -264,7 +256,7 @@ TEST_P(ArmTiesAtRates, TwoArmsMeetInAPin) {
     host.constraints.push_back(std::make_unique<btMultiBodyPoint2Point>(
         &first, 1, &host.arm(), 1, at(0.1), host.arm().worldPosToLocal(1, tip)));
     host.host.multi()->addMultiBodyConstraint(host.constraints.back().get());
-    if (has_site) start(host);
+    if (has_site) host.startApart();
     host.run(0.5, rate);
     if (has_site) {
       EXPECT_EQ(host.site->counters().promoted, 4U);
@@ -285,7 +277,7 @@ TEST_P(ArmTiesAtRates, AWeldedLoopStands) {
   host.showPose();
   host.add<btMultiBodyFixedConstraint>(2, kNoBody, at(0.1), host.arm().localPosToWorld(2, at(0.1)),
                                        kStraight, host.arm().localFrameToWorld(2, kStraight));
-  start(host);
+  host.startApart();
   host.run(2.0, GetParam());
   EXPECT_EQ(host.site->counters().promoted, 3U);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(host.q(i), bent[i], byWidth(1e-5, 1e-3));
@@ -312,7 +304,7 @@ TEST_P(ArmTiesAtRates, AWeldTurnsABodyBackAsInBullet) {
     ArmHost host;
     buildFree(host);
     host.add<btMultiBodyFixedConstraint>(-1, kNoBody, at(0.0), at(0.0), kStraight, turned);
-    if (has_site) start(host);
+    if (has_site) host.startApart();
     for (int i = 0; i < 20; ++i) {
       host.run(0.05, GetParam());
       const btQuaternion turn = host.arm().getWorldToBaseRot().inverse();
@@ -331,7 +323,7 @@ Vec3 slideOnRail(double rate) {
   cube.setSleepingThresholds(0, 0);
   host.add<btMultiBodySliderConstraint>(0, &cube, at(0.0, 0.0, 0.06), at(0.0), kStraight, kStraight,
                                         at(1.0));
-  start(host);
+  host.startApart();
   for (int i = 0; i < static_cast<int>(0.5 * rate); ++i) {
     cube.applyCentralForce(at(0.3));
     host.arm().addJointTorque(0, btScalar(0.02));
