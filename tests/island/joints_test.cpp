@@ -134,6 +134,31 @@ TEST(IslandJoints, TakeLongTicksAsExactlyAsShortOnes) {
     EXPECT_LT((coarse.island().state(b).p_W - fine.island().state(b).p_W).norm(), 1e-6);
 }
 
+// Forces of joints are dear. A step of order 4 asks for them five times, one of order 5 seven
+// times.
+TEST(IslandJoints, TakeStepsOfOrder4WhereTheyAreExactEnough) {
+  Chain slow(3, Vec3::UnitY());
+  slow.start();
+  slow.run(0.2);
+  const IslandCounters& of_slow = slow.island().counters();
+  EXPECT_EQ(of_slow.steps_of_order_4, of_slow.integrated_steps);
+  EXPECT_EQ(of_slow.rejected_steps, 0u);
+
+  Chain fast(1, Vec3::UnitY());
+  fast.start();
+  const double speed = 150.0;  // [rad/s]
+  RigidState state = fast.island().state(0);
+  state.w_W = speed * Vec3::UnitY();
+  state.v_W = state.w_W.cross(state.p_W);
+  fast.island().setState(0, state);
+  fast.run(1.0);
+  const IslandCounters& of_fast = fast.island().counters();
+  EXPECT_LT(of_fast.steps_of_order_4, of_fast.integrated_steps / 10);
+  EXPECT_GT(of_fast.rejected_steps, of_fast.integrated_steps / 20);
+  EXPECT_LT(fast.most_energy - fast.least_energy, 1e-7 * fast.energy());
+  EXPECT_LT(fast.off, 1e-9);
+}
+
 // Without gravity, linear and angular momentum stay whatever the joint.
 TEST(IslandJoints, KeepMomentum) {
   constexpr std::uint64_t kSeed = 20261126;

@@ -4,11 +4,6 @@
 #include <cmath>
 #include <utility>
 
-// Runge-Kutta 5(4) of Tsitouras (2011, Computers & Mathematics with Applications 62, 770-775). It
-// has seven stages; the last is the first of the next step. The result is of order 5, and an
-// embedded one of order 4 gives the error. For an oscillation the error is a sixth of Dormand and
-// Prince's at the same cost.
-
 namespace tandem {
 namespace {
 
@@ -32,6 +27,9 @@ constexpr double kShortestOfJoints = 0.25;
 
 /// Joined bodies turn at most this far in such a step [rad]. Beyond, errors of their forces grow.
 constexpr double kMostTurnOfJoints = 0.36;
+
+/// Steps of order 5 after one of order 4 that was not exact enough.
+constexpr int kStepsOfOrder5 = 16;
 
 /// Shortest step as a share of what the gains require. An error that does not shrink with the step
 /// comes from a kink of the geometry.
@@ -143,21 +141,40 @@ void SmoothMotion::advance(States& states, double dt, IslandCounters& counters) 
 }
 
 double SmoothMotion::takeStep(double from, double rest, IslandCounters& counters) noexcept {
-  for (;;) {
-    const double h = rest / std::max(1.0, std::ceil(rest / step_ * (1.0 - 1e-9)));
-    tryStep(from, h);
-    const double error = estimateError(h);
-    if (error <= (hasPassedEdge() ? kAtEdges * allowed_error_ : allowed_error_)) {
-      // The error falls with the fifth power of the step.
-      if (error < allowed_error_ / 64.0) step_ = std::min(std::max(step_, 2.0 * h), max_step_);
+  // Forces of joints are dear: fewer stages first.
+  if (forces_.hasJoints() && steps_of_order_5_-- <= 0) {
+    steps_of_order_5_ = 0;
+    const double h = divideEvenly(rest);
+    tryStepOfOrder4(from, h);
+    if (acceptsStep(h, estimateErrorOfOrder4(h))) {
+      ++counters.steps_of_order_4;
       return h;
     }
+    ++counters.rejected_steps;
+    steps_of_order_5_ = kStepsOfOrder5;
+  }
+  for (;;) {
+    const double h = divideEvenly(rest);
+    tryStep(from, h);
+    const double error = estimateError(h);
+    if (acceptsStep(h, error)) return h;
     // The margin allows for rounding: the rest is divided evenly.
     const double shortest = computeShortestStep();
     if (h <= shortest * (1.0 + 1e-6)) return h;
     ++counters.rejected_steps;
     step_ = std::max(shortest, (error < 32.0 * allowed_error_ ? 0.5 : 0.25) * h);
   }
+}
+
+double SmoothMotion::divideEvenly(double rest) const noexcept {
+  return rest / std::max(1.0, std::ceil(rest / step_ * (1.0 - 1e-9)));
+}
+
+bool SmoothMotion::acceptsStep(double h, double error) noexcept {
+  if (!(error <= (hasPassedEdge() ? kAtEdges * allowed_error_ : allowed_error_))) return false;
+  // The error falls with the fourth power of the step at least.
+  if (error < allowed_error_ / 64.0) step_ = std::min(std::max(step_, 2.0 * h), max_step_);
+  return true;
 }
 
 double SmoothMotion::computeShortestStep() const noexcept {
@@ -168,64 +185,6 @@ double SmoothMotion::computeShortestStep() const noexcept {
       fastest = std::max(fastest, y_.segment<3>(mover.offset + SmoothForces::kW).matrix().norm());
   const double shortest = kShortestOfJoints * period_;
   return std::max(min_step_, std::min(shortest, kMostTurnOfJoints / fastest));
-}
-
-void SmoothMotion::tryStep(double from, double h) noexcept {
-  using Look = SmoothForces::Look;
-  const Eigen::Index n = forces_.size();
-  const auto y = y_.head(n);
-  const auto k1 = k_[0].head(n), k3 = k_[2].head(n), k4 = k_[3].head(n), k5 = k_[4].head(n),
-             k6 = k_[5].head(n);
-  const auto k2 = k_[1].head(n);
-  auto next = next_.head(n);
-  const auto evaluate = [&](int stage, double part, Look look) {
-    forces_.evaluate(from + part * h, next_.data(), k_[stage].data(), look);
-  };
-  next = y + (h * 0.161) * k1;
-  evaluate(1, 0.161, Look::kPushing);
-  next = y - (h * 0.008480655492356989) * k1 + (h * 0.335480655492357) * k2;
-  evaluate(2, 0.327, Look::kPushing);
-  next = y + (h * 2.8971530571054935) * k1 - (h * 6.359448489975075) * k2 +
-         (h * 4.3622954328695815) * k3;
-  evaluate(3, 0.9, Look::kPushing);
-  next = y + (h * 5.325864828439257) * k1 - (h * 11.748883564062828) * k2 +
-         (h * 7.4955393428898365) * k3 - (h * 0.09249506636175525) * k4;
-  evaluate(4, 0.9800255409045097, Look::kPushing);
-  next = y + (h * 5.86145544294642) * k1 - (h * 12.92096931784711) * k2 +
-         (h * 8.159367898576159) * k3 - (h * 0.071584973281401) * k4 -
-         (h * 0.028269050394068383) * k5;
-  evaluate(5, 1.0, Look::kPushing);
-  next = y + (h * 0.09646076681806523) * k1 + (h * 0.01) * k2 + (h * 0.4798896504144996) * k3 +
-         (h * 1.379008574103742) * k4 - (h * 3.290069515436081) * k5 + (h * 2.324710524099774) * k6;
-  evaluate(6, 1.0, Look::kAll);
-}
-
-double SmoothMotion::estimateError(double h) noexcept {
-  const Eigen::Index n = forces_.size();
-  // The second stage is no longer needed; its memory takes the error.
-  auto e = k_[1].head(n);
-  e = (h * 0.015151515151515152) * k_[6].head(n) - (h * 0.45808210592918697) * k_[5].head(n) +
-      (h * 0.5823571654525552) * k_[4].head(n) - (h * 0.1447110071732629) * k_[3].head(n) +
-      (h * 0.007880878010261995) * k_[2].head(n) - (h * 0.0008164344596567469) * k_[1].head(n) -
-      (h * 0.001780011052225777) * k_[0].head(n);
-  // All errors are in metres. An error of velocity counts for the springs' response time (a
-  // radian), an error of orientation at the surface.
-  double worst = 0.0;
-  const auto look = [&](const double* values, int count, double scale) {
-    for (int i = 0; i < count; ++i) {
-      const double size = scale * std::abs(values[i]);
-      if (!(size <= worst)) worst = size;
-    }
-  };
-  for (const SmoothForces::Mover& mover : forces_.movers()) {
-    const double* values = e.data() + mover.offset;
-    look(values, 3, 1.0);
-    look(values + 3, 3, answer_);
-    if (!mover.turns) continue;
-    look(values + SmoothForces::kQ, 4, 2.0 * mover.radius);
-    look(values + SmoothForces::kW, 3, answer_ * mover.radius);
-  }
-  return worst;
 }
 
 /// True if a pushed centre passed from over a face to over an edge, or back. The force is smooth

@@ -9,7 +9,7 @@
 namespace tandem {
 
 /// Moves bodies in contact by Runge-Kutta 5(4), with an error bound per step. Contacts made and
-/// broken are located inside the step.
+/// broken are located inside the step. With joints, 4(3) is tried first: it has fewer stages.
 ///
 /// A step is as long as its error allows (IslandSettings::tolerance): a whole haptic period in a
 /// soft scene. It ends just behind the first change of a contact, so that no step spans one.
@@ -43,6 +43,11 @@ class SmoothMotion {
 
   void tryStep(double from, double h) noexcept;
   [[nodiscard]] double estimateError(double h) noexcept;
+  void tryStepOfOrder4(double from, double h) noexcept;
+  [[nodiscard]] double estimateErrorOfOrder4(double h) noexcept;
+  [[nodiscard]] double measureError(const double* e) const noexcept;
+  [[nodiscard]] bool acceptsStep(double h, double error) noexcept;
+  [[nodiscard]] double divideEvenly(double rest) const noexcept;
   [[nodiscard]] bool hasPassedEdge() const noexcept;
   /// A step as short as this is accepted whatever its error [s].
   [[nodiscard]] double computeShortestStep() const noexcept;
@@ -59,6 +64,7 @@ class SmoothMotion {
   double max_step_ = 0.0;       ///< stable, and resolves the fastest oscillation [s]
   double min_step_ = 0.0;       ///< shorter steps are accepted whatever their error [s]
   double step_ = 0.0;           ///< last good length [s]
+  int steps_of_order_5_ = 0;    ///< to be done before one of order 4 is tried
   Eigen::ArrayXd y_, next_, k_[7];
   std::vector<Start> starts_;  ///< by touch
 };

@@ -14,6 +14,7 @@ struct IslandCounters {
   std::uint64_t exact_turns = 0;        ///< exact turns of a body
   std::uint64_t integrated_bodies = 0;  ///< bodies handed to the integrator
   std::uint64_t integrated_steps = 0;   ///< steps of the integrator
+  std::uint64_t steps_of_order_4 = 0;   ///< those of them that were of order 4, with joints
   std::uint64_t rejected_steps = 0;     ///< integrator steps rejected as too long for the tolerance
   std::uint64_t events = 0;             ///< contacts made and broken inside a step
   std::uint64_t event_tries = 0;        ///< steps tried to find their moments
