@@ -19,7 +19,7 @@ target_compile_options(tandem_compile_options INTERFACE
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:
   -Wno-restrict -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow>)
 # In a batch of sources, a name of one source may shadow a name of another without harm. GCC also takes each source for
-# a header when it warns of types of one source. The preset clang has no batches and all warnings.
+# a header when it warns of types of one source. The preset dev has no batches and all warnings.
 if(TANDEM_UNITY)
   target_compile_options(tandem_compile_options INTERFACE
     -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

@@ -1,5 +1,5 @@
 # Compiles several sources as one. Sources are short and their includes long: most of a full build's time goes into
-# headers. The preset clang compiles each source alone, which proves its own includes.
+# headers. The preset dev compiles each source alone, which proves its own includes.
 option(TANDEM_UNITY "Compile several sources at once, for faster full builds" ON)
 
 # tandem_unity(TARGET [ALONE sources...]): call it once the target has all its sources. Sources after ALONE are compiled
