@@ -24,6 +24,8 @@ struct Solid {
   Colour colour;
   std::string name;       ///< of the body; for the list as text
   bool is_ghost = false;  ///< drawn as its edges only, so that it hides nothing
+  /// A faint net of 0.1 m on its level faces: for floors. Casts no shadow.
+  bool has_grid = false;
 };
 
 /// A straight line in W.
