@@ -16,7 +16,7 @@ long_simulations+='|GuestBench.HardlyAnything|Model.AgreesForParameters|JointsFo
 long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments'
 
 preset=${1:-release}
-groups=(build demo test)
+groups=(build demo view test)
 targets=()
 selection=()
 case "$preset" in

@@ -6,8 +6,9 @@
                                  +--> falcon ---------+          tests --> everything
 
 A library may include private headers of those it may use, by their path from the checkout; so may bench/,
-which also uses the headers of demos/program/ in this way. Other programs and adaptors may not. An adaptor (plugin/doors/pybullet, plugin/doors/preload) brings a site into a host that does
-not know of it: it may use more than plugin/, and only tests include it.
+which also uses the headers of demos/program/ in this way. Other programs and adaptors may not. demos/view/ draws what
+demos/program/ makes, and is the only folder with graphics. An adaptor (plugin/doors/pybullet, plugin/doors/preload)
+brings a site into a host that does not know of it: it may use more than plugin/, and only tests include it.
 
 Usage: include_rule.py CHECKOUT     Ends with 1 when a line breaks a rule.
 """
@@ -21,6 +22,7 @@ LIBRARIES = ("coordination", "bullet_bridge", "falcon", "plugin")
 FOLDERS = LIBRARIES + ("demos", "bench", "tests")
 ADAPTORS = "plugin/doors/"   # a rule for all doors but the C door, which is part of plugin's library
 C_DOOR = "plugin/doors/c/"
+VIEW = "demos/view/"         # draws; beside it nothing knows graphics
 C_DOOR_WORDS = C_DOOR + "site_words.h"   # constants only: the names by which doors set the C door's fields
 SUFFIXES = {".h", ".cpp", ".in"}
 
@@ -51,6 +53,10 @@ DEPENDENCIES = {
     "Google Benchmark": re.compile(r"benchmark/"),
     "rapidcheck": re.compile(r"rapidcheck"),
     "libFuzzer": re.compile(r"fuzzer/"),
+    "GLFW": re.compile(r"GLFW/"),
+    "Dear ImGui": re.compile(r"(imgui|backends/imgui)"),
+    "OpenGL": re.compile(r"(GL|EGL|KHR)/"),
+    "stb": re.compile(r"(stb/)?stb_"),
 }
 
 
@@ -73,6 +79,8 @@ RULES = {
     # An adaptor must look at a host's own bodies, and reads its settings from a file.
     ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++")),
     "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11")),
+    VIEW: Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "GLFW", "Dear ImGui",
+                                        "OpenGL", "stb")),
     "bench": Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "Boost",
                                            "MuJoCo", "ODE", "Simbody")),
     "tests": Rule(LIBRARIES + ("demos", "bench"), None),
@@ -97,6 +105,8 @@ class Break:
 def folder_of(file):
     """The folder whose rule a file of the checkout goes by."""
     name = file.as_posix()
+    if name.startswith(VIEW):
+        return VIEW
     return ADAPTORS if name.startswith(ADAPTORS) and not name.startswith(C_DOOR) else file.parts[0]
 
 
@@ -168,8 +178,10 @@ class House:
             return None
         if owner == "tests":
             return f"{folder}/ may not include tests/"
-        if owner in ("bench", ADAPTORS):
+        if owner in ("bench", ADAPTORS, VIEW):
             return f"nothing but tests/ includes {owner.rstrip('/')}/"
+        if owner == "demos" and folder == VIEW:
+            return None
         if owner == "demos":
             return self.broken_by_demos(folder, header)
         if folder == ADAPTORS and target == (self.checkout / C_DOOR_WORDS).resolve():
@@ -195,7 +207,7 @@ class House:
         places = [path.parent, self.checkout, self.checkout / folder / "src", self.checkout / folder,
                   self.checkout / folder / "program"]
         places += [self.checkout / other / "src" for other in FOLDERS]
-        places += [self.checkout / "demos" / "program", self.checkout / ADAPTORS]
+        places += [self.checkout / "demos" / "program", self.checkout / VIEW, self.checkout / ADAPTORS]
         for place in places:
             target = (place / header).resolve()
             if target.is_file() and self.checkout.resolve() in target.parents:

@@ -129,6 +129,16 @@ class IncludeRuleTest(unittest.TestCase):
         self.assert_kept("bench/reference/a.cpp", "<boost/numeric/odeint.hpp>")
         self.assert_broken("demos/program/a.cpp", "<boost/numeric/odeint.hpp>", "may not use Boost")
 
+    def test_only_the_view_has_graphics(self):
+        for header in ("<GLFW/glfw3.h>", "<imgui.h>", "<EGL/egl.h>", "<stb_image_write.h>"):
+            self.assert_kept("demos/view/window/a.cpp", header)
+            self.assert_broken("demos/program/run/a.cpp", header, "demos/ may not use")
+        inner = {"demos/program/world/scene.h": "", "demos/view/gl/b.h": ""}
+        for include in ('"world/scene.h"', '"gl/b.h"'):
+            self.assertEqual(breaks_of({"demos/view/film/a.cpp": f"#include {include}\n", **inner}), [])
+        found = breaks_of({"demos/program/run/a.cpp": '#include "gl/b.h"\n', **inner})
+        self.assertIn("nothing but tests/ includes demos/view/", found[0].rule)
+
     def test_adaptors_may_read_bullet_and_files_but_no_private_headers(self):
         adaptor = "plugin/doors/preload/a.cpp"
         for include in ("<toml++/toml.h>", "<BulletDynamics/Dynamics/btRigidBody.h>", '"tandem/plugin/plugin.h"',
