@@ -1,14 +1,7 @@
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <vector>
-
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include "tandem/coordination/types.h"
 
 #include "command/command.h"
+#include "command/start_program.h"
 
 namespace tandem::demos {
 namespace {
@@ -16,18 +9,10 @@ namespace {
 constexpr const char* kProgram =
     TANDEM_BULLET_SCALAR_BYTES == 8 ? "tandem-bench" : "tandem-bench-float";
 
-/// Replaces this process by the program of the benchmarks, which is beside this one.
+/// The program of the benchmarks.
 [[noreturn]] void startBench(char** arguments) {
-  std::error_code ignored;
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  std::string program = own.parent_path() / kProgram;
-  std::vector<char*> all = {program.data()};
-  for (; *arguments; ++arguments) all.push_back(*arguments);
-  all.push_back(nullptr);
-  execv(program.c_str(), all.data());
-  throw Error(fmt::format(
-      "{}: cannot be started: {}; build the target {}, or install it beside this program", program,
-      std::strerror(errno), kProgram));
+  startProgram(kProgram, {}, arguments,
+               fmt::format("build the target {}, or install it beside this program", kProgram));
 }
 
 }  // namespace
