@@ -1,0 +1,11 @@
+#include "command/command.h"
+#include "view/start_view.h"
+
+namespace tandem::demos {
+
+CommandEntry filmCommand() {
+  return {"film", "a world as a film", 9, nullptr,
+          [](char** arguments) { startView("film", arguments); }};
+}
+
+}  // namespace tandem::demos

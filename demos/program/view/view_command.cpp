@@ -1,0 +1,11 @@
+#include "command/command.h"
+#include "view/start_view.h"
+
+namespace tandem::demos {
+
+CommandEntry viewCommand() {
+  return {"view", "a live world in a window", 8, nullptr,
+          [](char** arguments) { startView("view", arguments); }};
+}
+
+}  // namespace tandem::demos

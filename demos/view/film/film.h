@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gl/projection.h"
+
+namespace tandem::view {
+
+/// What the user asks of a film on the command line.
+struct FilmSettings {
+  std::filesystem::path scenario;
+  std::vector<std::string> overrides;  ///< "key=value"
+  std::filesystem::path out;
+  PictureSize size{960, 600};  ///< [pixel]
+};
+
+/// Runs a scenario in virtual time and draws it without a display, 30 pictures for each of its
+/// seconds, so that no machine makes the film stutter. Equal inputs give equal pictures. Calls
+/// `progress` with the finished share. Throws UsageError for bad input, Error for the rest.
+void makeFilm(const FilmSettings& settings, const std::function<void(double)>& progress);
+
+}  // namespace tandem::view

@@ -1,0 +1,37 @@
+#include "session/live_network.h"
+
+#include "tandem/falcon/monotonic_clock.h"
+
+namespace tandem::view {
+namespace {
+
+/// A site wants its packets two periods ahead, twice a period [s].
+constexpr double kPause = 0.5e-3, kAhead = 2e-3;
+
+}  // namespace
+
+LiveNetwork::LiveNetwork(const Impairments& network) : ends_(makeSimulatedLinks(network)) {}
+
+void LiveNetwork::start(double begin) {
+  thread_ = std::jthread([this, begin](const std::stop_token& stop) { carry(stop, begin); });
+}
+
+void LiveNetwork::change(const Impairments& network) {
+  Ends ends = makeSimulatedLinks(network);
+  const std::lock_guard lock(mutex_);
+  ends_.swap(ends);
+}
+
+void LiveNetwork::carry(const std::stop_token& stop, double begin) {
+  while (!stop.stop_requested()) {
+    const double now = readMonotonicClock() - begin;
+    {
+      const std::lock_guard lock(mutex_);
+      queues_[0].exchange(*ends_.first, now, now + kAhead);
+      queues_[1].exchange(*ends_.second, now, now + kAhead);
+    }
+    sleepFor(kPause);
+  }
+}
+
+}  // namespace tandem::view

@@ -1,0 +1,75 @@
+#include "session/live_session.h"
+
+#include "tandem/falcon/monotonic_clock.h"
+
+namespace tandem::view {
+namespace {
+
+/// From the start of the threads to the first tick [s].
+constexpr double kGetReady = 0.05;
+/// Between two looks, at least [s].
+constexpr double kLookPeriod = 1.0 / 65.0;
+
+}  // namespace
+
+LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device)
+    : network_(scenario.network),
+      own_(scenario, 0, network_.end(0), device),
+      other_(scenario, 1, network_.end(1)),
+      scene_look_(own_, other_),
+      host_rate_(scenario.host_rate),
+      may_hold_(scenario.mayGrip()) {
+  publish(0.0);
+  begin_ = readMonotonicClock() + kGetReady;
+  HapticLoopSettings settings;
+  settings.begin = begin_;
+  loops_[0] = std::make_unique<HapticLoop>(own_.site(), settings);
+  loops_[1] = std::make_unique<HapticLoop>(other_.site(), settings);
+  network_.start(begin_);
+  host_ = std::jthread([this](const std::stop_token& stop) { stepWorlds(stop); });
+}
+
+LiveSession::~LiveSession() {
+  host_.request_stop();
+  host_.join();
+  for (auto& loop : loops_) loop->stop();
+}
+
+std::shared_ptr<const SessionLook> LiveSession::look() const {
+  const std::lock_guard lock(mutex_);
+  return look_;
+}
+
+void LiveSession::stepWorlds(const std::stop_token& stop) {
+  double next_look = 0.0;
+  for (std::uint64_t step = 1; !stop.stop_requested(); ++step) {
+    const double time = static_cast<double>(step) / host_rate_;
+    sleepUntil(begin_ + time);
+    own_.stepHostUntil(time);
+    other_.stepHostUntil(time);
+    if (may_hold_) own_.hold(wants_hold_);
+    if (time < next_look) continue;
+    publish(time);
+    next_look = time + kLookPeriod;
+  }
+}
+
+void LiveSession::publish(double time) {
+  const auto look = std::make_shared<SessionLook>();
+  look->time = time;
+  look->list = scene_look_.look();
+  look->apart = scene_look_.measureApart();
+  Site& site = own_.site();
+  site.betweenTicks([&] {
+    look->hip_W = site.hip().p_W;
+    look->force_W = site.force();
+    look->link = site.linkState(0);
+    look->status = site.status();
+    if (site.objectCount() > 0) look->object_W = site.object(0).p_W;
+  });
+  if (loops_[0]) look->loop = loops_[0]->report();
+  const std::lock_guard lock(mutex_);
+  look_ = look;
+}
+
+}  // namespace tandem::view

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "session/live_session.h"
+
+namespace tandem::view {
+
+/// What the user chose on the panel in this frame.
+struct PanelWishes {
+  bool restarts = false;         ///< the scenario has changed, or the world is to begin anew
+  bool changes_network = false;  ///< Scenario::network alone has changed
+  bool takes_picture = false;
+};
+
+/// Settings and numbers of a session beside its picture. Needs Dear ImGui's frame.
+class Panel {
+ public:
+  /// Shows the panel. Writes the user's settings into `scenario`.
+  [[nodiscard]] PanelWishes show(demos::Scenario& scenario, const SessionLook& look,
+                                 const std::vector<std::string>& notes);
+
+ private:
+  void showSettings(demos::Scenario& scenario, PanelWishes& wishes);
+  void showForce(const SessionLook& look, double most);
+  static void showState(const demos::Scenario& scenario, const SessionLook& look,
+                        const std::vector<std::string>& notes);
+
+  std::array<float, 240> forces_ = {};  ///< a ring of the last frames' [N]
+  int next_ = 0;
+  bool shows_help_ = false;
+};
+
+}  // namespace tandem::view

@@ -1,0 +1,43 @@
+#include "window/status_file.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tandem::view {
+namespace {
+
+constexpr double kPeriod = 0.1;  // [s]
+
+nlohmann::json toJson(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+StatusFile::StatusFile(const std::filesystem::path& file) : file_(std::fopen(file.c_str(), "w")) {
+  if (!file_)
+    throw Error(fmt::format("--status {}: {}; name a file in a folder that exists", file.string(),
+                            std::strerror(errno)));
+}
+
+void StatusFile::note(const demos::Scenario& scenario, const SessionLook& look, double time,
+                      std::uint64_t frames) {
+  if (time < next_) return;
+  next_ = time + kPeriod;
+  const nlohmann::json line = {{"time", look.time},
+                               {"scheme", scenario.scheme},
+                               {"delay", scenario.network.delay},
+                               {"force", look.force_W.norm()},
+                               {"hip", toJson(look.hip_W)},
+                               {"object", toJson(look.object_W)},
+                               {"apart", look.apart},
+                               {"status", look.status},
+                               {"ticks", look.loop.ticks},
+                               {"skipped", look.loop.skipped},
+                               {"frames", frames}};
+  std::fputs((line.dump() + '\n').c_str(), file_.get());
+  std::fflush(file_.get());
+}
+
+}  // namespace tandem::view

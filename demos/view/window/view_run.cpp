@@ -1,0 +1,113 @@
+#include "window/view_run.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "tandem/falcon/monotonic_clock.h"
+
+#include "gl/picture.h"
+#include "window/first_eye.h"
+
+namespace tandem::view {
+namespace {
+
+constexpr double kFramePeriod = 1.0 / 60.0;  // [s]
+constexpr Colour kSlackColour{0.85F, 0.1F, 0.1F};
+constexpr const char* kPictureName = "tandem-view.png";
+
+/// Without real-time rights the picture must not take time from the haptic threads.
+void standBack(const LiveSession& session) {
+  if (!session.notes().empty()) setpriority(PRIO_PROCESS, 0, 19);
+}
+
+}  // namespace
+
+ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
+    : settings_(settings),
+      scenario_(demos::loadScenario(settings.scenario, settings.overrides)),
+      device_(device),
+      ball_(makeBall(scenario_.site.proxy.radius)),
+      cursor_ball_(makeBall(0.3 * scenario_.site.proxy.radius)),
+      eye_(chooseFirstEye(scenario_)) {
+  if (settings.status) status_.emplace(*settings.status);
+  startSession();
+  standBack(*session_);
+  window_ = std::make_unique<Window>("Tandem", settings.size);
+  scene_ = std::make_unique<GlScene>();
+  input_ = std::make_unique<HandInput>(window_->handle());
+  gui_ = std::make_unique<Gui>(window_->handle());
+}
+
+void ViewRun::startSession() {
+  session_.reset();
+  if (!device_) {
+    MouseSettings settings;
+    settings.start_W = demos::computeStart(scenario_, demos::makeSceneFrame(scenario_), 0);
+    mouse_ = std::make_unique<MouseDevice>(settings);
+  }
+  HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
+  session_ = std::make_unique<LiveSession>(scenario_, device);
+}
+
+void ViewRun::run(const std::function<bool()>& stop) {
+  const double begin = readMonotonicClock();
+  for (double next = begin; !stop() && !glfwWindowShouldClose(window_->handle());) {
+    const double now = readMonotonicClock();
+    if (settings_.duration && now - begin > *settings_.duration) break;
+    glfwPollEvents();
+    if (glfwGetKey(window_->handle(), GLFW_KEY_ESCAPE) == GLFW_PRESS) break;
+    if (window_->size().isEmpty())
+      sleepFor(kFramePeriod);
+    else
+      showFrame(now);
+    next = std::max(next + kFramePeriod, now);
+    sleepUntil(next);
+  }
+  if (settings_.screenshot) storePicture(*settings_.screenshot);
+}
+
+void ViewRun::showFrame(double time) {
+  const PictureSize size = window_->size();
+  input_->apply(mouse_.get(), eye_, size, time, !gui_->hasPointer());
+  session_->hold(device_ ? device_->isGripPressed() : input_->wantsHold());
+  const auto look = session_->look();
+  DrawList list = look->list;
+  addHand(list, *look);
+  window_->bind();
+  scene_->draw(list, eye_, size);
+  gui_->begin();
+  const PanelWishes wishes = panel_.show(scenario_, *look, session_->notes());
+  gui_->draw();
+  if (wishes.takes_picture) storePicture(kPictureName);
+  window_->show();
+  ++frames_;
+  if (status_) status_->note(scenario_, *look, time, frames_);
+  obey(wishes);
+}
+
+void ViewRun::addHand(DrawList& list, const SessionLook& look) const {
+  if (!mouse_) return view::addHand(list, ball_, look.hip_W, look.force_W, kOwnColour);
+  const MouseView view = mouse_->view();
+  view::addHand(list, ball_, view.handle_W, view.force_W, kOwnColour);
+  const Colour colour = view.is_slack ? kSlackColour : kOwnColour;
+  list.lines.push_back({view.handle_W, view.cursor_W, colour, 1.5F});
+  view::addHand(list, cursor_ball_, view.cursor_W, Vec3::Zero(), colour);
+}
+
+void ViewRun::obey(const PanelWishes& wishes) {
+  if (wishes.restarts)
+    startSession();
+  else if (wishes.changes_network)
+    session_->setNetwork(scenario_.network);
+}
+
+void ViewRun::storePicture(const std::filesystem::path& file) const {
+  if (const auto problem = writePng(readPicture(window_->size()), file))
+    fmt::print(stderr, "tandem: {}\n", *problem);
+}
+
+}  // namespace tandem::view

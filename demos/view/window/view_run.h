@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "device/live_device.h"
+#include "gl/gl_context.h"
+#include "gl/gl_scene.h"
+#include "session/live_session.h"
+#include "window/gui.h"
+#include "window/hand_input.h"
+#include "window/panel.h"
+#include "window/status_file.h"
+#include "window/view_settings.h"
+
+namespace tandem::view {
+
+/// A window on a live session. The session begins before the window: Mesa's threads then get the
+/// window's low priority, and haptic threads are not kept waiting.
+class ViewRun {
+ public:
+  /// `device` is the user's, and must outlive this; null: the mouse in the window. Throws
+  /// UsageError for a bad scenario, Error if there is no display.
+  ViewRun(const ViewSettings& settings, demos::LiveDevice* device);
+
+  /// Until the user closes the window, `stop` asks to end or the time is over.
+  void run(const std::function<bool()>& stop);
+
+ private:
+  void startSession();
+  void showFrame(double time);
+  void addHand(DrawList& list, const SessionLook& look) const;
+  void obey(const PanelWishes& wishes);
+  void storePicture(const std::filesystem::path& file) const;
+
+  ViewSettings settings_;
+  demos::Scenario scenario_;
+  demos::LiveDevice* device_;
+  std::unique_ptr<MouseDevice> mouse_;  ///< null with another device
+  std::unique_ptr<LiveSession> session_;
+  std::shared_ptr<const ShapeMesh> ball_, cursor_ball_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<GlScene> scene_;
+  std::unique_ptr<HandInput> input_;
+  std::unique_ptr<Gui> gui_;
+  Panel panel_;
+  Eye eye_;
+  std::optional<StatusFile> status_;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace tandem::view
