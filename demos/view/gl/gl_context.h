@@ -27,13 +27,13 @@ class HeadlessContext {
 
 /// A window on the desktop with OpenGL 3.3 core, which is current in the thread that made it: the
 /// main thread. One at a time. It never waits for the display: the caller limits its frames.
-class Window {
+class GlWindow {
  public:
   /// Throws Error with one line that says what failed and the remedy.
-  Window(const std::string& title, PictureSize size);
-  ~Window();
-  Window(const Window&) = delete;
-  Window& operator=(const Window&) = delete;
+  GlWindow(const std::string& title, PictureSize size);
+  ~GlWindow();
+  GlWindow(const GlWindow&) = delete;
+  GlWindow& operator=(const GlWindow&) = delete;
 
   /// For events and for Dear ImGui.
   [[nodiscard]] GLFWwindow* handle() const noexcept { return window_; }

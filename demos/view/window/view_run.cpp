@@ -36,7 +36,7 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
   if (settings.status) status_.emplace(*settings.status);
   startSession();
   standBack(*session_);
-  window_ = std::make_unique<Window>("Tandem", settings.size);
+  window_ = std::make_unique<GlWindow>("Tandem", settings.size);
   scene_ = std::make_unique<GlScene>();
   input_ = std::make_unique<HandInput>(window_->handle());
   gui_ = std::make_unique<Gui>(window_->handle());

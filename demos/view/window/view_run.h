@@ -39,7 +39,7 @@ class ViewRun {
   std::unique_ptr<MouseDevice> mouse_;  ///< null with another device
   std::unique_ptr<LiveSession> session_;
   std::shared_ptr<const ShapeMesh> ball_, cursor_ball_;
-  std::unique_ptr<Window> window_;
+  std::unique_ptr<GlWindow> window_;
   std::unique_ptr<GlScene> scene_;
   std::unique_ptr<HandInput> input_;
   std::unique_ptr<Gui> gui_;

@@ -30,7 +30,7 @@ void setHints() {
 
 }  // namespace
 
-Window::Window(const std::string& title, PictureSize size) {
+GlWindow::GlWindow(const std::string& title, PictureSize size) {
   if (size.isEmpty()) throw Error("a window needs a width and a height of at least 1 pixel");
   if (glfwInit() != GLFW_TRUE)
     throw Error("no display" + describeFailure() +
@@ -48,19 +48,19 @@ Window::Window(const std::string& title, PictureSize size) {
   glfwSwapInterval(0);
 }
 
-Window::~Window() {
+GlWindow::~GlWindow() {
   glfwDestroyWindow(window_);
   glfwTerminate();
 }
 
-PictureSize Window::size() const {
+PictureSize GlWindow::size() const {
   PictureSize size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
   return size;
 }
 
-void Window::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, 0); }
+void GlWindow::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, 0); }
 
-void Window::show() const { glfwSwapBuffers(window_); }
+void GlWindow::show() const { glfwSwapBuffers(window_); }
 
 }  // namespace tandem::view
