@@ -138,6 +138,8 @@ class IncludeRuleTest(unittest.TestCase):
             self.assertEqual(breaks_of({"demos/view/film/a.cpp": f"#include {include}\n", **inner}), [])
         found = breaks_of({"demos/program/run/a.cpp": '#include "gl/b.h"\n', **inner})
         self.assertIn("nothing but tests/ includes demos/view/", found[0].rule)
+        door = {"demos/view/window/window.h": ""}
+        self.assertEqual(breaks_of({"demos/hosts/a.cpp": '#include "window/window.h"\n', **door}), [])
 
     def test_adaptors_may_read_bullet_and_files_but_no_private_headers(self):
         adaptor = "plugin/doors/preload/a.cpp"

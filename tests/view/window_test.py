@@ -2,7 +2,7 @@
 """Drives `tandem view` on a display of its own as a user does: pushes, switches the scheme, ends. Then what goes wrong:
 no display, a bad world, a bad option.
 
-Usage: window_test.py TANDEM
+Usage: window_test.py TANDEM WITH_WINDOW
 """
 
 import json
@@ -104,7 +104,7 @@ def refuse(tandem, environment, status, words, *options):
 
 
 def main():
-    tandem = sys.argv[1]
+    tandem, with_window = sys.argv[1:]
     display = Display()
     try:
         with tempfile.TemporaryDirectory() as name:
@@ -112,6 +112,9 @@ def main():
             push_and_switch(tandem, display, folder)
             view = View(tandem, display, folder, "touch", "--seconds", "2")
             check(view.end() == 0, "--seconds ends the window with status 0")
+            host = subprocess.run([with_window, "2"], env=display.environment, capture_output=True, text=True,
+                                  timeout=PATIENCE, check=True)
+            check("status 0" in host.stdout, f"a host's own world in a window: {host.stdout}")
             bad = folder / "bad.toml"
             bad.write_text("[object]\nmass = -1\n")
             refuse(tandem, display.environment, 2, "object.mass", bad)

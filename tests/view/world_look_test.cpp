@@ -51,6 +51,15 @@ class WorldLookTest : public ::testing::Test {
   WorldLook look;
 };
 
+TEST_F(WorldLookTest, APlaneShowsItsNet) {
+  btStaticPlaneShape plane(vec(0, 0, 1), 0);
+  rig.add(plane, 0, vec(0, 0, 0));
+  const DrawList list = WorldLook().look(rig.world);
+  const auto nets = std::count_if(list.solids.begin(), list.solids.end(),
+                                  [](const Solid& solid) { return solid.has_grid; });
+  EXPECT_EQ(nets, 1);
+}
+
 TEST_F(WorldLookTest, EachBodyIsASolidAtItsPose) {
   rig.add(floor_shape, 0, vec(0, 0, -0.1));
   btRigidBody& cube = rig.add(cube_shape, 1, {0, 0, 0});

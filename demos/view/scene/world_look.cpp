@@ -61,6 +61,7 @@ void WorldLook::addSolid(DrawList& list, const btCollisionObject& object) {
   solid.colour = colour;
   solid.name = std::move(name);
   solid.is_ghost = !object.hasContactResponse();
+  solid.has_grid = object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
   setPose(solid, object.getWorldTransform());
   if (!solid.mesh->indices.empty() && hasFinitePose(solid)) list.solids.push_back(std::move(solid));
 }

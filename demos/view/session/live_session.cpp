@@ -40,6 +40,16 @@ std::shared_ptr<const SessionLook> LiveSession::look() const {
   return look_;
 }
 
+WorldDetails LiveSession::details() const {
+  const std::lock_guard lock(mutex_);
+  return details_;
+}
+
+void LiveSession::showDetails(const WorldDetails& details) {
+  const std::lock_guard lock(mutex_);
+  details_ = details;
+}
+
 void LiveSession::stepWorlds(const std::stop_token& stop) {
   double next_look = 0.0;
   for (std::uint64_t step = 1; !stop.stop_requested(); ++step) {
@@ -57,7 +67,7 @@ void LiveSession::stepWorlds(const std::stop_token& stop) {
 void LiveSession::publish(double time) {
   const auto look = std::make_shared<SessionLook>();
   look->time = time;
-  look->list = scene_look_.look();
+  look->list = scene_look_.look(details());
   look->apart = scene_look_.measureApart();
   Site& site = own_.site();
   site.betweenTicks([&] {

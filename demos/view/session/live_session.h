@@ -45,12 +45,15 @@ class LiveSession {
   void setNetwork(const Impairments& network) { network_.change(network); }
   /// The user wants to hold the object, or not. For any thread.
   void hold(bool wants) noexcept { wants_hold_ = wants; }
+  /// Chooses what looks show besides bodies. For any thread.
+  void showDetails(const WorldDetails& details);
   /// Rights that the haptic threads did not get, with the remedy.
   [[nodiscard]] const std::vector<std::string>& notes() const { return loops_[0]->notes(); }
 
  private:
   void stepWorlds(const std::stop_token& stop);
   void publish(double time);
+  [[nodiscard]] WorldDetails details() const;
 
   LiveNetwork network_;
   demos::SiteWorld own_, other_;
@@ -59,7 +62,8 @@ class LiveSession {
   bool may_hold_;
   double begin_ = 0.0;  ///< on the monotonic clock [s]
   std::atomic<bool> wants_hold_ = false;
-  mutable std::mutex mutex_;                 // of look_
+  mutable std::mutex mutex_;  // of the two below
+  WorldDetails details_;
   std::shared_ptr<const SessionLook> look_;  ///< shared with the window, which draws it meanwhile
   std::array<std::unique_ptr<HapticLoop>, 2> loops_;
   std::jthread host_;  // the last: it ends before what it uses

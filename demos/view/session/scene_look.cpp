@@ -62,9 +62,9 @@ void addHand(DrawList& list, const std::shared_ptr<const ShapeMesh>& ball, const
 SceneLook::SceneLook(demos::SiteWorld& own, demos::SiteWorld& other)
     : own_(own), other_(other), world_look_(nameBodies(own)), other_look_(nameBodies(other)) {}
 
-DrawList SceneLook::look() {
-  DrawList list = world_look_.look(own_.world());
-  for (Solid& solid : list.solids) solid.has_grid = solid.name == kFloor;
+DrawList SceneLook::look(const WorldDetails& details) {
+  DrawList list = world_look_.look(own_.world(), details);
+  for (Solid& solid : list.solids) solid.has_grid |= solid.name == kFloor;
   const DrawList theirs = other_look_.look(other_.world());
   visitObjects(other_, [&](const demos::SceneBody& body) {
     const auto isOf = [&](const Solid& solid) { return solid.name == body.name; };

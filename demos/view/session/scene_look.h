@@ -22,7 +22,7 @@ class SceneLook {
  public:
   SceneLook(demos::SiteWorld& own, demos::SiteWorld& other);
 
-  [[nodiscard]] DrawList look();
+  [[nodiscard]] DrawList look(const WorldDetails& details = {});
   /// Largest distance of two copies of an object [m]; 0 without objects.
   [[nodiscard]] double measureApart() const;
 

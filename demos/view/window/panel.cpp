@@ -84,6 +84,11 @@ PanelWishes Panel::show(demos::Scenario& scenario, const SessionLook& look,
   showForce(look, scenario.device_max_force > 0.0 ? scenario.device_max_force : 10.0);
   showState(scenario, look, notes);
   ImGui::Separator();
+  ImGui::Checkbox("contacts", &details_.contacts);
+  ImGui::SameLine();
+  ImGui::Checkbox("joints", &details_.joints);
+  ImGui::SameLine();
+  ImGui::Checkbox("bounds", &details_.bounds);
   wishes.restarts |= ImGui::Button("Reset");
   ImGui::SameLine();
   wishes.takes_picture = ImGui::Button("Picture") || ImGui::IsKeyPressed(GLFW_KEY_F12, false);

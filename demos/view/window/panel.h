@@ -22,6 +22,9 @@ class Panel {
   [[nodiscard]] PanelWishes show(demos::Scenario& scenario, const SessionLook& look,
                                  const std::vector<std::string>& notes);
 
+  /// What the user wants to see besides bodies.
+  [[nodiscard]] const WorldDetails& details() const noexcept { return details_; }
+
  private:
   void showSettings(demos::Scenario& scenario, PanelWishes& wishes);
   void showForce(const SessionLook& look, double most);
@@ -31,6 +34,7 @@ class Panel {
   std::array<float, 240> forces_ = {};  ///< a ring of the last frames' [N]
   int next_ = 0;
   bool shows_help_ = false;
+  WorldDetails details_;
 };
 
 }  // namespace tandem::view

@@ -16,7 +16,6 @@ namespace tandem::view {
 namespace {
 
 constexpr double kFramePeriod = 1.0 / 60.0;  // [s]
-constexpr Colour kSlackColour{0.85F, 0.1F, 0.1F};
 constexpr const char* kPictureName = "tandem-view.png";
 
 /// Without real-time rights the picture must not take time from the haptic threads.
@@ -30,8 +29,7 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
     : settings_(settings),
       scenario_(demos::loadScenario(settings.scenario, settings.overrides)),
       device_(device),
-      ball_(makeBall(scenario_.site.proxy.radius)),
-      cursor_ball_(makeBall(0.3 * scenario_.site.proxy.radius)),
+      hand_look_(scenario_.site.proxy.radius),
       eye_(chooseFirstEye(scenario_)) {
   if (settings.status) status_.emplace(*settings.status);
   startSession();
@@ -76,7 +74,7 @@ void ViewRun::showFrame(double time) {
   session_->hold(device_ ? device_->isGripPressed() : input_->wantsHold());
   const auto look = session_->look();
   DrawList list = look->list;
-  addHand(list, *look);
+  hand_look_.add(list, mouse_.get(), look->hip_W, look->force_W);
   window_->bind();
   scene_->draw(list, eye_, size);
   gui_->begin();
@@ -89,16 +87,8 @@ void ViewRun::showFrame(double time) {
   obey(wishes);
 }
 
-void ViewRun::addHand(DrawList& list, const SessionLook& look) const {
-  if (!mouse_) return view::addHand(list, ball_, look.hip_W, look.force_W, kOwnColour);
-  const MouseView view = mouse_->view();
-  view::addHand(list, ball_, view.handle_W, view.force_W, kOwnColour);
-  const Colour colour = view.is_slack ? kSlackColour : kOwnColour;
-  list.lines.push_back({view.handle_W, view.cursor_W, colour, 1.5F});
-  view::addHand(list, cursor_ball_, view.cursor_W, Vec3::Zero(), colour);
-}
-
 void ViewRun::obey(const PanelWishes& wishes) {
+  session_->showDetails(panel_.details());
   if (wishes.restarts)
     startSession();
   else if (wishes.changes_network)

@@ -9,6 +9,7 @@
 #include "session/live_session.h"
 #include "window/gui.h"
 #include "window/hand_input.h"
+#include "window/hand_look.h"
 #include "window/panel.h"
 #include "window/status_file.h"
 #include "window/view_settings.h"
@@ -29,7 +30,6 @@ class ViewRun {
  private:
   void startSession();
   void showFrame(double time);
-  void addHand(DrawList& list, const SessionLook& look) const;
   void obey(const PanelWishes& wishes);
   void storePicture(const std::filesystem::path& file) const;
 
@@ -38,7 +38,7 @@ class ViewRun {
   demos::LiveDevice* device_;
   std::unique_ptr<MouseDevice> mouse_;  ///< null with another device
   std::unique_ptr<LiveSession> session_;
-  std::shared_ptr<const ShapeMesh> ball_, cursor_ball_;
+  HandLook hand_look_;
   std::unique_ptr<GlWindow> window_;
   std::unique_ptr<GlScene> scene_;
   std::unique_ptr<HandInput> input_;
