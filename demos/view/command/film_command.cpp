@@ -5,6 +5,7 @@
 #include "command/world_argument.h"
 #include "film/film.h"
 #include "terminal/status_line.h"
+#include "terminal/stop_signals.h"
 
 namespace tandem::demos {
 namespace {
@@ -27,7 +28,11 @@ class FilmCommand final : public Command {
     settings_.out = out_;
     settings_.size = view::parsePictureSize(size_);
     ProgressLine progress(is_quiet_);
-    view::makeFilm(settings_, [&](double share) { progress.show("film", share); });
+    const StopSignals signals;
+    view::makeFilm(settings_, [&](double share) {
+      if (signals.isAskedWithin(0.0)) throw Error(out_ + ": stopped; the film is not whole");
+      progress.show("film", share);
+    });
     if (!is_quiet_) fmt::print("{}\n", out_);
     return kDone;
   }

@@ -41,6 +41,10 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
 }
 
 void ViewRun::startSession() {
+  session_maker_.run([this] { makeSession(); });
+}
+
+void ViewRun::makeSession() {
   session_.reset();
   if (!device_) {
     MouseSettings settings;

@@ -7,6 +7,7 @@
 #include "gl/gl_context.h"
 #include "gl/gl_scene.h"
 #include "session/live_session.h"
+#include "session/worker.h"
 #include "window/gui.h"
 #include "window/hand_input.h"
 #include "window/hand_look.h"
@@ -29,6 +30,7 @@ class ViewRun {
 
  private:
   void startSession();
+  void makeSession();
   void showFrame(double time);
   void obey(const PanelWishes& wishes);
   void storePicture(const std::filesystem::path& file) const;
@@ -36,6 +38,7 @@ class ViewRun {
   ViewSettings settings_;
   demos::Scenario scenario_;
   demos::LiveDevice* device_;
+  Worker session_maker_;
   std::unique_ptr<MouseDevice> mouse_;  ///< null with another device
   std::unique_ptr<LiveSession> session_;
   HandLook hand_look_;

@@ -5,7 +5,6 @@
 #include <GLFW/glfw3.h>
 
 #include "tandem/falcon/monotonic_clock.h"
-#include "tandem/plugin/site.h"
 
 #include "gl/gl_context.h"
 #include "gl/gl_scene.h"

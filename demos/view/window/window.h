@@ -3,12 +3,8 @@
 #include <memory>
 #include <string>
 
-class btDiscreteDynamicsWorld;
-
-namespace tandem {
-class MouseDevice;
-class Site;
-}  // namespace tandem
+#include "tandem/falcon/mouse_device.h"
+#include "tandem/plugin/site.h"
 
 namespace tandem::view {
 
