@@ -8,14 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tandem/falcon/monotonic_clock.h"
-#include "tandem/plugin/key_file.h"
 
 #include "command/command.h"
 #include "device/device_options.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
 #include "device/user_axes.h"
-#include "peer/peer_configuration.h"
+#include "peer/peer_line.h"
 #include "peer/peer_output.h"
 #include "peer/peer_run.h"
 #include "terminal/standard_output.h"
@@ -28,14 +27,8 @@ namespace {
 struct PeerOptions {
   std::string scenario;
   std::vector<std::string> overrides;
-  int site = 0;
-  std::string bind;
-  std::string peer;
-  std::string key;
+  PeerLine line;
   std::optional<std::string> folder;
-  double patience = 30.0;  ///< time to wait for the other site [s]
-  std::string playout = "on";
-  std::string profile = "float32";
   bool quiet = false;
   DeviceOptions device;  ///< without --device: simulated, by the scenario
 };
@@ -71,25 +64,6 @@ void print(const PeerReport& report) {
   std::fflush(stdout);
 }
 
-void checkOptions(const PeerOptions& options) {
-  if (options.site != 1 && options.site != 2)
-    throw UsageError(fmt::format("--site {}: must be 1 or 2", options.site));
-  if (!(options.patience > 0.0 && options.patience <= 86400.0))
-    throw UsageError("--wait: must be above 0 and at most 86400 s");
-}
-
-UdpMeshSettings makeSettings(const PeerOptions& options, const Scenario& scenario) {
-  UdpMeshSettings settings;
-  settings.self = PeerId{static_cast<std::uint32_t>(options.site)};
-  settings.bind = resolveAddress(options.bind);
-  settings.profile = options.profile == "float64" ? WireProfile::kFloat64 : WireProfile::kFloat32;
-  settings.playout.is_on = options.playout == "on";
-  Configuration items = makePeerConfiguration(scenario);
-  items.push_back({"wire.profile", options.profile});
-  settings.configuration = makeConfiguration(std::move(items));
-  return settings;
-}
-
 void checkGrip(const DeviceOptions& options, const Scenario& scenario) {
   if (!options.grip) return;
   if (options.device.empty())
@@ -106,7 +80,7 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Sc
     return nullptr;
   }
   const SceneFrame frame = makeSceneFrame(scenario);
-  const int site = options.site - 1;
+  const int site = options.line.site - 1;
   const Vec3 start_W = computeStart(scenario, frame, site);
   auto device =
       openDevice(options.device, {computeUserAxes(frame.q_WS, site), start_W}, UserWish::kReach);
@@ -122,36 +96,34 @@ std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Sc
 }
 
 void runPeer(const PeerOptions& options) {
-  checkOptions(options);
+  checkPeerLine(options.line);
   const Scenario scenario = loadScenario(options.scenario, options.overrides);
   checkGrip(options.device, scenario);
   std::optional<OutputFolder> folder;
   if (options.folder)
     folder.emplace(*options.folder, "--out " + *options.folder,
-                   options.site == 1 ? FolderPart::kSite1 : FolderPart::kSite2);
-  UdpPeer peer{PeerId{static_cast<std::uint32_t>(3 - options.site)}, resolveAddress(options.peer),
-               readKeyFile(options.key)};
-  if (!peer.key.isLocked())
-    fmt::print(stderr, "tandem: note: the key may be swapped to disk; raise ulimit -l\n");
+                   options.line.site == 1 ? FolderPart::kSite1 : FolderPart::kSite2);
+  UdpPeer peer = makeOtherSite(options.line);
   catchSignals(!options.device.device.empty());
   bool is_ended = false;
   const auto device = openUsersDevice(options, scenario, is_ended);
   if (is_ended) return;
   std::function<bool()> wants_grip;
   if (options.device.grip) wants_grip = [&] { return device->isGripPressed(); };
-  PeerRun run(scenario, options.site - 1, makeSettings(options, scenario), std::move(peer),
-              device.get(), std::move(wants_grip));
+  PeerRun run(scenario, options.line.site - 1, makeMeshSettings(options.line, scenario),
+              std::move(peer), device.get(), std::move(wants_grip));
   const auto stop = [] { return stop_asked != 0; };
   const auto report = [&](const PeerReport& one) {
     if (!options.quiet) print(one);
   };
-  if (!options.quiet) fmt::print("site {} on {}\n", options.site, toString(run.peers().bound()));
-  if (!run.waitForPeer(options.patience, stop, report)) return;
+  if (!options.quiet)
+    fmt::print("site {} on {}\n", options.line.site, toString(run.peers().bound()));
+  if (!run.waitForPeer(options.line.patience, stop, report)) return;
   run.run(stop, report,
           [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); });
-  const nlohmann::json summary = makePeerSummary(scenario, options.site, run);
-  if (folder) writePeerRun(*folder, options.site, summary, run);
-  if (!options.quiet) printPeerSummary(summary, options.site);
+  const nlohmann::json summary = makePeerSummary(scenario, options.line.site, run);
+  if (folder) writePeerRun(*folder, options.line.site, summary, run);
+  if (!options.quiet) printPeerSummary(summary, options.line.site);
   finishOutput();
 }
 
@@ -163,17 +135,8 @@ class PeerCommand final : public Command {
     const OptionRules required = {.is_required = true};
     arguments.option("--scenario", own.scenario, "scenario file (TOML)", required);
     arguments.repeated("--set", own.overrides, "override a key, as for tandem run");
-    arguments.option("--site", own.site, "which site this is: 1 or 2", required);
-    arguments.option("--bind", own.bind, "own address, e.g. :7001", required);
-    arguments.option("--peer", own.peer, "the other site's address, e.g. host:7002", required);
-    arguments.option("--key", own.key, "key file that both sites share", required);
+    declarePeerLine(arguments, own.line, required);
     arguments.option("--out", own.folder, "folder for siteN.csv and siteN.json");
-    arguments.option("--wait", own.patience, "seconds to wait for the other site");
-    arguments.option("--playout", own.playout,
-                     "on: jitter becomes constant delay; off: states are applied as they come",
-                     {.choices = {"on", "off"}});
-    arguments.option("--wire", own.profile, "width of numbers on the way",
-                     {.choices = {"float32", "float64"}});
     declareDeviceOptions(arguments, own.device);
     arguments.flag("--quiet", own.quiet, "print nothing but errors");
   }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "tandem/plugin/udp_mesh.h"
+
+#include "command/arguments.h"
+#include "scenario/scenario.h"
+
+namespace tandem::demos {
+
+/// Which site this is, and how it reaches the other; as written on the command line.
+struct PeerLine {
+  int site = 0;
+  std::string bind;
+  std::string peer;
+  std::string key;
+  double patience = 30.0;  ///< time to wait for the other site [s]
+  std::string playout = "on";
+  std::string profile = "float32";
+};
+
+/// Declares --site, --bind, --peer, --key, --wait, --playout and --wire.
+void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& rules);
+
+/// Throws UsageError that names the option and the allowed values.
+void checkPeerLine(const PeerLine& line);
+
+/// Settings of the socket. Both sites must run the same scenario. Throws as resolveAddress() does.
+[[nodiscard]] UdpMeshSettings makeMeshSettings(const PeerLine& line, const Scenario& scenario);
+
+/// The other site with the key that both share. Says on stderr if the key may be swapped to disk.
+/// Throws as resolveAddress() and readKeyFile() do.
+[[nodiscard]] UdpPeer makeOtherSite(const PeerLine& line);
+
+}  // namespace tandem::demos
