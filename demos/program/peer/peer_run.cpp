@@ -24,11 +24,12 @@ const char* explainRefusal(RefuseCode code) {
 }  // namespace
 
 PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
-                 HapticDevice* device, std::function<bool()> wants_grip)
+                 HapticDevice* device, std::function<bool()> wants_grip, PeerPurpose purpose)
     : scenario_(scenario),
       index_(site),
       device_(device),
       wants_grip_(std::move(wants_grip)),
+      purpose_(purpose),
       other_(peer.id),
       peers_(settings, [&] {
         std::vector<UdpPeer> peers;
@@ -49,6 +50,8 @@ void PeerRun::makeWorld() {
   world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, link, *device_)
                    : std::make_unique<SiteWorld>(scenario_, index_, link);
   Site& own = world_->site();
+  if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
+  if (purpose_ == PeerPurpose::kSession) return;
   const auto ticks =
       static_cast<std::size_t>(std::llround(duration() * scenario_.site.haptic_rate));
   const auto arrivals =
@@ -56,10 +59,11 @@ void PeerRun::makeWorld() {
   recording_ =
       std::make_unique<Recording>(ticks, arrivals, own.objectCount(), own.proxyBody(0) ? 1 : 0);
   own.record(recording_.get());
-  if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
 }
 
-double PeerRun::duration() const noexcept { return scenario_.duration; }
+double PeerRun::duration() const noexcept {
+  return purpose_ == PeerPurpose::kSession ? HUGE_VAL : scenario_.duration;
+}
 
 double PeerRun::receivedMean() const {
   if (!scenario_.hasObject() || recording_->ticks().empty()) return 0.0;
@@ -167,7 +171,8 @@ void PeerRun::checkAnswer(double waited, double patience) const {
 
 void PeerRun::run(const std::function<bool()>& stop,
                   const std::function<void(const PeerReport&)>& report,
-                  const std::function<void(const std::string&)>& note) {
+                  const std::function<void(const std::string&)>& note,
+                  const std::function<void(double, const HapticLoop&)>& after_step) {
   const double start = *peers_.start();
   peers_.startThread();
   {
@@ -183,6 +188,7 @@ void PeerRun::run(const std::function<bool()>& stop,
       sleepUntil(start + time);
       world_->stepHostUntil(time);
       if (wants_grip_) world_->hold(wants_grip_());
+      if (after_step) after_step(time, loop);
       if (time < next_report) continue;
       report(makeReport(time));
       next_report += kReportPeriod;

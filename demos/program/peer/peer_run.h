@@ -23,6 +23,12 @@ struct PeerReport {
   double coherency = 0.0;             ///< own object copy against the other's as received [m]
 };
 
+/// What a PeerRun leaves behind, and when it ends.
+enum class PeerPurpose {
+  kResults,  ///< a recording; it ends with the scenario's duration
+  kSession,  ///< nothing; it goes on until somebody stops it
+};
+
 /// One site of a scenario, live in real time. A haptic thread ticks at absolute moments, and
 /// another thread owns the socket. The caller of run() steps the host's Bullet world when due.
 /// Until the start one thread does all.
@@ -32,7 +38,8 @@ class PeerRun {
   /// scenario. `wants_grip`: the user wants to hold the cube; empty: the scenario says when. Throws
   /// like LivePeers and SiteWorld.
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
-          HapticDevice* device = nullptr, std::function<bool()> wants_grip = {});
+          HapticDevice* device = nullptr, std::function<bool()> wants_grip = {},
+          PeerPurpose purpose = PeerPurpose::kResults);
 
   /// Waits until the other site is there and both know the start. Throws UsageError if it has
   /// another configuration. Throws tandem::Error if it does not answer within `patience` [s],
@@ -42,10 +49,12 @@ class PeerRun {
 
   /// Runs until the scenario's duration is over or `stop` asks to end. Then the force fades and the
   /// other site gets a BYE. Calls `note` with one line for each right that the system refuses the
-  /// haptic thread.
+  /// haptic thread, and `after_step` after each host step with its time [s] and the loop.
   void run(const std::function<bool()>& stop, const std::function<void(const PeerReport&)>& report,
-           const std::function<void(const std::string&)>& note);
+           const std::function<void(const std::string&)>& note,
+           const std::function<void(double, const HapticLoop&)>& after_step = {});
 
+  /// Only with PeerPurpose::kResults.
   [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
   [[nodiscard]] const LoopReport& loop() const noexcept { return loop_; }
   [[nodiscard]] const LivePeers& peers() const noexcept { return peers_; }
@@ -68,6 +77,7 @@ class PeerRun {
   int index_;
   HapticDevice* device_;
   std::function<bool()> wants_grip_;
+  PeerPurpose purpose_;
   PeerId other_;
   LivePeers peers_;
   std::unique_ptr<SiteWorld> world_;
