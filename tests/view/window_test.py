@@ -7,6 +7,7 @@ Usage: window_test.py TANDEM WITH_WINDOW
 
 import json
 import os
+import socket
 import subprocess
 import sys
 import tempfile
@@ -33,8 +34,8 @@ class Display:
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True)
 
     def press(self, key):
-        # The window looks at the keys once a frame.
-        self.do("keydown", key, "sleep", 0.3, "keyup", key)
+        # The window looks at the keys once a frame, which may take long on a busy machine.
+        self.do("keydown", key, "sleep", 1.0, "keyup", key)
 
     def end(self):
         self.server.terminate()
@@ -77,22 +78,55 @@ def check(is_good, what):
 
 
 def push_and_switch(tandem, display, folder):
-    view = View(tandem, display, folder, "cube", "--set", "site2.hand_waypoints=[[0,0,0,0]]", "--size", "1280x800",
-                "--screenshot", folder / "last.png")
+    view = View(tandem, display, folder, "cube", "--set", "site2.hand_waypoints=[[0,0,0,0]]",
+                "--set", "object.mass=0.6", "--size", "1280x800", "--screenshot", folder / "last.png")
     first = view.wait_for("the first picture", lambda note: note["frames"] > 5)
     check(first["scheme"] == "remote_dynamic_proxy", "the world's scheme at first")
     # From the user's hand to the right, where the cube is.
     display.do("mousemove", 560, 400)
-    for _ in range(25):
-        display.do("mousemove_relative", 8, 3, "sleep", 0.05)
+    for _ in range(100):
+        display.do("mousemove_relative", 4, 2, "sleep", 0.05)
+        if max(note["force"] for note in view.notes()) > 0.5:
+            break
+    else:
+        sys.exit("failed: the push is felt")
     moved = view.wait_for("a cube that moves", lambda note: note["object"][0] - first["object"][0] > 0.01)
-    check(max(note["force"] for note in view.notes()) > 0.5, "the push is felt")
     check(moved["status"] == 0, "no fault while pushing")
     display.press("1")
     view.wait_for("another scheme", lambda note: note["scheme"] != "remote_dynamic_proxy" and note["time"] > 0.2)
     display.press("Escape")
     check(view.end() == 0, "Escape ends the window with status 0")
     check((folder / "last.png").read_bytes()[:4] == b"\x89PNG", "a screenshot")
+
+
+def meet_a_friend(tandem, worlds, display, folder):
+    """User 1 in a window, user 2 without one, who leaves first."""
+    key = folder / "key"
+    subprocess.run([tandem, "key", "new", key], check=True, stdout=subprocess.DEVNULL)
+    ports = free_ports()
+    settings = ["--set", "experiment.duration=3"]
+    view = View(tandem, display, folder, "cube", *settings, "--site", "1", "--key", key,
+                "--bind", f"127.0.0.1:{ports[0]}", "--peer", f"127.0.0.1:{ports[1]}")
+    view.wait_for("a picture while waiting", lambda note: note["waiting"] and note["frames"] > 5)
+    friend = subprocess.Popen([tandem, "peer", "--scenario", worlds / "cube.toml", *settings, "--site", "2", "--key", key,
+                               "--bind", f"127.0.0.1:{ports[1]}", "--peer", f"127.0.0.1:{ports[0]}", "--quiet"])
+    first = view.wait_for("the friend", lambda note: not note["waiting"])
+    check(first["link"] == "live", "the friend is felt")
+    check(friend.wait(timeout=PATIENCE) == 0, "the friend ends with status 0")
+    last = view.wait_for("that the friend has left", lambda note: note["link"] != "live")
+    check(last["ticks"] > first["ticks"] + 1000, "they met for more than a second")
+    display.press("Escape")
+    check(view.end() == 0, "Escape ends the window with status 0")
+
+
+def free_ports():
+    sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
 
 
 def refuse(tandem, environment, status, words, *options):
@@ -105,6 +139,7 @@ def refuse(tandem, environment, status, words, *options):
 
 def main():
     tandem, with_window = sys.argv[1:]
+    worlds = Path(__file__).resolve().parents[2] / "demos" / "worlds"
     display = Display()
     try:
         with tempfile.TemporaryDirectory() as name:
@@ -115,10 +150,12 @@ def main():
             host = subprocess.run([with_window, "2"], env=display.environment, capture_output=True, text=True,
                                   timeout=PATIENCE, check=True)
             check("status 0" in host.stdout, f"a host's own world in a window: {host.stdout}")
+            meet_a_friend(tandem, worlds, display, folder)
             bad = folder / "bad.toml"
             bad.write_text("[object]\nmass = -1\n")
             refuse(tandem, display.environment, 2, "object.mass", bad)
             refuse(tandem, display.environment, 2, "worlds: ", "nowhere")
+            refuse(tandem, display.environment, 2, "belong together", "crate", "--site", "1")
             refuse(tandem, display.environment, 2, "--size", "crate", "--size", "7x7")
             refuse(tandem, display.environment, 1, "--status", "crate", "--status", folder / "no" / "file")
             without = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}

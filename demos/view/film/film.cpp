@@ -20,13 +20,15 @@ class Camera {
  public:
   Camera(const FilmSettings& settings, const demos::Scenario& scenario, demos::VirtualRun& run)
       : run_(run),
-        look_(run.world(0), run.world(1)),
+        look_(run.world(0)),
         target_(settings.size, kSamples),
         ball_(makeBall(scenario.site.proxy.radius)),
-        eye_(chooseFirstEye(scenario)) {}
+        eye_(chooseFirstEye(scenario, 0)) {}
 
   [[nodiscard]] Picture take() {
     DrawList list = look_.look();
+    for (const demos::SceneBody& body : run_.world(1).bodies())
+      if (body.role == "object") addGhost(list, body.name, run_.world(1).pose(body));
     const Site& site = run_.world(0).site();
     addHand(list, ball_, site.hip().p_W, site.force(), kOwnColour);
     target_.bind();

@@ -7,8 +7,6 @@ namespace {
 
 /// From the start of the threads to the first tick [s].
 constexpr double kGetReady = 0.05;
-/// Between two looks, at least [s].
-constexpr double kLookPeriod = 1.0 / 65.0;
 
 }  // namespace
 
@@ -16,10 +14,10 @@ LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device)
     : network_(scenario.network),
       own_(scenario, 0, network_.end(0), device),
       other_(scenario, 1, network_.end(1)),
-      scene_look_(own_, other_),
+      scene_look_(own_),
       host_rate_(scenario.host_rate),
       may_hold_(scenario.mayGrip()) {
-  publish(0.0);
+  lookAtWorlds(0.0);
   begin_ = readMonotonicClock() + kGetReady;
   HapticLoopSettings settings;
   settings.begin = begin_;
@@ -35,21 +33,6 @@ LiveSession::~LiveSession() {
   for (auto& loop : loops_) loop->stop();
 }
 
-std::shared_ptr<const SessionLook> LiveSession::look() const {
-  const std::lock_guard lock(mutex_);
-  return look_;
-}
-
-WorldDetails LiveSession::details() const {
-  const std::lock_guard lock(mutex_);
-  return details_;
-}
-
-void LiveSession::showDetails(const WorldDetails& details) {
-  const std::lock_guard lock(mutex_);
-  details_ = details;
-}
-
 void LiveSession::stepWorlds(const std::stop_token& stop) {
   double next_look = 0.0;
   for (std::uint64_t step = 1; !stop.stop_requested(); ++step) {
@@ -57,29 +40,22 @@ void LiveSession::stepWorlds(const std::stop_token& stop) {
     sleepUntil(begin_ + time);
     own_.stepHostUntil(time);
     other_.stepHostUntil(time);
-    if (may_hold_) own_.hold(wants_hold_);
+    if (may_hold_) own_.hold(wantsHold());
     if (time < next_look) continue;
-    publish(time);
+    lookAtWorlds(time);
     next_look = time + kLookPeriod;
   }
 }
 
-void LiveSession::publish(double time) {
+void LiveSession::lookAtWorlds(double time) {
   const auto look = std::make_shared<SessionLook>();
   look->time = time;
   look->list = scene_look_.look(details());
-  look->apart = scene_look_.measureApart();
-  Site& site = own_.site();
-  site.betweenTicks([&] {
-    look->hip_W = site.hip().p_W;
-    look->force_W = site.force();
-    look->link = site.linkState(0);
-    look->status = site.status();
-    if (site.objectCount() > 0) look->object_W = site.object(0).p_W;
-  });
+  for (const demos::SceneBody& body : other_.bodies())
+    if (body.role == "object") look->apart = addGhost(look->list, body.name, other_.pose(body));
+  lookAt(own_.site(), *look);
   if (loops_[0]) look->loop = loops_[0]->report();
-  const std::lock_guard lock(mutex_);
-  look_ = look;
+  publish(look);
 }
 
 }  // namespace tandem::view

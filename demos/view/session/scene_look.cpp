@@ -1,6 +1,7 @@
 #include "session/scene_look.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::view {
 namespace {
@@ -28,12 +29,6 @@ BodyLooks nameBodies(const demos::SiteWorld& world) {
   return looks;
 }
 
-template <class Visit>
-void visitObjects(const demos::SiteWorld& world, const Visit& visit) {
-  for (const demos::SceneBody& body : world.bodies())
-    if (body.role == "object") visit(body);
-}
-
 }  // namespace
 
 void addArrow(DrawList& list, const Vec3& from_W, const Vec3& way_W, const Colour& colour) {
@@ -59,35 +54,27 @@ void addHand(DrawList& list, const std::shared_ptr<const ShapeMesh>& ball, const
   addArrow(list, p_W, kArrowPerNewton * f_W, colour);
 }
 
-SceneLook::SceneLook(demos::SiteWorld& own, demos::SiteWorld& other)
-    : own_(own), other_(other), world_look_(nameBodies(own)), other_look_(nameBodies(other)) {}
-
-DrawList SceneLook::look(const WorldDetails& details) {
-  DrawList list = world_look_.look(own_.world(), details);
-  for (Solid& solid : list.solids) solid.has_grid |= solid.name == kFloor;
-  const DrawList theirs = other_look_.look(other_.world());
-  visitObjects(other_, [&](const demos::SceneBody& body) {
-    const auto isOf = [&](const Solid& solid) { return solid.name == body.name; };
-    const auto here = std::find_if(list.solids.begin(), list.solids.end(), isOf);
-    const auto there = std::find_if(theirs.solids.begin(), theirs.solids.end(), isOf);
-    if (here == list.solids.end() || there == theirs.solids.end()) return;
-    if ((here->p_WB - there->p_WB).norm() < kApart) return;
-    list.solids.push_back(*there);
-    list.solids.back().is_ghost = true;
-    list.solids.back().colour = kOtherColour;
-  });
-  return list;
+double addGhost(DrawList& list, const std::string& name, const RigidState& there) {
+  const auto here = std::find_if(list.solids.begin(), list.solids.end(),
+                                 [&](const Solid& solid) { return solid.name == name; });
+  if (here == list.solids.end()) return 0.0;
+  const double apart = (here->p_WB - there.p_W).norm();
+  if (apart < kApart) return apart;
+  Solid ghost = *here;
+  ghost.p_WB = there.p_W;
+  ghost.q_WB = there.q_WB;
+  ghost.is_ghost = true;
+  ghost.colour = kOtherColour;
+  list.solids.push_back(std::move(ghost));
+  return apart;
 }
 
-double SceneLook::measureApart() const {
-  double apart = 0.0;
-  visitObjects(own_, [&](const demos::SceneBody& here) {
-    visitObjects(other_, [&](const demos::SceneBody& there) {
-      if (here.name == there.name)
-        apart = std::max(apart, (own_.pose(here).p_W - other_.pose(there).p_W).norm());
-    });
-  });
-  return apart;
+SceneLook::SceneLook(demos::SiteWorld& world) : world_(world), world_look_(nameBodies(world)) {}
+
+DrawList SceneLook::look(const WorldDetails& details) {
+  DrawList list = world_look_.look(world_.world(), details);
+  for (Solid& solid : list.solids) solid.has_grid |= solid.name == kFloor;
+  return list;
 }
 
 std::shared_ptr<const ShapeMesh> makeBall(double radius) {

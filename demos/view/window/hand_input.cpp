@@ -27,6 +27,7 @@ bool isShifted(GLFWwindow* window) {
 
 HandInput::HandInput(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
+  glfwSetInputMode(window, GLFW_STICKY_KEYS, GLFW_TRUE);  // a short press in a long frame counts
   glfwSetScrollCallback(window, [](GLFWwindow* of, double, double notches) {
     if (std::isfinite(notches)) inputOf(of).wheel_ += notches;
   });

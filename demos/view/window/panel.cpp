@@ -72,14 +72,17 @@ const char* say(std::uint32_t status) {
 }  // namespace
 
 PanelWishes Panel::show(demos::Scenario& scenario, const SessionLook& look,
-                        const std::vector<std::string>& notes) {
+                        const std::vector<std::string>& notes, bool may_change) {
   PanelWishes wishes;
   ImGui::SetNextWindowPos({10.0F, 10.0F}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kWidth, 0.0F});
   ImGui::Begin("Tandem", nullptr, ImGuiWindowFlags_NoResize);
   ImGui::TextWrapped("%s", scenario.title.c_str());
   ImGui::Separator();
-  showSettings(scenario, wishes);
+  if (may_change)
+    showSettings(scenario, wishes);
+  else
+    describe("scheme", scenario.scheme.c_str());
   ImGui::Separator();
   showForce(look, scenario.device_max_force > 0.0 ? scenario.device_max_force : 10.0);
   showState(scenario, look, notes);
@@ -89,8 +92,10 @@ PanelWishes Panel::show(demos::Scenario& scenario, const SessionLook& look,
   ImGui::Checkbox("joints", &details_.joints);
   ImGui::SameLine();
   ImGui::Checkbox("bounds", &details_.bounds);
-  wishes.restarts |= ImGui::Button("Reset");
-  ImGui::SameLine();
+  if (may_change) {
+    wishes.restarts |= ImGui::Button("Reset");
+    ImGui::SameLine();
+  }
   wishes.takes_picture = ImGui::Button("Picture") || ImGui::IsKeyPressed(GLFW_KEY_F12, false);
   ImGui::SameLine();
   if (ImGui::Button("Help") || ImGui::IsKeyPressed(GLFW_KEY_F1, false)) shows_help_ = !shows_help_;
@@ -133,7 +138,8 @@ void Panel::showState(const demos::Scenario& scenario, const SessionLook& look,
     std::snprintf(text, sizeof text, "%.2f mm", 1e3 * look.apart);
     describe("copies apart", text);
   }
-  describe("link", std::string(nameOf(look.link)).c_str());
+  describe("link",
+           look.is_waiting ? "waiting for the other site" : std::string(nameOf(look.link)).c_str());
   describe("state", say(look.status));
   std::snprintf(text, sizeof text, "%.3f ms, %llu skipped", 1e3 * look.loop.late_p99,
                 static_cast<unsigned long long>(look.loop.skipped));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "session/live_session.h"
+#include "session/session.h"
 
 namespace tandem::view {
 
@@ -18,15 +18,16 @@ struct PanelWishes {
 /// Settings and numbers of a session beside its picture. Needs Dear ImGui's frame.
 class Panel {
  public:
-  /// Shows the panel. Writes the user's settings into `scenario`.
+  /// Shows the panel. Writes the user's settings into `scenario`, if it may be changed here: two
+  /// sites on two machines have agreed on theirs.
   [[nodiscard]] PanelWishes show(demos::Scenario& scenario, const SessionLook& look,
-                                 const std::vector<std::string>& notes);
+                                 const std::vector<std::string>& notes, bool may_change);
 
   /// What the user wants to see besides bodies.
   [[nodiscard]] const WorldDetails& details() const noexcept { return details_; }
 
  private:
-  void showSettings(demos::Scenario& scenario, PanelWishes& wishes);
+  static void showSettings(demos::Scenario& scenario, PanelWishes& wishes);
   void showForce(const SessionLook& look, double most);
   static void showState(const demos::Scenario& scenario, const SessionLook& look,
                         const std::vector<std::string>& notes);

@@ -33,6 +33,8 @@ void StatusFile::note(const demos::Scenario& scenario, const SessionLook& look, 
                                {"object", toJson(look.object_W)},
                                {"apart", look.apart},
                                {"status", look.status},
+                               {"waiting", look.is_waiting},
+                               {"link", nameOf(look.link)},
                                {"ticks", look.loop.ticks},
                                {"skipped", look.loop.skipped},
                                {"frames", frames}};

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "session/live_session.h"
+#include "session/session.h"
 
 namespace tandem::view {
 

@@ -18,10 +18,11 @@ namespace {
 constexpr double kFramePeriod = 1.0 / 60.0;  // [s]
 constexpr const char* kPictureName = "tandem-view.png";
 
-/// Without real-time rights the picture must not take time from the haptic threads.
-void standBack(const LiveSession& session) {
-  if (!session.notes().empty()) setpriority(PRIO_PROCESS, 0, 19);
-}
+/// 0 for user 1, 1 for user 2.
+int userOf(const ViewSettings& settings) { return settings.line ? settings.line->site - 1 : 0; }
+
+/// The picture must not take time from the haptic threads.
+void standBack() { setpriority(PRIO_PROCESS, 0, 19); }
 
 }  // namespace
 
@@ -30,10 +31,10 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
       scenario_(demos::loadScenario(settings.scenario, settings.overrides)),
       device_(device),
       hand_look_(scenario_.site.proxy.radius),
-      eye_(chooseFirstEye(scenario_)) {
+      eye_(chooseFirstEye(scenario_, userOf(settings))) {
   if (settings.status) status_.emplace(*settings.status);
   startSession();
-  standBack(*session_);
+  standBack();
   window_ = std::make_unique<GlWindow>("Tandem", settings.size);
   scene_ = std::make_unique<GlScene>();
   input_ = std::make_unique<HandInput>(window_->handle());
@@ -48,16 +49,24 @@ void ViewRun::makeSession() {
   session_.reset();
   if (!device_) {
     MouseSettings settings;
-    settings.start_W = demos::computeStart(scenario_, demos::makeSceneFrame(scenario_), 0);
+    settings.start_W =
+        demos::computeStart(scenario_, demos::makeSceneFrame(scenario_), userOf(settings_));
     mouse_ = std::make_unique<MouseDevice>(settings);
   }
   HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
-  session_ = std::make_unique<LiveSession>(scenario_, device);
+  if (settings_.line) {
+    session_ = std::make_unique<PeerSession>(scenario_, *settings_.line, device);
+    return;
+  }
+  auto session = std::make_unique<LiveSession>(scenario_, device);
+  both_ = session.get();
+  session_ = std::move(session);
 }
 
 void ViewRun::run(const std::function<bool()>& stop) {
   const double begin = readMonotonicClock();
-  for (double next = begin; !stop() && !glfwWindowShouldClose(window_->handle());) {
+  for (double next = begin;
+       !stop() && session_->goesOn() && !glfwWindowShouldClose(window_->handle());) {
     const double now = readMonotonicClock();
     if (settings_.duration && now - begin > *settings_.duration) break;
     glfwPollEvents();
@@ -82,7 +91,7 @@ void ViewRun::showFrame(double time) {
   window_->bind();
   scene_->draw(list, eye_, size);
   gui_->begin();
-  const PanelWishes wishes = panel_.show(scenario_, *look, session_->notes());
+  const PanelWishes wishes = panel_.show(scenario_, *look, session_->notes(), both_ != nullptr);
   gui_->draw();
   if (wishes.takes_picture) storePicture(kPictureName);
   window_->show();
@@ -93,10 +102,11 @@ void ViewRun::showFrame(double time) {
 
 void ViewRun::obey(const PanelWishes& wishes) {
   session_->showDetails(panel_.details());
+  if (!both_) return;
   if (wishes.restarts)
     startSession();
   else if (wishes.changes_network)
-    session_->setNetwork(scenario_.network);
+    both_->setNetwork(scenario_.network);
 }
 
 void ViewRun::storePicture(const std::filesystem::path& file) const {

@@ -7,6 +7,7 @@
 #include "gl/gl_context.h"
 #include "gl/gl_scene.h"
 #include "session/live_session.h"
+#include "session/peer_session.h"
 #include "session/worker.h"
 #include "window/gui.h"
 #include "window/hand_input.h"
@@ -25,7 +26,8 @@ class ViewRun {
   /// UsageError for a bad scenario, Error if there is no display.
   ViewRun(const ViewSettings& settings, demos::LiveDevice* device);
 
-  /// Until the user closes the window, `stop` asks to end or the time is over.
+  /// Until the user closes the window, `stop` asks to end or the time is over. Throws what ended
+  /// the session early, such as a friend with another scenario.
   void run(const std::function<bool()>& stop);
 
  private:
@@ -40,7 +42,8 @@ class ViewRun {
   demos::LiveDevice* device_;
   Worker session_maker_;
   std::unique_ptr<MouseDevice> mouse_;  ///< null with another device
-  std::unique_ptr<LiveSession> session_;
+  std::unique_ptr<Session> session_;
+  LiveSession* both_ = nullptr;  ///< the session, if both sites are here
   HandLook hand_look_;
   std::unique_ptr<GlWindow> window_;
   std::unique_ptr<GlScene> scene_;

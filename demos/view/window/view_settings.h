@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl/projection.h"
+#include "peer/peer_line.h"
 
 namespace tandem::view {
 
@@ -13,6 +14,7 @@ namespace tandem::view {
 struct ViewSettings {
   std::filesystem::path scenario;
   std::vector<std::string> overrides;               ///< "key=value"
+  std::optional<demos::PeerLine> line;              ///< to the other site; none: both are here
   PictureSize size{1280, 800};                      ///< [pixel]
   std::optional<double> duration;                   ///< closes itself after this time [s]
   std::optional<std::filesystem::path> status;      ///< file of a JSON line every 0.1 s

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <exception>
+#include <optional>
+#include <thread>
+
+#include "peer/peer_line.h"
+#include "peer/peer_run.h"
+#include "session/session.h"
+
+namespace tandem::view {
+
+/// One site of a scenario, live over UDP, with another user at another machine: what `tandem peer`
+/// does. It waits for the other site. Should that one leave, it may come again.
+class PeerSession final : public Session {
+ public:
+  /// `device` must outlive this. Throws as PeerRun does.
+  PeerSession(const demos::Scenario& scenario, const demos::PeerLine& line, HapticDevice& device);
+  /// Fades the force and leaves.
+  ~PeerSession() override;
+
+  [[nodiscard]] std::vector<std::string> notes() const override;
+  [[nodiscard]] bool goesOn() const override;
+
+ private:
+  void live(const std::stop_token& stop);
+  void lookAtWorld(double time, const HapticLoop* loop);
+
+  double patience_;  ///< for the other site [s]
+  bool has_object_;
+  demos::PeerRun run_;
+  std::optional<SceneLook> scene_look_;  ///< of the run's world, once that is final
+  double next_look_ = 0.0;               ///< [s]
+
+  mutable std::mutex mutex_;  // of the three below
+  std::vector<std::string> notes_;
+  std::exception_ptr problem_;
+  bool has_ended_ = false;
+  std::jthread thread_;  // the last: it ends before what it uses
+};
+
+}  // namespace tandem::view

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "tandem/plugin/haptic_loop.h"
+
+#include "session/scene_look.h"
+
+namespace tandem::view {
+
+/// What a picture and a panel show of a session at one moment.
+struct SessionLook {
+  double time = 0.0;                                  ///< of the sites [s]
+  DrawList list;                                      ///< without the user's own hand
+  Vec3 hip_W = Vec3::Zero(), force_W = Vec3::Zero();  ///< of the user's hand [m], [N]
+  Vec3 object_W = Vec3::Zero();                       ///< of the first object [m]
+  double apart = 0.0;                                 ///< of its two copies [m]
+  LinkState link = LinkState::kLive;
+  std::uint32_t status = 0;  ///< bits of TickStatus since the start
+  LoopReport loop;           ///< of the user's own haptic thread
+  bool is_waiting = false;   ///< the other site is not there yet
+};
+
+/// What runs behind a window: it makes looks in threads of its own. All calls are for any thread.
+class Session {
+ public:
+  virtual ~Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// The newest look.
+  [[nodiscard]] std::shared_ptr<const SessionLook> look() const;
+  /// The user wants to hold the object, or not.
+  void hold(bool wants) noexcept { wants_hold_ = wants; }
+  /// Chooses what looks show besides bodies.
+  void showDetails(const WorldDetails& details);
+  /// Rights that the haptic threads did not get, with the remedy.
+  [[nodiscard]] virtual std::vector<std::string> notes() const = 0;
+  /// False once the session has ended by itself. Throws what ended it early.
+  [[nodiscard]] virtual bool goesOn() const { return true; }
+
+ protected:
+  Session() = default;
+  void publish(std::shared_ptr<const SessionLook> look);
+  [[nodiscard]] WorldDetails details() const;
+  [[nodiscard]] bool wantsHold() const noexcept { return wants_hold_; }
+  /// Fills in what a site tells of itself. For the thread that steps its world.
+  static void lookAt(Site& site, SessionLook& look);
+
+ private:
+  std::atomic<bool> wants_hold_ = false;
+  mutable std::mutex mutex_;  // of the two below
+  WorldDetails details_;
+  std::shared_ptr<const SessionLook> look_;  ///< shared with the window, which draws it meanwhile
+};
+
+}  // namespace tandem::view
