@@ -101,16 +101,19 @@ Vec3 computeStart(const Scenario& scenario, const SceneFrame& frame, int site) {
                        scenario.hands[static_cast<std::size_t>(site)].start_offset);
 }
 
-SiteWorld::SiteWorld(const Scenario& scenario, int index, Link& link)
+SiteWorld::SiteWorld(const Scenario& scenario, int index, Link& link, const BodyPlaces& places)
     : frame_(makeSceneFrame(scenario)),
+      places_(places),
       friction_(scenario.friction),
       host_rate_(scenario.host_rate),
       simulated_(makeDevice(scenario, frame_, index)) {
   build(scenario, index, link, *simulated_);
 }
 
-SiteWorld::SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device)
+SiteWorld::SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device,
+                     const BodyPlaces& places)
     : frame_(makeSceneFrame(scenario)),
+      places_(places),
       friction_(scenario.friction),
       host_rate_(scenario.host_rate) {
   build(scenario, index, link, device);
@@ -150,6 +153,13 @@ void SiteWorld::build(const Scenario& scenario, int index, Link& link, HapticDev
 SiteWorld::~SiteWorld() {
   site_.reset();
   for (const auto& body : bodies_) world_.removeRigidBody(body.get());
+}
+
+BodyPlaces SiteWorld::places() const {
+  BodyPlaces places;
+  for (const SceneBody& body : scene_bodies_)
+    if (body.is_box && !body.is_static) places[body.name] = pose(body);
+  return places;
 }
 
 RigidState SiteWorld::pose(const SceneBody& body) const {
@@ -201,7 +211,11 @@ btRigidBody& SiteWorld::addBox(const Vec3& half_extents, double mass, const Vec3
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr,
                                                 shapes_.back().get(), inertia);
   info.m_friction = static_cast<btScalar>(friction_);
-  info.m_startWorldTransform = btTransform(toBullet(frame_.q_WS), toBullet(frame_.toWorld(p_S)));
+  RigidState start;
+  start.p_W = frame_.toWorld(p_S);
+  start.q_WB = frame_.q_WS;
+  if (const auto place = places_.find(name); place != places_.end()) start = place->second;
+  info.m_startWorldTransform = btTransform(toBullet(start.q_WB), toBullet(start.p_W));
   bodies_.push_back(std::make_unique<btRigidBody>(info));
   world_.addRigidBody(bodies_.back().get());
 

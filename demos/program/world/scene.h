@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,14 +40,18 @@ struct SceneBody {
   bool is_static = false;
 };
 
+/// Bodies that begin elsewhere than the scenario says, by name.
+using BodyPlaces = std::map<std::string, RigidState>;
+
 /// One site's Bullet world with its bodies, device and site, as a host would have them.
 class SiteWorld {
  public:
   /// `index` is 0 for site 1, 1 for site 2. `link` leads to the other site. The device is
   /// simulated.
-  SiteWorld(const Scenario& scenario, int index, Link& link);
+  SiteWorld(const Scenario& scenario, int index, Link& link, const BodyPlaces& places = {});
   /// The same with any device, for instance a replayed one, which must outlive this.
-  SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device);
+  SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device,
+            const BodyPlaces& places = {});
   ~SiteWorld();
   SiteWorld(const SiteWorld&) = delete;
   SiteWorld& operator=(const SiteWorld&) = delete;
@@ -56,6 +61,8 @@ class SiteWorld {
   /// Valid only if the device is simulated.
   [[nodiscard]] SimulatedDevice& device() noexcept { return *simulated_; }
   [[nodiscard]] const std::vector<SceneBody>& bodies() const noexcept { return scene_bodies_; }
+  /// Where all bodies are now that may move, for another world of the same scenario.
+  [[nodiscard]] BodyPlaces places() const;
   /// Pose of a scene body now, in W.
   [[nodiscard]] RigidState pose(const SceneBody& body) const;
 
@@ -73,6 +80,7 @@ class SiteWorld {
   void addObstacles(const Scenario& scenario);
 
   SceneFrame frame_;
+  BodyPlaces places_;
   double friction_;
   double host_rate_;
   double hand_radius_ = 0.0;                  ///< [m]

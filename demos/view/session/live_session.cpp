@@ -6,14 +6,24 @@ namespace tandem::view {
 namespace {
 
 /// From the start of the threads to the first tick [s].
-constexpr double kGetReady = 0.05;
+constexpr double kGetReady = 0.02;
 
 }  // namespace
 
-LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device)
+void startHandsAt(const SessionPlaces& places, demos::Scenario& scenario) {
+  const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
+  for (int user : {0, 1}) {
+    const auto at = static_cast<std::size_t>(user);
+    const Vec3 away_W = places.hands_W[at] - demos::computeStart(scenario, frame, user);
+    scenario.hands[at].start_offset += frame.toScene(away_W);
+  }
+}
+
+LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
+                         const demos::BodyPlaces& places)
     : network_(scenario.network),
-      own_(scenario, 0, network_.end(0), device),
-      other_(scenario, 1, network_.end(1)),
+      own_(scenario, 0, network_.end(0), device, places),
+      other_(scenario, 1, network_.end(1), places),
       scene_look_(own_),
       host_rate_(scenario.host_rate),
       may_hold_(scenario.mayGrip()) {
@@ -27,10 +37,18 @@ LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device)
   host_ = std::jthread([this](const std::stop_token& stop) { stepWorlds(stop); });
 }
 
-LiveSession::~LiveSession() {
+LiveSession::~LiveSession() { stop(); }
+
+void LiveSession::stop() noexcept {
+  if (!host_.joinable()) return;
   host_.request_stop();
   host_.join();
   for (auto& loop : loops_) loop->stop();
+}
+
+SessionPlaces LiveSession::end() {
+  stop();
+  return {{own_.site().hip().p_W, other_.site().hip().p_W}, own_.places()};
 }
 
 void LiveSession::stepWorlds(const std::stop_token& stop) {

@@ -105,16 +105,16 @@ PanelWishes Panel::show(demos::Scenario& scenario, const SessionLook& look,
 }
 
 void Panel::showSettings(demos::Scenario& scenario, PanelWishes& wishes) {
-  wishes.restarts |= chooseScheme(scenario.scheme);
+  wishes.changes_scheme |= chooseScheme(scenario.scheme);
   Impairments& network = scenario.network;
   wishes.changes_network |= slideMilliseconds("delay", network.delay, 500.0);
   wishes.changes_network |= slideMilliseconds("jitter", network.jitter, 100.0);
   wishes.changes_network |= slide("loss", network.loss, 0.0, 0.5, "%.2f");
   SiteSettings& site = scenario.site;
-  wishes.restarts |= slide("K_vc", site.contact.stiffness, 100.0, 8000.0, "%.0f N/m");
-  wishes.restarts |= slide("B_vc", site.contact.damping, 0.0, 20.0, "%.1f N s/m");
-  wishes.restarts |= slide("K_t", site.coordination.stiffness, 10.0, 1000.0, "%.0f N/m");
-  wishes.restarts |= slide("B_t", site.coordination.damping, 0.0, 50.0, "%.1f N s/m");
+  wishes.changes_scheme |= slide("K_vc", site.contact.stiffness, 100.0, 8000.0, "%.0f N/m");
+  wishes.changes_scheme |= slide("B_vc", site.contact.damping, 0.0, 20.0, "%.1f N s/m");
+  wishes.changes_scheme |= slide("K_t", site.coordination.stiffness, 10.0, 1000.0, "%.0f N/m");
+  wishes.changes_scheme |= slide("B_t", site.coordination.damping, 0.0, 50.0, "%.1f N s/m");
 }
 
 void Panel::showForce(const SessionLook& look, double most) {

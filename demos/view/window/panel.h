@@ -10,7 +10,8 @@ namespace tandem::view {
 
 /// What the user chose on the panel in this frame.
 struct PanelWishes {
-  bool restarts = false;         ///< the scenario has changed, or the world is to begin anew
+  bool restarts = false;         ///< the world is to begin anew
+  bool changes_scheme = false;   ///< the scheme or gains have changed; the world goes on
   bool changes_network = false;  ///< Scenario::network alone has changed
   bool takes_picture = false;
 };

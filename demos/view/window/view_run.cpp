@@ -33,7 +33,7 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
       hand_look_(scenario_.site.proxy.radius),
       eye_(chooseFirstEye(scenario_, userOf(settings))) {
   if (settings.status) status_.emplace(*settings.status);
-  startSession();
+  startSession(false);
   standBack();
   window_ = std::make_unique<GlWindow>("Tandem", settings.size);
   scene_ = std::make_unique<GlScene>();
@@ -41,24 +41,31 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
   gui_ = std::make_unique<Gui>(window_->handle());
 }
 
-void ViewRun::startSession() {
-  session_maker_.run([this] { makeSession(); });
+void ViewRun::startSession(bool goes_on) {
+  session_maker_.run([&] { makeSession(goes_on); });
 }
 
-void ViewRun::makeSession() {
+/// A session that goes on has hands and bodies where they were.
+void ViewRun::makeSession(bool goes_on) {
+  demos::Scenario scenario = scenario_;
+  SessionPlaces places;
+  if (goes_on) {
+    places = both_->end();
+    startHandsAt(places, scenario);
+  }
   session_.reset();
   if (!device_) {
     MouseSettings settings;
     settings.start_W =
-        demos::computeStart(scenario_, demos::makeSceneFrame(scenario_), userOf(settings_));
+        demos::computeStart(scenario, demos::makeSceneFrame(scenario), userOf(settings_));
     mouse_ = std::make_unique<MouseDevice>(settings);
   }
   HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
   if (settings_.line) {
-    session_ = std::make_unique<PeerSession>(scenario_, *settings_.line, device);
+    session_ = std::make_unique<PeerSession>(scenario, *settings_.line, device);
     return;
   }
-  auto session = std::make_unique<LiveSession>(scenario_, device);
+  auto session = std::make_unique<LiveSession>(scenario, device, places.bodies);
   both_ = session.get();
   session_ = std::move(session);
 }
@@ -103,8 +110,8 @@ void ViewRun::showFrame(double time) {
 void ViewRun::obey(const PanelWishes& wishes) {
   session_->showDetails(panel_.details());
   if (!both_) return;
-  if (wishes.restarts)
-    startSession();
+  if (wishes.restarts || wishes.changes_scheme)
+    startSession(!wishes.restarts);
   else if (wishes.changes_network)
     both_->setNetwork(scenario_.network);
 }

@@ -31,8 +31,8 @@ class ViewRun {
   void run(const std::function<bool()>& stop);
 
  private:
-  void startSession();
-  void makeSession();
+  void startSession(bool goes_on);
+  void makeSession(bool goes_on);
   void showFrame(double time);
   void obey(const PanelWishes& wishes);
   void storePicture(const std::filesystem::path& file) const;
