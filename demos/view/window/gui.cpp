@@ -18,6 +18,7 @@ Gui::Gui(GLFWwindow* window) {
   ImGui::CreateContext();
   ImGui::StyleColorsLight();
   ImGui::GetStyle().WindowRounding = 6.0F;
+  ImGui::GetStyle().FrameBorderSize = 1.0F;  // a box that is not ticked is white on light grey
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is left behind in the user's folder
   std::error_code ignored;
