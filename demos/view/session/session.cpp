@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "tandem/coordination/passivity_observer.h"
+
 namespace tandem::view {
 
 std::shared_ptr<const SessionLook> Session::look() const {
@@ -30,6 +32,7 @@ void Session::lookAt(Site& site, SessionLook& look) {
     look.force_W = site.force();
     look.link = site.linkState(0);
     look.status = site.status();
+    look.energy = site.passivity().available();
     if (site.objectCount() > 0) look.object_W = site.object(0).p_W;
   });
 }

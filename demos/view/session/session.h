@@ -21,6 +21,7 @@ struct SessionLook {
   double apart = 0.0;                                 ///< of its two copies [m]
   LinkState link = LinkState::kLive;
   std::uint32_t status = 0;  ///< bits of TickStatus since the start
+  double energy = 0.0;       ///< that the hand may still get from the world [J]
   LoopReport loop;           ///< of the user's own haptic thread
   bool is_waiting = false;   ///< the other site is not there yet
 };

@@ -141,6 +141,8 @@ void Panel::showState(const demos::Scenario& scenario, const SessionLook& look,
   describe("link",
            look.is_waiting ? "waiting for the other site" : std::string(nameOf(look.link)).c_str());
   describe("state", say(look.status));
+  std::snprintf(text, sizeof text, "%.2f J", look.energy);
+  describe("energy account", text);
   std::snprintf(text, sizeof text, "%.3f ms, %llu skipped", 1e3 * look.loop.late_p99,
                 static_cast<unsigned long long>(look.loop.skipped));
   describe("late, 99 %", text);
