@@ -11,6 +11,8 @@
 #include "tandem/coordination/scheme.h"
 #include "tandem/coordination/types.h"
 
+#include "files/own_folder.h"
+
 namespace tandem::demos {
 namespace {
 
@@ -43,15 +45,13 @@ int runAndWait(std::vector<std::string> command, bool is_silent) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// The package is beside the program in a build folder, and below share/ in an installation.
 std::string findPackage() {
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const char* place : {"plot", "../demos/plot", TANDEM_DATA_FROM_PROGRAM "/plot"})
-    if (fs::exists(here / place / "__main__.py")) return (here / place).lexically_normal();
+  const fs::path main = findOwnData("plot/__main__.py");
+  if (!main.empty()) return main.parent_path();
   throw Error(
       fmt::format("{}: the Python package that draws is neither here nor in {}; install "
                   "Tandem as a whole",
-                  here.string(), TANDEM_DATA_FROM_PROGRAM));
+                  findOwnFolder().string(), TANDEM_DATA_FROM_PROGRAM));
 }
 
 Drawing findDrawing() {

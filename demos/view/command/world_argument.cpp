@@ -5,21 +5,13 @@
 
 #include <fmt/ranges.h>
 
+#include "files/own_folder.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::view {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The worlds are beside the program in a build folder, and below share/ in an installation.
-fs::path findWorlds() {
-  std::error_code ignored;
-  const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const char* place : {"worlds", TANDEM_DATA_FROM_PROGRAM "/worlds"})
-    if (fs::is_directory(here / place, ignored)) return here / place;
-  return {};
-}
 
 std::vector<std::string> listWorlds(const fs::path& folder) {
   std::vector<std::string> names;
@@ -33,7 +25,7 @@ std::vector<std::string> listWorlds(const fs::path& folder) {
 }  // namespace
 
 fs::path findWorld(const std::string& argument) {
-  const fs::path folder = findWorlds();
+  const fs::path folder = demos::findOwnData("worlds");
   std::error_code ignored;
   const fs::path own = folder / (argument + ".toml");
   const bool is_name = argument.find('/') == std::string::npos;
