@@ -5,8 +5,8 @@
 #include "gl/gl_context.h"
 #include "gl/gl_scene.h"
 #include "run/virtual_run.h"
+#include "session/first_eye.h"
 #include "session/scene_look.h"
-#include "window/first_eye.h"
 
 namespace tandem::view {
 namespace {
@@ -27,8 +27,7 @@ class Camera {
 
   [[nodiscard]] Picture take() {
     DrawList list = look_.look();
-    for (const demos::SceneBody& body : run_.world(1).bodies())
-      if (body.role == "object") addGhost(list, body.name, run_.world(1).pose(body));
+    addGhosts(list, run_.world(1));
     const Site& site = run_.world(0).site();
     addHand(list, ball_, site.hip().p_W, site.force(), kOwnColour);
     target_.bind();

@@ -52,16 +52,13 @@ SessionPlaces LiveSession::end() {
 }
 
 void LiveSession::stepWorlds(const std::stop_token& stop) {
-  double next_look = 0.0;
   for (std::uint64_t step = 1; !stop.stop_requested(); ++step) {
     const double time = static_cast<double>(step) / host_rate_;
     sleepUntil(begin_ + time);
     own_.stepHostUntil(time);
     other_.stepHostUntil(time);
     if (may_hold_) own_.hold(wantsHold());
-    if (time < next_look) continue;
-    lookAtWorlds(time);
-    next_look = time + kLookPeriod;
+    if (isLookDue(time)) lookAtWorlds(time);
   }
 }
 
@@ -69,8 +66,7 @@ void LiveSession::lookAtWorlds(double time) {
   const auto look = std::make_shared<SessionLook>();
   look->time = time;
   look->list = scene_look_.look(details());
-  for (const demos::SceneBody& body : other_.bodies())
-    if (body.role == "object") look->apart = addGhost(look->list, body.name, other_.pose(body));
+  look->apart = addGhosts(look->list, other_);
   lookAt(own_.site(), *look);
   if (loops_[0]) look->loop = loops_[0]->report();
   publish(look);

@@ -5,7 +5,6 @@ namespace tandem::view {
 PeerSession::PeerSession(const demos::Scenario& scenario, const demos::PeerLine& line,
                          HapticDevice& device)
     : patience_(line.patience),
-      has_object_(scenario.hasObject()),
       run_(scenario, line.site - 1, demos::makeMeshSettings(line, scenario),
            demos::makeOtherSite(line), &device, {}, demos::PeerPurpose::kSession) {
   lookAtWorld(0.0, nullptr);
@@ -34,9 +33,7 @@ void PeerSession::live(const std::stop_token& stop) {
   };
   const auto look = [&](double time, const HapticLoop& loop) {
     run_.world().hold(wantsHold());
-    if (time < next_look_) return;
-    lookAtWorld(time, &loop);
-    next_look_ = time + kLookPeriod;
+    if (isLookDue(time)) lookAtWorld(time, &loop);
   };
   try {
     if (run_.waitForPeer(patience_, asks, report)) {
@@ -58,14 +55,10 @@ void PeerSession::lookAtWorld(double time, const HapticLoop* loop) {
   look->time = time;
   look->list = scene_look_->look(details());
   look->is_waiting = loop == nullptr;
-  lookAt(world.site(), *look);
   if (loop) look->loop = loop->report();
-  std::optional<RigidState> there;
-  world.site().betweenTicks([&] {
-    const StatePacket& latest = world.site().latest(0);
-    if (has_object_ && latest.object_count > 0) there = latest.objects[0].state;
-  });
-  if (there) look->apart = addGhost(look->list, "cube", *there);
+  const auto there = lookAt(world.site(), *look);
+  for (const demos::SceneBody& body : world.bodies())
+    if (there && body.role == "object") look->apart = addGhost(look->list, body.name, *there);
   publish(look);
 }
 

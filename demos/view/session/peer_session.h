@@ -27,10 +27,8 @@ class PeerSession final : public Session {
   void lookAtWorld(double time, const HapticLoop* loop);
 
   double patience_;  ///< for the other site [s]
-  bool has_object_;
   demos::PeerRun run_;
   std::optional<SceneLook> scene_look_;  ///< of the run's world, once that is final
-  double next_look_ = 0.0;               ///< [s]
 
   mutable std::mutex mutex_;  // of the three below
   std::vector<std::string> notes_;

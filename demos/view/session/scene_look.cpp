@@ -29,8 +29,7 @@ BodyLooks nameBodies(const demos::SiteWorld& world) {
   return looks;
 }
 
-}  // namespace
-
+/// Adds an arrow along a line, seen from all sides.
 void addArrow(DrawList& list, const Vec3& from_W, const Vec3& way_W, const Colour& colour) {
   const double length = way_W.norm();
   if (!(length > 1e-4)) return;
@@ -42,6 +41,8 @@ void addArrow(DrawList& list, const Vec3& from_W, const Vec3& way_W, const Colou
   for (const Vec3& out_W : {Vec3(side_W), Vec3(-side_W), Vec3(other_W), Vec3(-other_W)})
     list.lines.push_back({tip_W, base_W + 0.5 * head * out_W, colour, kArrowWidth});
 }
+
+}  // namespace
 
 void addHand(DrawList& list, const std::shared_ptr<const ShapeMesh>& ball, const Vec3& p_W,
              const Vec3& f_W, const Colour& colour) {
@@ -66,6 +67,13 @@ double addGhost(DrawList& list, const std::string& name, const RigidState& there
   ghost.is_ghost = true;
   ghost.colour = kOtherColour;
   list.solids.push_back(std::move(ghost));
+  return apart;
+}
+
+double addGhosts(DrawList& list, const demos::SiteWorld& other) {
+  double apart = 0.0;
+  for (const demos::SceneBody& body : other.bodies())
+    if (body.role == "object") apart = std::max(apart, addGhost(list, body.name, other.pose(body)));
   return apart;
 }
 

@@ -11,8 +11,6 @@ namespace tandem::view {
 /// Colours of users and objects, equal in all pictures (Okabe and Ito: also for the colour-blind).
 inline constexpr Colour kOwnColour{0.0F, 0.45F, 0.70F}, kOtherColour{0.84F, 0.37F, 0.0F},
     kObjectColour{0.90F, 0.62F, 0.0F};
-/// Between two looks of a session, at least [s].
-inline constexpr double kLookPeriod = 1.0 / 65.0;
 
 /// The ball of a hand.
 [[nodiscard]] std::shared_ptr<const ShapeMesh> makeBall(double radius);
@@ -21,12 +19,13 @@ inline constexpr double kLookPeriod = 1.0 / 65.0;
 void addHand(DrawList& list, const std::shared_ptr<const ShapeMesh>& ball, const Vec3& p_W,
              const Vec3& f_W, const Colour& colour);
 
-/// Adds an arrow along a line, seen from all sides.
-void addArrow(DrawList& list, const Vec3& from_W, const Vec3& way_W, const Colour& colour);
-
 /// Adds the edges of a body where the other site has its copy, if that is elsewhere. Returns how
 /// far the two are apart [m].
 double addGhost(DrawList& list, const std::string& name, const RigidState& there);
+
+/// The same for all objects of the other site's world, if that is at hand. Returns the largest
+/// distance [m]; 0 without objects.
+double addGhosts(DrawList& list, const demos::SiteWorld& other);
 
 /// Makes pictures of one site's world. For the thread that steps it, between steps.
 class SceneLook {

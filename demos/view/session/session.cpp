@@ -2,9 +2,16 @@
 
 #include <utility>
 
+#include "tandem/coordination/link.h"
 #include "tandem/coordination/passivity_observer.h"
 
 namespace tandem::view {
+namespace {
+
+/// Between two looks, at least [s].
+constexpr double kLookPeriod = 1.0 / 65.0;
+
+}  // namespace
 
 std::shared_ptr<const SessionLook> Session::look() const {
   const std::lock_guard lock(mutex_);
@@ -26,15 +33,26 @@ WorldDetails Session::details() const {
   return details_;
 }
 
-void Session::lookAt(Site& site, SessionLook& look) {
+bool Session::isLookDue(double time) noexcept {
+  if (time < next_look_) return false;
+  next_look_ = time + kLookPeriod;
+  return true;
+}
+
+std::optional<RigidState> Session::lookAt(Site& site, SessionLook& look) {
+  std::optional<RigidState> received;
   site.betweenTicks([&] {
     look.hip_W = site.hip().p_W;
     look.force_W = site.force();
     look.link = site.linkState(0);
     look.status = site.status();
     look.energy = site.passivity().available();
-    if (site.objectCount() > 0) look.object_W = site.object(0).p_W;
+    if (site.objectCount() == 0) return;
+    look.object_W = site.object(0).p_W;
+    const StatePacket& latest = site.latest(0);
+    if (latest.object_count > 0) received = latest.objects[0].state;
   });
+  return received;
 }
 
 }  // namespace tandem::view

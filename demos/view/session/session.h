@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace tandem::view {
 
-/// What a picture and a panel show of a session at one moment.
+/// A session at one moment, for a picture and a panel.
 struct SessionLook {
   double time = 0.0;                                  ///< of the sites [s]
   DrawList list;                                      ///< without the user's own hand
@@ -26,7 +27,8 @@ struct SessionLook {
   bool is_waiting = false;   ///< the other site is not there yet
 };
 
-/// What runs behind a window: it makes looks in threads of its own. All calls are for any thread.
+/// A session runs behind a window, and makes looks in threads of its own. All calls are for any
+/// thread.
 class Session {
  public:
   virtual ~Session() = default;
@@ -49,11 +51,16 @@ class Session {
   void publish(std::shared_ptr<const SessionLook> look);
   [[nodiscard]] WorldDetails details() const;
   [[nodiscard]] bool wantsHold() const noexcept { return wants_hold_; }
-  /// Fills in what a site tells of itself. For the thread that steps its world.
-  static void lookAt(Site& site, SessionLook& look);
+  // For the thread that steps the world:
+
+  /// True if it is time for the next look at `time` [s], which is then counted as made.
+  [[nodiscard]] bool isLookDue(double time) noexcept;
+  /// Fills in what a site tells of itself. Gives the first object as the other site last told it.
+  static std::optional<RigidState> lookAt(Site& site, SessionLook& look);
 
  private:
   std::atomic<bool> wants_hold_ = false;
+  double next_look_ = 0.0;    ///< [s]
   mutable std::mutex mutex_;  // of the two below
   WorldDetails details_;
   std::shared_ptr<const SessionLook> look_;  ///< shared with the window, which draws it meanwhile

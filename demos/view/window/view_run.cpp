@@ -10,7 +10,7 @@
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "gl/picture.h"
-#include "window/first_eye.h"
+#include "session/first_eye.h"
 
 namespace tandem::view {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <numbers>
 
 #include "scenario/scenario.h"
 #include "scene/draw_list.h"
@@ -14,7 +14,7 @@ namespace tandem::view {
   Eye eye;
   eye.target_W = 0.5 * size * scenario.axis;
   eye.distance = 0.14 + 5.0 * size;
-  eye.azimuth = -1.9 + M_PI * user;
+  eye.azimuth = -1.9 + std::numbers::pi * user;
   eye.elevation = 0.6;
   return eye;
 }
