@@ -11,12 +11,10 @@
 
 #include "command/command.h"
 #include "device/device_options.h"
-#include "device/get_ready.h"
-#include "device/open_device.h"
-#include "device/user_axes.h"
 #include "peer/peer_line.h"
 #include "peer/peer_output.h"
 #include "peer/peer_run.h"
+#include "peer/users_device.h"
 #include "terminal/standard_output.h"
 #include "terminal/usage_error.h"
 
@@ -64,37 +62,6 @@ void print(const PeerReport& report) {
   std::fflush(stdout);
 }
 
-void checkGrip(const DeviceOptions& options, const Scenario& scenario) {
-  if (!options.grip) return;
-  if (options.device.empty())
-    throw UsageError("--grip: needs --device; a simulated hand holds things by siteN.grips");
-  if (!scenario.mayGrip()) throw UsageError(std::string("--grip: ") + kGripNeeds);
-}
-
-/// Opens the user's own device, ready at the user's start in the scenario; null without --device.
-/// Sets `is_ended` if the user asks to end.
-std::unique_ptr<LiveDevice> openUsersDevice(const PeerOptions& options, const Scenario& scenario,
-                                            bool& is_ended) {
-  if (options.device.device.empty()) {
-    checkDeviceOptions(options.device);
-    return nullptr;
-  }
-  const SceneFrame frame = makeSceneFrame(scenario);
-  const int site = options.line.site - 1;
-  const Vec3 start_W = computeStart(scenario, frame, site);
-  auto device =
-      openDevice(options.device, {computeUserAxes(frame.q_WS, site), start_W}, UserWish::kReach);
-  GetReadySettings settings;
-  settings.is_quiet = options.quiet;
-  is_ended = !getReady(*device, settings, [](double seconds) {
-    sleepFor(seconds);
-    return stop_asked != 0;
-  });
-  // The hand may move freely until both sites run.
-  device->holdUntilTicked(start_W);
-  return device;
-}
-
 void runPeer(const PeerOptions& options) {
   checkPeerLine(options.line);
   const Scenario scenario = loadScenario(options.scenario, options.overrides);
@@ -106,7 +73,12 @@ void runPeer(const PeerOptions& options) {
   UdpPeer peer = makeOtherSite(options.line);
   catchSignals(!options.device.device.empty());
   bool is_ended = false;
-  const auto device = openUsersDevice(options, scenario, is_ended);
+  const auto pause = [](double seconds) {
+    sleepFor(seconds);
+    return stop_asked != 0;
+  };
+  const auto device = openUsersDevice(options.device, scenario, options.line.site - 1,
+                                      options.quiet, pause, is_ended);
   if (is_ended) return;
   std::function<bool()> wants_grip;
   if (options.device.grip) wants_grip = [&] { return device->isGripPressed(); };

@@ -1,14 +1,14 @@
 #include <cstdlib>
-#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "command/command.h"
 #include "command/picture_size_option.h"
 #include "command/world_argument.h"
 #include "device/device_options.h"
-#include "device/open_device.h"
-#include "device/user_axes.h"
 #include "peer/peer_line.h"
+#include "peer/users_device.h"
 #include "terminal/stop_signals.h"
 #include "terminal/usage_error.h"
 #include "window/view_run.h"
@@ -22,7 +22,7 @@ class ViewCommand final : public Command {
   void declare(Arguments& arguments) override {
     arguments.option("WORLD", world_,
                      "a world's name, such as crate (the default), or a scenario file");
-    arguments.repeated("--set", settings_.overrides, "override a key, as for tandem run");
+    arguments.repeated("--set", overrides_, "override a key, as for tandem run");
     arguments.option("--size", size_, "width and height in pixels, e.g. 1280x800");
     arguments.option("--seconds", settings_.duration, "close after this time");
     arguments.option("--status", status_, "file of a JSON line every 0.1 s");
@@ -34,14 +34,18 @@ class ViewCommand final : public Command {
   ExitStatus run() override {
     // Mesa's software driver would take both cores from the haptic threads.
     setenv("LP_NUM_THREADS", "1", 0);
-    settings_.scenario = view::findWorld(world_);
+    settings_.scenario = loadScenario(view::findWorld(world_), overrides_);
     settings_.size = view::parsePictureSize(size_);
     if (status_) settings_.status = *status_;
     if (screenshot_) settings_.screenshot = *screenshot_;
     if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
-    checkDeviceOptions(device_);
+    checkGrip(device_, settings_.scenario);
     const StopSignals signals;
-    const auto device = device_.device.empty() ? nullptr : openUsersDevice();
+    bool is_ended = false;
+    const auto pause = [&](double seconds) { return signals.isAskedWithin(seconds); };
+    const auto device = openUsersDevice(device_, settings_.scenario, view::userOf(settings_), false,
+                                        pause, is_ended);
+    if (is_ended) return kDone;
     view::ViewRun run(settings_, device.get());
     run.run([&] { return signals.isAskedWithin(0.0); });
     return kDone;
@@ -55,20 +59,10 @@ class ViewCommand final : public Command {
     return line_;
   }
 
-  [[nodiscard]] std::unique_ptr<LiveDevice> openUsersDevice() const {
-    const Scenario scenario = loadScenario(settings_.scenario, settings_.overrides);
-    const SceneFrame frame = makeSceneFrame(scenario);
-    const int user = settings_.line ? settings_.line->site - 1 : 0;
-    const Vec3 start_W = computeStart(scenario, frame, user);
-    auto device =
-        openDevice(device_, {computeUserAxes(frame.q_WS, user), start_W}, UserWish::kReach);
-    device->holdUntilTicked(start_W);
-    return device;
-  }
-
   view::ViewSettings settings_;
   DeviceOptions device_;
   PeerLine line_;
+  std::vector<std::string> overrides_;
   std::string world_ = "crate", size_ = "1280x800";
   std::optional<std::string> status_, screenshot_;
 };

@@ -37,7 +37,9 @@ class GlWindow {
 
   /// For events and for Dear ImGui.
   [[nodiscard]] GLFWwindow* handle() const noexcept { return window_; }
-  /// Of the content; empty while the window is minimised [pixel].
+  /// Takes the events that came in. False once the user has closed the window or pressed Escape.
+  [[nodiscard]] bool isOpen() const;
+  /// The size of the content; empty while the window is minimised [pixel].
   [[nodiscard]] PictureSize size() const;
   /// Makes drawing go to the window; off-screen targets take it away.
   void bind() const;

@@ -33,14 +33,14 @@ GlWindow::GlWindow(const std::string& title, PictureSize size) {
   if (size.isEmpty()) throw Error("a window needs a width and a height of at least 1 pixel");
   if (glfwInit() != GLFW_TRUE)
     throw Error("no display" + describeFailure() +
-                ": start it in a desktop session, or use --headless");
+                ": start it in a desktop session; tandem film needs none");
   setHints();
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = describeFailure();
     glfwTerminate();
     throw Error("no window with OpenGL 3.3" + reason +
-                ": update the graphics driver, set LIBGL_ALWAYS_SOFTWARE=1, or use --headless");
+                ": update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1");
   }
   glfwMakeContextCurrent(window_);
   // Waiting for the display would slow the desktop on a software driver.
@@ -50,6 +50,12 @@ GlWindow::GlWindow(const std::string& title, PictureSize size) {
 GlWindow::~GlWindow() {
   glfwDestroyWindow(window_);
   glfwTerminate();
+}
+
+bool GlWindow::isOpen() const {
+  glfwPollEvents();
+  return glfwWindowShouldClose(window_) == GLFW_FALSE &&
+         glfwGetKey(window_, GLFW_KEY_ESCAPE) != GLFW_PRESS;
 }
 
 PictureSize GlWindow::size() const {

@@ -13,9 +13,7 @@ namespace {
   std::array<char, 32> code = {};
   std::snprintf(code.data(), code.size(), " (EGL error 0x%x)",
                 static_cast<unsigned int>(eglGetError()));
-  throw Error(what + code.data() +
-              ": install Mesa's libegl1 and libgl1-mesa-dri, or start it in a desktop session "
-              "without --headless");
+  throw Error(what + code.data() + ": install Mesa's libegl1 and libgl1-mesa-dri");
 }
 
 EGLDisplay openDisplay() {

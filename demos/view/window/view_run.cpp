@@ -1,9 +1,7 @@
 #include "window/view_run.h"
 
-#include <algorithm>
 #include <cstdio>
 
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -11,15 +9,12 @@
 
 #include "gl/picture.h"
 #include "session/first_eye.h"
+#include "window/frame_pace.h"
 
 namespace tandem::view {
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 60.0;  // [s]
 constexpr const char* kPictureName = "tandem-view.png";
-
-/// 0 for user 1, 1 for user 2.
-int userOf(const ViewSettings& settings) { return settings.line ? settings.line->site - 1 : 0; }
 
 /// The picture must not take time from the haptic threads.
 void standBack() { setpriority(PRIO_PROCESS, 0, 19); }
@@ -28,7 +23,7 @@ void standBack() { setpriority(PRIO_PROCESS, 0, 19); }
 
 ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
     : settings_(settings),
-      scenario_(demos::loadScenario(settings.scenario, settings.overrides)),
+      scenario_(settings.scenario),
       device_(device),
       hand_look_(scenario_.site.proxy.radius),
       eye_(chooseFirstEye(scenario_, userOf(settings))) {
@@ -71,19 +66,13 @@ void ViewRun::makeSession(bool goes_on) {
 }
 
 void ViewRun::run(const std::function<bool()>& stop) {
+  FramePace pace;
   const double begin = readMonotonicClock();
-  for (double next = begin;
-       !stop() && session_->goesOn() && !glfwWindowShouldClose(window_->handle());) {
-    const double now = readMonotonicClock();
+  for (;;) {
+    const double now = pace.wait();
+    if (stop() || !session_->goesOn() || !window_->isOpen()) break;
     if (settings_.duration && now - begin > *settings_.duration) break;
-    glfwPollEvents();
-    if (glfwGetKey(window_->handle(), GLFW_KEY_ESCAPE) == GLFW_PRESS) break;
-    if (window_->size().isEmpty())
-      sleepFor(kFramePeriod);
-    else
-      showFrame(now);
-    next = std::max(next + kFramePeriod, now);
-    sleepUntil(next);
+    if (!window_->size().isEmpty()) showFrame(now);
   }
   if (settings_.screenshot) storePicture(*settings_.screenshot);
 }

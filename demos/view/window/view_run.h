@@ -22,8 +22,8 @@ namespace tandem::view {
 /// window's low priority, and haptic threads are not kept waiting.
 class ViewRun {
  public:
-  /// `device` is the user's, and must outlive this; null: the mouse in the window. Throws
-  /// UsageError for a bad scenario, Error if there is no display.
+  /// `device` is the user's, and must outlive this; null: the mouse in the window. Throws Error if
+  /// there is no display.
   ViewRun(const ViewSettings& settings, demos::LiveDevice* device);
 
   /// Until the user closes the window, `stop` asks to end or the time is over. Throws what ended
@@ -38,7 +38,7 @@ class ViewRun {
   void storePicture(const std::filesystem::path& file) const;
 
   ViewSettings settings_;
-  demos::Scenario scenario_;
+  demos::Scenario scenario_;  ///< as the user has changed it
   demos::LiveDevice* device_;
   Worker session_maker_;
   std::unique_ptr<MouseDevice> mouse_;  ///< null with another device

@@ -2,23 +2,25 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "gl/projection.h"
 #include "peer/peer_line.h"
 
 namespace tandem::view {
 
-/// What the user asks of a window on the command line.
+/// A user's wishes for a window, from the command line.
 struct ViewSettings {
-  std::filesystem::path scenario;
-  std::vector<std::string> overrides;               ///< "key=value"
+  demos::Scenario scenario;
   std::optional<demos::PeerLine> line;              ///< to the other site; none: both are here
   PictureSize size{1280, 800};                      ///< [pixel]
   std::optional<double> duration;                   ///< closes itself after this time [s]
   std::optional<std::filesystem::path> status;      ///< file of a JSON line every 0.1 s
   std::optional<std::filesystem::path> screenshot;  ///< PNG of the last frame
 };
+
+/// 0 for user 1, 1 for user 2.
+[[nodiscard]] inline int userOf(const ViewSettings& settings) {
+  return settings.line ? settings.line->site - 1 : 0;
+}
 
 }  // namespace tandem::view

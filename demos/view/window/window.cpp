@@ -1,21 +1,15 @@
 #include "window/window.h"
 
-#include <algorithm>
-
-#include <GLFW/glfw3.h>
-
-#include "tandem/falcon/monotonic_clock.h"
-
 #include "gl/gl_context.h"
 #include "gl/gl_scene.h"
+#include "window/frame_pace.h"
 #include "window/hand_input.h"
 #include "window/hand_look.h"
 
 namespace tandem::view {
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 60.0;  // [s]
-constexpr double kHandRadius = 0.01;         // without a setting that tells it [m]
+constexpr double kHandRadius = 0.01;  // without a setting that tells it [m]
 constexpr PictureSize kSize{1280, 800};
 
 }  // namespace
@@ -30,7 +24,7 @@ struct Window::Impl {
   WorldLook world_look;
   HandLook hand_look{kHandRadius};
   Eye eye;
-  double next = 0.0;  ///< moment of the next picture [s]
+  FramePace pace;
 
   Impl(Site& the_site, btDiscreteDynamicsWorld& the_world, MouseDevice* the_mouse,
        const std::string& title)
@@ -63,13 +57,10 @@ Window::Window(Site& site, btDiscreteDynamicsWorld& world, MouseDevice* mouse,
 Window::~Window() = default;
 
 bool Window::show() {
-  sleepUntil(impl_->next);
-  const double now = readMonotonicClock();
-  impl_->next = std::max(impl_->next + kFramePeriod, now);
-  glfwPollEvents();
+  const double now = impl_->pace.wait();
+  const bool is_open = impl_->window.isOpen();
   impl_->draw(now);
-  GLFWwindow* const handle = impl_->window.handle();
-  return !glfwWindowShouldClose(handle) && glfwGetKey(handle, GLFW_KEY_ESCAPE) != GLFW_PRESS;
+  return is_open;
 }
 
 }  // namespace tandem::view

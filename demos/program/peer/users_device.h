@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "device/exchange.h"
+#include "device/live_device.h"
+#include "scenario/scenario.h"
+
+namespace tandem::demos {
+
+/// Throws UsageError if the options let the user hold things, but the scenario or the device does
+/// not.
+void checkGrip(const DeviceOptions& options, const Scenario& scenario);
+
+/// Opens the user's own device at the user's start, once it is ready; `site` is 0 or 1. Null
+/// without --device. Sets `is_ended` if `pause` asks to end. Throws as openDevice() and getReady().
+[[nodiscard]] std::unique_ptr<LiveDevice> openUsersDevice(const DeviceOptions& options,
+                                                          const Scenario& scenario, int site,
+                                                          bool is_quiet, const Pause& pause,
+                                                          bool& is_ended);
+
+}  // namespace tandem::demos
