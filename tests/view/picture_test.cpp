@@ -232,14 +232,14 @@ TEST_F(PictureTest, DropsMeshesThatAreGoneOrUnused) {
   list.solids = {makeSolid(kept, Vec3::Zero(), kRed),
                  makeSolid(makeBall(0.03), Vec3::Zero(), kRed)};
   (void)draw(list);
-  EXPECT_EQ(scene->storedMeshes(), 2U);
+  EXPECT_EQ(scene.storedMeshes(), 2U);
   (void)draw({});
-  EXPECT_EQ(scene->storedMeshes(), 2U);
+  EXPECT_EQ(scene.storedMeshes(), 2U);
   list = {};
   (void)draw({});
-  EXPECT_EQ(scene->storedMeshes(), 1U);
+  EXPECT_EQ(scene.storedMeshes(), 1U);
   for (int frame = 0; frame < 301; ++frame) (void)draw({});
-  EXPECT_EQ(scene->storedMeshes(), 0U);
+  EXPECT_EQ(scene.storedMeshes(), 0U);
 }
 
 TEST_F(PictureTest, StillHasSmootherEdges) {

@@ -51,9 +51,9 @@ TEST(Projection, RayThroughAPixelMeetsThePointSeenThere) {
     ASSERT_TRUE(seen);
     const auto ray = computeRay(eye, kSize, seen->point);
     ASSERT_TRUE(ray);
-    EXPECT_NEAR(ray->d_W.norm(), 1.0, 1e-12);
-    EXPECT_LT((p_W - ray->p_W).cross(ray->d_W).norm(), 1e-12);
-    EXPECT_GT((p_W - ray->p_W).dot(ray->d_W), 0.0);
+    EXPECT_NEAR(ray->direction_W.norm(), 1.0, 1e-12);
+    EXPECT_LT((p_W - ray->eye_W).cross(ray->direction_W).norm(), 1e-12);
+    EXPECT_GT((p_W - ray->eye_W).dot(ray->direction_W), 0.0);
   }
 }
 

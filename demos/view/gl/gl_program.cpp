@@ -31,7 +31,7 @@ GLint locate(const GlProgram& program, const char* name) {
 
 }  // namespace
 
-GlProgram makeProgram(const char* vertex_source, const char* fragment_source,
+GlProgram makeProgram(const std::string& vertex_source, const char* fragment_source,
                       const std::string& defines) {
   const std::string head = "#version 330 core\n" + defines;
   const GlShader vertex = compile(GL_VERTEX_SHADER, head + vertex_source);

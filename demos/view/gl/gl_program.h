@@ -9,7 +9,7 @@ namespace tandem::view {
 
 /// Makes a program of two shaders, each behind the version and `defines`. Throws Error with the
 /// first line of the driver's log and the remedy.
-[[nodiscard]] GlProgram makeProgram(const char* vertex_source, const char* fragment_source,
+[[nodiscard]] GlProgram makeProgram(const std::string& vertex_source, const char* fragment_source,
                                     const std::string& defines = {});
 
 /// Throws Error if OpenGL has failed since it was last asked; `doing` says at what.

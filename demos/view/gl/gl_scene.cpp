@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gl/eye_motion.h"
+#include "gl/gl_attribute.h"
 #include "gl/gl_program.h"
 #include "gl/shaders.h"
 
@@ -38,11 +39,8 @@ void setState() {
   glFrontFace(GL_CCW);
 }
 
-void pointAt(GLuint place, int count, std::size_t offset) {
-  glEnableVertexAttribArray(place);
-  glVertexAttribPointer(place, count, GL_FLOAT, GL_FALSE, sizeof(SolidInstance),
-                        reinterpret_cast<const void*>(offset));
-  glVertexAttribDivisor(place, 1);
+void readInstances(GLuint place, int count, std::size_t offset) {
+  readAttribute(place, count, sizeof(SolidInstance), offset, 1);
 }
 
 // Takes clip space to a texture's: from 0 to 1 in each direction.
@@ -65,8 +63,12 @@ const char* shadowDefine(Quality quality) {
   return "";
 }
 
+std::string ofABody(const char* vertex_source) {
+  return std::string(shaders::kPlaceOfABody) + vertex_source;
+}
+
 GlProgram makeSolidProgram(Quality quality, const char* more) {
-  return makeProgram(shaders::kSolidVertex, shaders::kSolidFragment,
+  return makeProgram(ofABody(shaders::kSolidVertex), shaders::kSolidFragment,
                      std::string(shadowDefine(quality)) + more);
 }
 
@@ -77,7 +79,7 @@ GlScene::GlScene(Quality quality)
       shadow_map_(quality == Quality::kStill ? 2048 : 1024),
       solid_(makeSolidProgram(quality, "")),
       grid_(makeSolidProgram(quality, "#define GRID\n")),
-      shadow_(makeProgram(shaders::kShadowVertex, shaders::kShadowFragment)),
+      shadow_(makeProgram(ofABody(shaders::kShadowVertex), shaders::kShadowFragment)),
       background_(makeProgram(shaders::kBackgroundVertex, shaders::kBackgroundFragment)),
       instances_(makeBuffer()),
       no_attributes_(makeVertexArray()) {
@@ -125,9 +127,9 @@ void GlScene::drawBatches(const SolidBatches& grouped, bool has_grid) const {
     first += batch.instances.size();
     if (batch.has_grid != has_grid) continue;
     glBindVertexArray(batch.mesh->array.name());
-    pointAt(shaders::kOrigin, 3, offset + offsetof(SolidInstance, origin));
-    pointAt(shaders::kTurn, 4, offset + offsetof(SolidInstance, turn));
-    pointAt(shaders::kColour, 3, offset + offsetof(SolidInstance, colour));
+    readInstances(shaders::kOrigin, 3, offset + offsetof(SolidInstance, origin));
+    readInstances(shaders::kTurn, 4, offset + offsetof(SolidInstance, turn));
+    readInstances(shaders::kColour, 3, offset + offsetof(SolidInstance, colour));
     glDrawElementsInstanced(GL_TRIANGLES, batch.mesh->index_count, GL_UNSIGNED_INT, nullptr,
                             static_cast<GLsizei>(batch.instances.size()));
   }

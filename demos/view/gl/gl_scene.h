@@ -10,7 +10,7 @@
 
 namespace tandem::view {
 
-/// What a picture may cost.
+/// The cost of a picture.
 enum class Quality {
   kFast,   ///< no shadows
   kLive,   ///< shadows with edges of one pixel of their map

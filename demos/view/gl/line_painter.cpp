@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gl/gl_attribute.h"
 #include "gl/gl_program.h"
 #include "gl/shaders.h"
 
@@ -12,9 +13,6 @@ namespace {
 struct LineInstance {
   float from[3], to[3], colour[3], width;
 };
-
-// Lines are cut this close to the eye [eye distances].
-constexpr double kNearest = 0.02;
 
 void put(float (&place)[3], const Vec3& vector) {
   for (int axis = 0; axis < 3; ++axis) place[axis] = static_cast<float>(vector[axis]);
@@ -34,11 +32,8 @@ std::vector<LineInstance> makeInstances(const std::vector<Line>& lines) {
   return instances;
 }
 
-void pointAt(GLuint place, int count, std::size_t offset) {
-  glEnableVertexAttribArray(place);
-  glVertexAttribPointer(place, count, GL_FLOAT, GL_FALSE, sizeof(LineInstance),
-                        reinterpret_cast<const void*>(offset));
-  glVertexAttribDivisor(place, 1);
+void readInstances(GLuint place, int count, std::size_t offset) {
+  readAttribute(place, count, sizeof(LineInstance), offset, 1);
 }
 
 }  // namespace
@@ -49,10 +44,10 @@ LinePainter::LinePainter()
       instances_(makeBuffer()) {
   glBindVertexArray(array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-  pointAt(shaders::kFrom, 3, offsetof(LineInstance, from));
-  pointAt(shaders::kTo, 3, offsetof(LineInstance, to));
-  pointAt(shaders::kLineColour, 3, offsetof(LineInstance, colour));
-  pointAt(shaders::kWidth, 1, offsetof(LineInstance, width));
+  readInstances(shaders::kFrom, 3, offsetof(LineInstance, from));
+  readInstances(shaders::kTo, 3, offsetof(LineInstance, to));
+  readInstances(shaders::kLineColour, 3, offsetof(LineInstance, colour));
+  readInstances(shaders::kWidth, 1, offsetof(LineInstance, width));
   glBindVertexArray(0);
 }
 
@@ -65,7 +60,7 @@ void LinePainter::draw(const std::vector<Line>& lines, const Eye& eye, PictureSi
   glUseProgram(program_.name());
   setUniform(program_, "world_to_clip", computeWorldToClip(eye, size));
   setUniform(program_, "size", size.width, size.height);
-  setUniform(program_, "nearest", kNearest * eye.distance);
+  setUniform(program_, "nearest", nearestDepth(eye));
 
   // A strip's winding depends on the line's direction on the screen.
   glDisable(GL_CULL_FACE);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gl/gl_attribute.h"
 #include "gl/gl_program.h"
 #include "gl/shaders.h"
 
@@ -28,20 +29,15 @@ GlBuffer fillBuffer(GLenum target, const std::vector<Element>& elements) {
   return buffer;
 }
 
-void pointAt(GLuint place, std::size_t offset) {
-  glEnableVertexAttribArray(place);
-  glVertexAttribPointer(place, 3, GL_FLOAT, GL_FALSE, sizeof(ShapeMesh::Vertex),
-                        reinterpret_cast<const void*>(offset));
-}
-
 StoredMesh store(const ShapeMesh& mesh) {
   StoredMesh stored;
   stored.array = makeVertexArray();
   glBindVertexArray(stored.array.name());
   stored.vertices = fillBuffer(GL_ARRAY_BUFFER, mesh.vertices);
   stored.indices = fillBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices);
-  pointAt(shaders::kPoint, offsetof(ShapeMesh::Vertex, p));
-  pointAt(shaders::kNormal, offsetof(ShapeMesh::Vertex, n));
+  using Vertex = ShapeMesh::Vertex;
+  readAttribute(shaders::kPoint, 3, sizeof(Vertex), offsetof(Vertex, p), 0);
+  readAttribute(shaders::kNormal, 3, sizeof(Vertex), offsetof(Vertex, n), 0);
   glBindVertexArray(0);
   stored.index_count = static_cast<int>(mesh.indices.size());
   stored.radius = computeRadius(mesh);

@@ -8,13 +8,14 @@ namespace {
 // Shares of the eye's distance, and the depth that even a close eye sees [m].
 constexpr double kNearest = 0.02, kFarthest = 50.0, kFarAtLeast = 10.0;
 
-double nearestDepth(const Eye& eye) { return kNearest * eye.distance; }
 double farthestDepth(const Eye& eye) { return kFarthest * eye.distance + kFarAtLeast; }
 
 // Half the picture's height at a depth of one.
 double halfHeight(const Eye& eye) { return std::tan(0.5 * eye.field_of_view); }
 
 }  // namespace
+
+double nearestDepth(const Eye& eye) { return kNearest * eye.distance; }
 
 bool isUsable(const Eye& eye) noexcept {
   return eye.target_W.allFinite() && std::isfinite(eye.distance) && eye.distance > 0.0 &&
@@ -60,7 +61,7 @@ Mat4 computeWorldToClip(const Eye& eye, PictureSize size) {
   return computeProjectionMatrix(eye, size) * computeViewMatrix(eye);
 }
 
-std::optional<Ray> computeRay(const Eye& eye, PictureSize size, PicturePoint point) {
+std::optional<PointerRay> computeRay(const Eye& eye, PictureSize size, PicturePoint point) {
   if (size.isEmpty() || !isUsable(eye) || !std::isfinite(point.x) || !std::isfinite(point.y))
     return std::nullopt;
   const double half = halfHeight(eye);
@@ -68,7 +69,7 @@ std::optional<Ray> computeRay(const Eye& eye, PictureSize size, PicturePoint poi
   const double up = (1.0 - 2.0 * point.y / size.height) * half;
   const EyeAxes axes = computeEyeAxes(eye);
   const Vec3 d_W = right * axes.right_W + up * axes.up_W - axes.back_W;
-  return Ray{.p_W = computeEyePosition(eye), .d_W = d_W.stableNormalized()};
+  return PointerRay{.eye_W = computeEyePosition(eye), .direction_W = d_W.stableNormalized()};
 }
 
 std::optional<ProjectedPoint> projectPoint(const Eye& eye, PictureSize size, const Vec3& p_W) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "tandem/coordination/types.h"
+#include "tandem/falcon/pointer_plane.h"
 
 #include "scene/draw_list.h"
 
@@ -10,7 +11,7 @@ namespace tandem::view {
 
 using Mat4 = Eigen::Matrix4d;
 
-/// Of a picture or a window's content [pixel].
+/// The size of a picture or of a window's content [pixel].
 struct PictureSize {
   int width = 0, height = 0;
 
@@ -24,12 +25,6 @@ struct PictureSize {
 /// [pixel]. The first pixel's centre is (0.5, 0.5).
 struct PicturePoint {
   double x = 0.0, y = 0.0;
-};
-
-/// What a pixel looks along.
-struct Ray {
-  Vec3 p_W = Vec3::Zero();   ///< the eye [m]
-  Vec3 d_W = Vec3::UnitX();  ///< unit vector into the picture
 };
 
 /// A point of the world where the picture shows it.
@@ -54,12 +49,16 @@ struct EyeAxes {
 /// shows depths from 2 % of the eye's distance to 50 distances and 10 m.
 [[nodiscard]] Mat4 computeProjectionMatrix(const Eye& eye, PictureSize size);
 
+/// The nearest depth that a picture shows; lines are cut there [m].
+[[nodiscard]] double nearestDepth(const Eye& eye);
+
 /// Both: takes points in W to clip space.
 [[nodiscard]] Mat4 computeWorldToClip(const Eye& eye, PictureSize size);
 
 /// Ray through a point of the picture; also through points beyond its edges. None for an empty
 /// picture or numbers that are not finite.
-[[nodiscard]] std::optional<Ray> computeRay(const Eye& eye, PictureSize size, PicturePoint point);
+[[nodiscard]] std::optional<PointerRay> computeRay(const Eye& eye, PictureSize size,
+                                                   PicturePoint point);
 
 /// Where the picture shows a point of the world; perhaps beyond its edges. None for a point before
 /// the nearest depth, an empty picture or numbers that are not finite.

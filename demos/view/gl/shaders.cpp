@@ -2,11 +2,20 @@
 
 namespace tandem::view::shaders {
 
-const char* const kSolidVertex = R"(
+const char* const kPlaceOfABody = R"(
 layout(location = 0) in vec3 point;
-layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 origin;
 layout(location = 3) in vec4 turn;
+
+vec3 rotate(vec4 q, vec3 v) {
+  vec3 t = 2.0 * cross(q.xyz, v);
+  return v + q.w * t + cross(q.xyz, t);
+}
+vec3 place() { return origin + rotate(turn, point); }
+)";
+
+const char* const kSolidVertex = R"(
+layout(location = 1) in vec3 normal;
 layout(location = 4) in vec3 colour;
 uniform mat4 world_to_clip;
 uniform mat4 world_to_shadow;
@@ -16,14 +25,9 @@ out vec3 n_W;
 out vec3 p_shadow;
 flat out vec3 albedo;
 
-vec3 rotate(vec4 q, vec3 v) {
-  vec3 t = 2.0 * cross(q.xyz, v);
-  return v + q.w * t + cross(q.xyz, t);
-}
-
 void main() {
   n_W = rotate(turn, normal);
-  p_W = origin + rotate(turn, point);
+  p_W = place();
   // A surface must not shadow itself, so the shadow is looked up a little outside of it.
   p_shadow = (world_to_shadow * vec4(p_W + shadow_offset * n_W, 1.0)).xyz;
   albedo = colour;
@@ -98,16 +102,9 @@ void main() {
 )";
 
 const char* const kShadowVertex = R"(
-layout(location = 0) in vec3 point;
-layout(location = 2) in vec3 origin;
-layout(location = 3) in vec4 turn;
 uniform mat4 world_to_clip;
 
-void main() {
-  vec3 t = 2.0 * cross(turn.xyz, point);
-  vec3 p_W = origin + point + turn.w * t + cross(turn.xyz, t);
-  gl_Position = world_to_clip * vec4(p_W, 1.0);
-}
+void main() { gl_Position = world_to_clip * vec4(place(), 1.0); }
 )";
 
 const char* const kShadowFragment = R"(

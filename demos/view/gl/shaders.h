@@ -11,6 +11,8 @@ inline constexpr unsigned int kPoint = 0, kNormal = 1, kOrigin = 2, kTurn = 3, k
 /// Places of a line's vertex attributes.
 inline constexpr unsigned int kFrom = 0, kTo = 1, kLineColour = 2, kWidth = 3;
 
+/// Comes before both vertex shaders of bodies.
+extern const char* const kPlaceOfABody;
 extern const char* const kSolidVertex;
 /// With `#define GRID` it draws a net of 0.1 m on level surfaces; with SHADOWS it looks shadows up,
 /// with SOFT_SHADOWS nine times for each pixel.

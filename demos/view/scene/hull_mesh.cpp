@@ -1,6 +1,7 @@
 #include "scene/hull_mesh.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <LinearMath/btConvexHullComputer.h>
 
@@ -13,7 +14,7 @@ constexpr int kSpreadDirections = 374;  // 400 with those of the cube
 
 /// Adds directions that are spread evenly over the sphere, along a spiral.
 void addSpreadDirections(std::vector<btVector3>& directions) {
-  const double golden_angle = 3.14159265358979323846 * (3.0 - std::sqrt(5.0));
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   for (int i = 0; i < kSpreadDirections; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / kSpreadDirections;
     const double across = std::sqrt(1.0 - z * z);

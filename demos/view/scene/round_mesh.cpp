@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "scene/mesh_parts.h"
 
 namespace tandem::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 
 /// A direction in the plane of the outline, as its angle above the level [rad] and its two parts.
 struct Normal {

@@ -1,16 +1,16 @@
 #include "scene/world_lines.h"
 
+#include <utility>
+
 #include <LinearMath/btIDebugDraw.h>
+
+#include "tandem/bullet_bridge/convert.h"
 
 namespace tandem::view {
 namespace {
 
 constexpr double kFarthest = 1000.0;            // of a line's ends from the origin, per axis [m]
 constexpr auto kNormalLength = btScalar(0.01);  // of the line that shows a contact's normal [m]
-
-Vec3 toVec3(const btVector3& v) {
-  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
-}
 
 Colour toColour(const btVector3& c) {
   return {static_cast<float>(c.x()), static_cast<float>(c.y()), static_cast<float>(c.z())};
@@ -36,7 +36,7 @@ class LineCollector : public btIDebugDraw {
 
   using btIDebugDraw::drawLine;
   void drawLine(const btVector3& from, const btVector3& to, const btVector3& colour) override {
-    const Line line = {toVec3(from), toVec3(to), toColour(colour), 1.0F};
+    const Line line = {fromBullet(from), fromBullet(to), toColour(colour), 1.0F};
     if (isNear(line.from_W) && isNear(line.to_W)) lines_.push_back(line);
   }
   void drawContactPoint(const btVector3& point, const btVector3& normal, btScalar /*distance*/,

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "tandem/bullet_bridge/convert.h"
+
 namespace tandem::view {
 namespace {
 
@@ -26,15 +28,6 @@ Colour colourOf(const btCollisionObject& object, std::uint32_t number) {
   if (object.isStaticObject()) return kStaticColour;
   if (object.isKinematicObject()) return kKinematicColour;
   return kDynamicColours[number % kDynamicColours.size()];
-}
-
-void setPose(Solid& solid, const btTransform& X_WB) {
-  const btVector3& p = X_WB.getOrigin();
-  const btQuaternion q = X_WB.getRotation();
-  solid.p_WB = {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
-  solid.q_WB = Quat(static_cast<double>(q.w()), static_cast<double>(q.x()),
-                    static_cast<double>(q.y()), static_cast<double>(q.z()));
-  solid.q_WB.normalize();
 }
 
 bool hasFinitePose(const Solid& solid) {
@@ -62,7 +55,8 @@ void WorldLook::addSolid(DrawList& list, const btCollisionObject& object) {
   solid.name = std::move(name);
   solid.is_ghost = !object.hasContactResponse();
   solid.has_grid = object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
-  setPose(solid, object.getWorldTransform());
+  solid.p_WB = fromBullet(object.getWorldTransform().getOrigin());
+  solid.q_WB = fromBullet(object.getWorldTransform().getRotation());
   if (!solid.mesh->indices.empty() && hasFinitePose(solid)) list.solids.push_back(std::move(solid));
 }
 

@@ -70,7 +70,7 @@ void HandInput::moveHand(MouseDevice& mouse, const Eye& eye, PictureSize size, d
       plane.p_W = *target;
   const auto ray = computeRay(eye, size, pointer_);
   if (!ray) return;
-  const auto target = computePointerTarget({ray->p_W, ray->d_W}, plane, mouse.reach());
+  const auto target = computePointerTarget(*ray, plane, mouse.reach());
   if (target) mouse.moveTo(*target, time);
 }
 
