@@ -91,14 +91,7 @@ demonstrate_live() {
   echo "${runs[0]}/report.html"
 }
 
-step "Looking for packages that are missing"
-"$checkout/scripts/packages.sh" install build demo
-
-step "Configuring the build"
-# The tests' packages are not needed here. If they are installed, the build folder stays usable for test.sh.
-tests=ON
-[[ -z "$("$checkout/scripts/packages.sh" missing test)" ]] || tests=OFF
-configure_preset release "-DTANDEM_BUILD_TESTS=$tests"
+prepare_release build demo
 step "Building $program on $(nproc) cores; a few minutes the first time"
 build_preset release "$program"
 

@@ -28,3 +28,14 @@ build_preset() {
   shift
   (cd "$checkout" && cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"})
 }
+
+# prepare_release GROUP...: installs the groups' packages and configures release for somebody who wants no tests. If the
+# tests' packages are installed, the build folder stays usable for test.sh.
+prepare_release() {
+  local tests=ON
+  step "Looking for packages that are missing"
+  "$checkout/scripts/packages.sh" install "$@"
+  step "Configuring the build"
+  [[ -z "$("$checkout/scripts/packages.sh" missing test)" ]] || tests=OFF
+  configure_preset release "-DTANDEM_BUILD_TESTS=$tests"
+}

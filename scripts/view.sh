@@ -10,14 +10,7 @@ case "${1:-}" in
   -h|--help) sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
 esac
 
-step "Looking for packages that are missing"
-"$checkout/scripts/packages.sh" install build view
-
-step "Configuring the build"
-# If the tests' packages are installed, the build folder stays usable for test.sh.
-tests=ON
-[[ -z "$("$checkout/scripts/packages.sh" missing test)" ]] || tests=OFF
-configure_preset release "-DTANDEM_BUILD_TESTS=$tests"
+prepare_release build view
 step "Building the window on $(nproc) cores; a few minutes the first time"
 build_preset release tandem tandem-view
 
