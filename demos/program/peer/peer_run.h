@@ -23,7 +23,7 @@ struct PeerReport {
   double coherency = 0.0;             ///< own object copy against the other's as received [m]
 };
 
-/// What a PeerRun leaves behind, and when it ends.
+/// Tells whether a PeerRun leaves something behind, and when it ends.
 enum class PeerPurpose {
   kResults,  ///< a recording; it ends with the scenario's duration
   kSession,  ///< nothing; it goes on until somebody stops it

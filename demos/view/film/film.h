@@ -9,7 +9,7 @@
 
 namespace tandem::view {
 
-/// What the user asks of a film on the command line.
+/// A user's wishes for a film, from the command line.
 struct FilmSettings {
   std::filesystem::path scenario;
   std::vector<std::string> overrides;  ///< "key=value"

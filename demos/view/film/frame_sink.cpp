@@ -36,7 +36,7 @@ class PictureFolder final : public FrameSink {
   int count_ = 0;
 };
 
-/// What ffmpeg makes of the frames: settings that were compared for size and look.
+/// Settings of ffmpeg for each kind of film, compared for size and look.
 const std::map<std::string, std::string> kEncoders = {
     {".mp4", "-c:v libx264 -crf 26 -pix_fmt yuv420p -movflags +faststart"},
     {".webm", "-c:v libvpx-vp9 -crf 36 -b:v 0 -pix_fmt yuv420p"},

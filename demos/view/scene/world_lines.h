@@ -8,7 +8,7 @@
 
 namespace tandem::view {
 
-/// What a picture shows of a world besides its solids.
+/// Parts of a world that a picture shows besides its solids.
 struct WorldDetails {
   bool joints = false;    ///< frames and limits of the constraints
   bool contacts = false;  ///< contact points, each as a short line along its normal

@@ -8,7 +8,7 @@
 
 namespace tandem::view {
 
-/// What the user chose on the panel in this frame.
+/// The user's choices on the panel in this frame.
 struct PanelWishes {
   bool restarts = false;         ///< the world is to begin anew
   bool changes_scheme = false;   ///< the scheme or gains have changed; the world goes on
@@ -24,7 +24,7 @@ class Panel {
   [[nodiscard]] PanelWishes show(demos::Scenario& scenario, const SessionLook& look,
                                  const std::vector<std::string>& notes, bool may_change);
 
-  /// What the user wants to see besides bodies.
+  /// The parts of the world that the user wants to see besides bodies.
   [[nodiscard]] const WorldDetails& details() const noexcept { return details_; }
 
  private:

@@ -22,7 +22,7 @@ struct MouseSettings {
   double workspace = 0.4;         ///< radius about the start in which targets may be [m], > 0
 };
 
-/// What a picture shows of a mouse.
+/// The parts of a mouse that a picture shows.
 struct MouseView {
   Vec3 handle_W = Vec3::Zero();  ///< x, the haptic interface point [m]
   Vec3 cursor_W = Vec3::Zero();  ///< c, which the hand pulls the handle to [m]
