@@ -4,6 +4,7 @@
 #include "demos/program/files/output_folder.h"
 
 #include <algorithm>
+#include <barrier>
 #include <random>
 #include <thread>
 
@@ -63,6 +64,23 @@ TEST(OutputFolder, SecondRecordingOfADeviceIsRefused) {
   EXPECT_NE(refused.err.find(file + ": another tandem is writing"), std::string::npos)
       << refused.err;
   EXPECT_EQ(readFile(file), "earlier");
+}
+
+// Both sites of a live run end at the same moment.
+TEST(OutputFolder, LastTwoUsersAtOnceLeaveNoLock) {
+  const TempFolder folder;
+  const std::string file = folder / "lock";
+  const auto use = [&](FolderPart part, std::barrier<>& together) {
+    const demos::OutputLock lock(file, file, part);
+    together.arrive_and_wait();
+  };
+  for (int i = 0; i < 500; ++i) {
+    std::barrier together(2);
+    std::thread other([&] { use(FolderPart::kSite2, together); });
+    use(FolderPart::kSite1, together);
+    other.join();
+    ASSERT_FALSE(std::filesystem::exists(file)) << "after " << i << " pairs";
+  }
 }
 
 TEST(OutputFolder, KilledProgramLeavesTheEarlierResultAndNoLock) {

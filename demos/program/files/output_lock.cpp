@@ -42,8 +42,10 @@ OutputLock::OutputLock(const std::filesystem::path& file, const std::string& nam
 }
 
 OutputLock::~OutputLock() {
-  // The last user removes the file; whoever opened it meanwhile makes a new one.
-  if (lock(FolderPart::kAll)) ::unlink(path_.c_str());
+  // The last user removes the file; whoever opened it meanwhile makes a new one. Each lets its part
+  // go first: two that end at once would keep each other from having it all.
+  unlock();
+  if (lock(FolderPart::kAll) && isStillThere()) ::unlink(path_.c_str());
   ::close(file_);
 }
 
@@ -55,11 +57,18 @@ void OutputLock::open(const std::string& name) {
 
 /// Locks a byte for each site, or all bytes. Such a lock belongs to the open file.
 bool OutputLock::lock(FolderPart part) const noexcept {
+  const off_t start = part == FolderPart::kSite2 ? 1 : 0;
+  return set(F_WRLCK, start, part == FolderPart::kAll ? 0 : 1);  // 0: to the end
+}
+
+void OutputLock::unlock() const noexcept { set(F_UNLCK, 0, 0); }
+
+bool OutputLock::set(short kind, off_t start, off_t length) const noexcept {
   struct flock range {};
-  range.l_type = F_WRLCK;
+  range.l_type = kind;
   range.l_whence = SEEK_SET;
-  range.l_start = part == FolderPart::kSite2 ? 1 : 0;
-  range.l_len = part == FolderPart::kAll ? 0 : 1;  // 0: to the end
+  range.l_start = start;
+  range.l_len = length;
   return ::fcntl(file_, F_OFD_SETLK, &range) == 0;
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include <sys/types.h>
+
 namespace tandem::demos {
 
 /// Part of an output folder that one program writes. Both sites of a live run may share a folder.
@@ -24,6 +26,8 @@ class OutputLock {
  private:
   void open(const std::string& name);
   [[nodiscard]] bool lock(FolderPart part) const noexcept;
+  void unlock() const noexcept;
+  bool set(short kind, off_t start, off_t length) const noexcept;
   [[nodiscard]] bool isStillThere() const noexcept;
 
   std::filesystem::path path_;
