@@ -43,21 +43,15 @@ std::size_t readChoice(const Place& place, const toml::node& node,
   refuse(place, node, fmt::format("one of {}", fmt::join(choices, ", ")));
 }
 
-ScenarioKey makeKey(const KeyText& text, const std::string& allowed) {
-  ScenarioKey key;
-  key.name = text.name;
-  key.meaning = text.meaning;
-  key.unit = text.unit;
-  key.allowed = allowed + (text.note.empty() || allowed.empty() ? "" : "; ") + text.note;
-  key.otherwise = text.otherwise;
-  return key;
+std::string joinNote(const std::string& allowed, const std::string& note) {
+  return allowed + (note.empty() || allowed.empty() ? "" : "; ") + note;
 }
 
 std::string describeRange(const FieldRange& range) {
   const char* above = range.excludes_least ? "> " : "";
   if (range.most >= kMost)
     return fmt::format("{}{}", range.excludes_least ? "> " : ">= ", range.least);
-  return fmt::format("{}{} to {:.0f}", above, range.least, range.most);
+  return fmt::format("{}{} to {}", above, range.least, range.most);
 }
 
 std::string describeChoices(const std::vector<std::string>& choices) {

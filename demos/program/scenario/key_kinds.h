@@ -1,11 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "scenario/keys.h"
 
-// One function for each kind of key. `member` finds the value in a Scenario: a pointer to a member,
-// or a lambda for what lies deeper.
+// One function for each kind of key. `member` finds the value in its owner, a Scenario unless said
+// otherwise: a pointer to a member, or a lambda for what lies deeper.
 
 namespace tandem::demos {
 
@@ -32,8 +33,20 @@ constexpr FieldRange kProbability{0.0, 1.0, false, "a probability, 0 to 1"};
 [[nodiscard]] std::size_t readChoice(const Place& place, const toml::node& node,
                                      const std::vector<std::string>& choices);
 
+/// A key's allowed values, and its note after them.
+[[nodiscard]] std::string joinNote(const std::string& allowed, const std::string& note);
+
 /// A key without its functions; `allowed` stands before the note.
-[[nodiscard]] ScenarioKey makeKey(const KeyText& text, const std::string& allowed);
+template <typename Owner = Scenario>
+[[nodiscard]] KeyOf<Owner> makeKey(const KeyText& text, const std::string& allowed) {
+  KeyOf<Owner> key;
+  key.name = text.name;
+  key.meaning = text.meaning;
+  key.unit = text.unit;
+  key.allowed = joinNote(allowed, text.note);
+  key.otherwise = text.otherwise;
+  return key;
+}
 /// "> 0", "10 to 100000"; as the document writes a range.
 [[nodiscard]] std::string describeRange(const FieldRange& range);
 /// "`a`, `b`".
@@ -52,48 +65,53 @@ template <typename Value>
 [[nodiscard]] nlohmann::json toJson(const Value& value) {
   return value;
 }
+template <typename Value>
+[[nodiscard]] nlohmann::json toJson(const std::optional<Value>& value) {
+  return value ? toJson(*value) : nlohmann::json();
+}
 
 /// A key of the value that `read` makes of a node.
-template <typename Read, typename Member>
-ScenarioKey valueKey(const KeyText& text, const std::string& allowed, Read read, Member member) {
-  ScenarioKey key = makeKey(text, allowed);
-  key.read = [=](Scenario& s, const Place& place, const toml::node& node) {
-    std::invoke(member, s) = read(place, node);
+template <typename Owner = Scenario, typename Read, typename Member>
+KeyOf<Owner> valueKey(const KeyText& text, const std::string& allowed, Read read, Member member) {
+  auto key = makeKey<Owner>(text, allowed);
+  key.read = [=](Owner& owner, const Place& place, const toml::node& node) {
+    std::invoke(member, owner) = read(place, node);
   };
-  key.show = [=](const Scenario& s) { return toJson(std::invoke(member, s)); };
+  key.show = [=](const Owner& owner) { return toJson(std::invoke(member, owner)); };
   return key;
 }
 
-template <typename Member>
-ScenarioKey numberKey(const KeyText& text, const FieldRange& range, Member member) {
+template <typename Owner = Scenario, typename Member>
+KeyOf<Owner> numberKey(const KeyText& text, const FieldRange& range, Member member) {
   const auto read = [range](const Place& place, const toml::node& node) {
     return readNumber(place, node, range);
   };
-  return valueKey(text, describeRange(range), read, member);
+  return valueKey<Owner>(text, describeRange(range), read, member);
 }
 
-template <typename Member>
-ScenarioKey vectorKey(const KeyText& text, Member member) {
-  return valueKey(text, "three numbers of at most 1e6", &readVector, member);
+template <typename Owner = Scenario, typename Member>
+KeyOf<Owner> vectorKey(const KeyText& text, Member member) {
+  return valueKey<Owner>(text, "three numbers of at most 1e6", &readVector, member);
 }
 
-template <typename Member>
-ScenarioKey textKey(const KeyText& text, Member member) {
-  return valueKey(text, "text", &readString, member);
+template <typename Owner = Scenario, typename Member>
+KeyOf<Owner> textKey(const KeyText& text, Member member) {
+  return valueKey<Owner>(text, "text", &readString, member);
 }
 
-template <typename Member>
-ScenarioKey flagKey(const KeyText& text, Member member) {
-  return valueKey(text, "true, false", &readFlag, member);
+template <typename Owner = Scenario, typename Member>
+KeyOf<Owner> flagKey(const KeyText& text, Member member) {
+  return valueKey<Owner>(text, "true, false", &readFlag, member);
 }
 
 /// A choice whose text itself is the value.
-template <typename Member>
-ScenarioKey choiceKey(const KeyText& text, const std::vector<std::string>& choices, Member member) {
+template <typename Owner = Scenario, typename Member>
+KeyOf<Owner> choiceKey(const KeyText& text, const std::vector<std::string>& choices,
+                       Member member) {
   const auto read = [choices](const Place& place, const toml::node& node) {
     return choices[readChoice(place, node, choices)];
   };
-  return valueKey(text, describeChoices(choices), read, member);
+  return valueKey<Owner>(text, describeChoices(choices), read, member);
 }
 
 /// A choice between the values of an enumeration, which count from 0 in the order of `choices`.

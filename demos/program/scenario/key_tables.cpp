@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "scenario/body_keys.h"
 #include "scenario/keys.h"
 
 namespace tandem::demos {
@@ -17,20 +18,28 @@ std::string show(const nlohmann::json& value) {
   return "`[" + all + "]`";
 }
 
-std::string makeRow(const ScenarioKey& key, const std::string& name) {
-  const std::string value = key.otherwise.empty() ? show(key.show(Scenario{})) : key.otherwise;
+template <typename Owner>
+std::string makeRow(const KeyOf<Owner>& key, const std::string& name) {
+  const std::string value = key.otherwise.empty() ? show(key.show(Owner{})) : key.otherwise;
   const std::string unit = key.unit.empty() ? "" : " " + key.unit;
   return fmt::format("| `{}` | {} |{} | {} | {} |\n", name, key.meaning, unit, value, key.allowed);
 }
 
+template <typename Owner>
+std::string makeTable(const std::vector<KeyOf<Owner>>& keys) {
+  std::string table = kHead;
+  for (const KeyOf<Owner>& key : keys) table += makeRow(key, key.name);
+  return table;
+}
+
 }  // namespace
 
-std::array<std::string, 2> describeKeys() {
+std::array<std::string, 4> describeKeys() {
   const std::string first_site = "site1.";
-  std::array<std::string, 2> tables = {kHead, kHead};
+  std::array<std::string, 4> tables = {kHead, makeTable(bodyKeys()), makeTable(jointKeys()), kHead};
   for (const ScenarioKey& key : scenarioKeys()) {
     if (key.name.starts_with(first_site)) {
-      tables[1] += makeRow(key, key.name.substr(first_site.size()));
+      tables[3] += makeRow(key, key.name.substr(first_site.size()));
     } else if (!key.name.starts_with("site")) {
       tables[0] += makeRow(key, key.name);
     }

@@ -8,7 +8,10 @@
 
 #include "tandem/coordination/scheme.h"
 
+#include "scenario/body_keys.h"
 #include "scenario/key_kinds.h"
+#include "scenario/key_rows.h"
+#include "scenario/table_keys.h"
 
 namespace tandem::demos {
 namespace {
@@ -18,6 +21,8 @@ using Keys = std::vector<ScenarioKey>;
 
 const std::vector<std::string> kContactModels = {"island", "native_rigid", "native_soft",
                                                  "spring_6dof", "point_to_point"};
+
+constexpr std::size_t kMostBodies = 500;
 
 ScenarioKey own(ScenarioKey key) {
   key.is_own = true;
@@ -40,22 +45,6 @@ std::uint64_t readSeed(const Place& place, const toml::node& node) {
   const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
   if (!value || *value < 0) refuse(place, node, "a whole number, 0 or more");
   return static_cast<std::uint64_t>(*value);
-}
-
-/// Lists of `count` numbers each. An empty list is one too.
-template <std::size_t count>
-std::vector<std::array<double, count>> readRows(const Place& place, const toml::node& node,
-                                                const FieldRange& range) {
-  const toml::array* rows = node.as_array();
-  if (!rows) refuse(place, node, range.allowed);
-  std::vector<std::array<double, count>> read;
-  for (const toml::node& row : *rows) {
-    const toml::array* values = row.as_array();
-    if (!values || values->size() != count) refuse(place, node, range.allowed);
-    std::array<double, count>& numbers = read.emplace_back();
-    for (std::size_t i = 0; i < count; ++i) numbers[i] = readNumber(place, (*values)[i], range);
-  }
-  return read;
 }
 
 std::vector<std::array<double, 4>> readWaypoints(const Place& place, const toml::node& node) {
@@ -123,14 +112,16 @@ std::vector<std::string> schemeNames() {
 Keys makeExperimentKeys() {
   return {
       own(textKey({"title", "heading in the report", "", "", "empty"}, &S::title)),
-      choiceKey({"experiment.kind", "the scene; `user_contact` has no cube"},
-                {"cooperative_manipulation", "user_contact", "playground"}, &S::kind),
+      own(textKey({"text", "what to try, in the window", "", "", "empty"}, &S::text)),
+      choiceKey({"experiment.kind",
+                 "the scene; `user_contact` has no cube, `world` has the bodies of the file"},
+                {"cooperative_manipulation", "user_contact", "playground", "world"}, &S::kind),
       choiceKey({"experiment.scheme", "how a remote user is shown"}, schemeNames(), &S::scheme),
       own(numberKey({"experiment.duration", "simulated time", "s", "at least one haptic period"},
                     {0.0, 3600.0, true, "seconds above 0, at most 3600"}, &S::duration)),
       axisKey(),
       flagKey({"experiment.guide", "slot: devices, proxies and cube move along x and do not turn",
-               "", "`playground`: false"},
+               "", "`playground`, `world`: false"},
               &S::guide),
   };
 }
@@ -221,9 +212,32 @@ Keys makeWorldKeys() {
   return {
       numberKey({"world.gravity", "along -z", "m/s^2"}, kNotNegative, &S::gravity),
       flagKey({"world.floor", "a floor under the cube (2 m x 2 m); no guide"}, &S::floor),
-      numberKey({"world.friction", "of all bodies"}, kNotNegative, &S::friction),
+      numberKey({"world.friction", "of all bodies that say nothing else"}, kNotNegative,
+                &S::friction),
       boxesKey(),
+      tablesKey({"body", "bodies of a `world`: tables `[[body]]`, below", "", "", "none"},
+                bodyKeys(), kMostBodies, &S::bodies),
+      tablesKey({"joint", "joints of a `world`: tables `[[joint]]`, below", "", "", "none"},
+                jointKeys(), kMostBodies, &S::joints),
   };
+}
+
+Keys makeCameraKeys() {
+  using C = CameraScenario;
+  const auto camera = [](auto member) {
+    return [member](auto& s) -> auto& { return s.camera.*member; };
+  };
+  Keys keys = {
+      vectorKey({"camera.target", "a picture's middle", "m"}, camera(&C::target)),
+      numberKey({"camera.distance", "of the eye; 0: chosen, with target and direction", "m"},
+                kNotNegative, camera(&C::distance)),
+      numberKey({"camera.azimuth", "of the eye about z, from x", "rad"},
+                {-7.0, 7.0, false, "-7 to 7"}, camera(&C::azimuth)),
+      numberKey({"camera.elevation", "of the eye", "rad"}, {-1.5, 1.5, false, "-1.5 to 1.5"},
+                camera(&C::elevation)),
+  };
+  for (ScenarioKey& key : keys) key.is_own = true;
+  return keys;
 }
 
 Keys makeHandKeys(std::size_t i) {
@@ -251,9 +265,11 @@ Keys makeHandKeys(std::size_t i) {
            "of `csv`: `t,force_x,force_y,force_z`, forces of at most 1e6; path from the scenario",
            "s, N", "", "none"},
           hand(&Hand::file)),
-      vectorKey({site + "start_offset", "of the device, from \"just in contact on the axis\"", "m",
-                 "off the axis: no guide"},
-                hand(&Hand::start_offset)),
+      vectorKey(
+          {site + "start_offset",
+           "of the device, from \"just in contact on the axis\"; in a `world`: from the origin",
+           "m", "off the axis: no guide"},
+          hand(&Hand::start_offset)),
       valueKey({site + "grips",
                 "times in which the hand holds the cube that it touches: list of `[from, to]`", "s",
                 "no guide, island, handoff", "none"},
@@ -265,8 +281,9 @@ Keys makeHandKeys(std::size_t i) {
 
 Keys makeKeys() {
   Keys all;
-  for (const Keys& part : {makeExperimentKeys(), makeCouplingKeys(), makeBodyKeys(),
-                           makeNetworkKeys(), makeWorldKeys(), makeHandKeys(0), makeHandKeys(1)})
+  for (const Keys& part :
+       {makeExperimentKeys(), makeCouplingKeys(), makeBodyKeys(), makeNetworkKeys(),
+        makeWorldKeys(), makeCameraKeys(), makeHandKeys(0), makeHandKeys(1)})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

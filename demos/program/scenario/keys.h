@@ -11,8 +11,9 @@
 
 namespace tandem::demos {
 
-/// A key of a scenario file, and its row in docs/scenarios.md.
-struct ScenarioKey {
+/// A key of a table of a scenario file, and its row in docs/scenarios.md. `Owner` holds its value.
+template <typename Owner>
+struct KeyOf {
   std::string name;
   std::string meaning;    ///< Markdown, as the other texts
   std::string unit;       ///< empty: none
@@ -20,9 +21,11 @@ struct ScenarioKey {
   std::string otherwise;  ///< the default in words; empty: as a new Scenario shows it
   bool is_own = false;    ///< two sites of one cooperation may differ in it
   /// Throws UsageError if the node is none of the allowed values.
-  std::function<void(Scenario&, const Place&, const toml::node&)> read;
-  std::function<nlohmann::json(const Scenario&)> show;
+  std::function<void(Owner&, const Place&, const toml::node&)> read;
+  std::function<nlohmann::json(const Owner&)> show;
 };
+
+using ScenarioKey = KeyOf<Scenario>;
 
 /// All keys in the order of the document.
 [[nodiscard]] const std::vector<ScenarioKey>& scenarioKeys();

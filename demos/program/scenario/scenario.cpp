@@ -7,7 +7,9 @@
 
 #include "tandem/plugin/toml_text.h"
 
+#include "scenario/body_checks.h"
 #include "scenario/keys.h"
+#include "scenario/table_keys.h"
 #include "scenario/toml_input.h"
 #include "terminal/usage_error.h"
 
@@ -37,9 +39,7 @@ void applyKey(Scenario& scenario, const Place& place, const toml::node& node) {
       if (const auto dot = name.find('.'); dot != std::string::npos)
         if (const std::string t = name.substr(0, dot) + ".*"; tables.back() != t)
           tables.push_back(t);
-    throw UsageError(fmt::format("{}: {} = {}: there is no such key; allowed: {}", place.file,
-                                 place.key, show(node),
-                                 fmt::join(near.empty() ? tables : near, ", ")));
+    refuseKey(place, node, near.empty() ? tables : near);
   }
   key->second->read(scenario, place, node);
 }
@@ -145,12 +145,13 @@ void checkTogether(const Scenario& s, const std::string& file) {
       refuse_pair(site + ".start_offset: off the axis needs experiment.guide = false");
     if (!hand.grips.empty() && !s.mayGrip()) refuse_pair(site + ".grips: " + kGripNeeds);
   }
-  if (s.guide && s.kind == "playground")
-    refuse_pair("experiment.guide = true: a playground is free; set it to false");
+  if (s.guide && (s.kind == "playground" || s.isWorld()))
+    refuse_pair(fmt::format("experiment.guide = true: a {} is free; set it to false", s.kind));
   if (s.guide && (s.floor || !s.boxes.empty()))
     refuse_pair(
         "world.floor, world.boxes: an enclosure's slot holds nothing else; set experiment.guide = "
         "false");
+  checkBodies(s, refuse_pair);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,8 @@
 #include "tandem/coordination/simulated_link.h"
 #include "tandem/coordination/types.h"
 #include "tandem/plugin/site_settings.h"
+
+#include "scenario/body_scenario.h"
 
 namespace tandem::demos {
 
@@ -44,6 +47,7 @@ inline constexpr const char* kGripNeeds =
 /// A scenario file, checked. Keys, meanings and units: docs/scenarios.md.
 struct Scenario {
   std::string title;
+  std::string text;  ///< what to try
   std::filesystem::path file;
 
   std::string kind = "cooperative_manipulation";
@@ -74,13 +78,20 @@ struct Scenario {
   bool floor = false;     ///< under the object
   double friction = 0.5;  ///< friction of all bodies of the world
   std::vector<NeighbourBox> boxes;
+  std::vector<BodyScenario> bodies;  ///< of a world
+  std::vector<JointScenario> joints;
+  CameraScenario camera;
 
   /// True if hands can hold the object.
   [[nodiscard]] bool mayGrip() const {
     return hasObject() && !guide && site.contact_model == ContactModel::kIsland &&
            site.injection == Injection::kHandoff;
   }
-  [[nodiscard]] bool hasObject() const { return kind != "user_contact"; }
+  [[nodiscard]] bool hasObject() const {
+    return isWorld() ? std::ranges::any_of(bodies, &BodyScenario::shared) : kind != "user_contact";
+  }
+  /// True if its bodies are those of its tables [[body]].
+  [[nodiscard]] bool isWorld() const { return kind == "world"; }
 };
 
 /// Reads a scenario and applies `overrides` ("key=value", dotted key). Throws UsageError, one line:
@@ -98,7 +109,8 @@ struct Scenario {
 /// True for a key that is a site's own business: two sites of one cooperation may differ in it.
 [[nodiscard]] bool isOwnKey(std::string_view name);
 
-/// The two tables of docs/scenarios.md in Markdown: all keys, and those of each user's hand.
-[[nodiscard]] std::array<std::string, 2> describeKeys();
+/// The tables of docs/scenarios.md in Markdown: all keys, those of each body and joint, and those
+/// of each user's hand.
+[[nodiscard]] std::array<std::string, 4> describeKeys();
 
 }  // namespace tandem::demos

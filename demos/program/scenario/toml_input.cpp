@@ -20,9 +20,16 @@ std::string show(const toml::node& node) {
   return line.size() > 60 ? line.substr(0, 57) + "..." : line;
 }
 
+std::string describePlace(const Place& place, const toml::node& node) {
+  // Only values of a file have a line; those of --set and of tests have no path.
+  const bool has_line = node.source().path && node.source().begin.line > 0;
+  return has_line ? fmt::format("{}:{}: {}", place.file, node.source().begin.line, place.key)
+                  : fmt::format("{}: {}", place.file, place.key);
+}
+
 void refuse(const Place& place, const toml::node& node, const std::string& allowed) {
   throw UsageError(
-      fmt::format("{}: {} = {}: must be {}", place.file, place.key, show(node), allowed));
+      fmt::format("{} = {}: must be {}", describePlace(place, node), show(node), allowed));
 }
 
 toml::table parseToml(const std::string& text, const std::string& name) {

@@ -17,7 +17,10 @@ struct Place {
 /// The value in one line of at most 60 characters.
 [[nodiscard]] std::string show(const toml::node& node);
 
-/// Throws UsageError "<file>: <key> = <value>: must be <allowed>".
+/// "<file>:<line>: <key>", without the line where there is none.
+[[nodiscard]] std::string describePlace(const Place& place, const toml::node& node);
+
+/// Throws UsageError "<file>:<line>: <key> = <value>: must be <allowed>".
 [[noreturn]] void refuse(const Place& place, const toml::node& node, const std::string& allowed);
 
 /// Parses a TOML text. Throws UsageError with `name` and the line if it is invalid or nests too
