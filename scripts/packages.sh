@@ -15,7 +15,7 @@ packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libbullet-dev libeigen3-dev libfmt-dev \
                 nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev libsodium-dev \
-                libftdi1-dev libhidapi-dev ;;
+                libftdi1-dev libhidapi-dev libtinyobjloader-dev ;;
     demo)  echo python3-matplotlib ;;
     view)  echo libglfw3-dev libimgui-dev libopengl-dev libegl-dev libgl1 libgl1-mesa-dri fonts-dejavu-core ;;
     test)  echo libgtest-dev python3 ccache xvfb xdotool ;;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "terminal/usage_error.h"
+#include "world/received_object.h"
 
 namespace tandem::demos {
 namespace {
@@ -75,9 +76,10 @@ double PeerRun::receivedMean() const {
   for (std::size_t i = 0; i < recording_->ticks().size(); ++i) {
     for (; next != end && next->arrival.time <= recording_->ticks()[i].time; ++next) {
       const StatePacket& packet = next->arrival.packet;
-      if (packet.sequence < newest || packet.object_count == 0) continue;
+      const auto first = findObject(packet, 0);
+      if (packet.sequence < newest || !first) continue;
       newest = packet.sequence;
-      received_W = packet.objects[0].state.p_W;
+      received_W = first->p_W;
     }
     sum += (recording_->object(i, 0).island.p_W - received_W).norm();
   }
@@ -202,8 +204,8 @@ void PeerRun::run(const std::function<bool()>& stop,
 double PeerRun::computeCoherency() const noexcept {
   const Site& site = world_->site();
   if (!scenario_.hasObject()) return 0.0;
-  const StatePacket& latest = site.latest(0);
-  const Vec3& received_W = latest.object_count > 0 ? latest.objects[0].state.p_W : object_start_W_;
+  const auto received = findObject(site.latest(0), 0);
+  const Vec3& received_W = received ? received->p_W : object_start_W_;
   return (site.object(0).p_W - received_W).norm();
 }
 

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "world/received_object.h"
+
 namespace tandem::demos {
 namespace {
 
@@ -33,7 +35,7 @@ VirtualRun::VirtualRun(const Scenario& scenario)
                                                  site.objectCount(), site.proxyBody(0) ? 1 : 0);
     site.record(recordings_[s].get());
   }
-  if (scenario.hasObject()) object_start_W_ = worlds_[0]->site().object(0).p_W;
+  if (scenario.hasObject()) received_W_.fill(worlds_[0]->site().object(0).p_W);
   frames_.reserve(static_cast<std::size_t>(scenario.duration * kFrameRate) + 2);
 }
 
@@ -64,17 +66,16 @@ void VirtualRun::tickAll(std::uint64_t tick) {
 
 void VirtualRun::addCoherency() {
   if (!scenario_.hasObject()) return;
-  const Vec3& p1_W = worlds_[0]->site().object(0).p_W;
-  const Vec3& p2_W = worlds_[1]->site().object(0).p_W;
-  const double error = (p1_W - p2_W).norm();
+  double error = 0.0;
+  for (ObjectId id = 0; static_cast<int>(id) < worlds_[0]->site().objectCount(); ++id)
+    error = std::max(
+        error, (worlds_[0]->site().object(id).p_W - worlds_[1]->site().object(id).p_W).norm());
   summary_.coherency_mean += error;
   summary_.coherency_max = std::max(summary_.coherency_max, error);
-  for (int s = 0; s < 2; ++s) {
+  for (std::size_t s = 0; s < 2; ++s) {
     const Site& site = worlds_[s]->site();
-    const StatePacket& latest = site.latest(0);
-    const Vec3& received_W =
-        latest.object_count > 0 ? latest.objects[0].state.p_W : object_start_W_;
-    summary_.sites[s].received_mean += (site.object(0).p_W - received_W).norm();
+    if (const auto received = findObject(site.latest(0), 0)) received_W_[s] = received->p_W;
+    summary_.sites[s].received_mean += (site.object(0).p_W - received_W_[s]).norm();
   }
 }
 

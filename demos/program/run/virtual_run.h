@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -26,7 +27,8 @@ struct PlacedSceneBody {
 
 /// Results of a run: the numbers of summary.json.
 struct RunSummary {
-  double coherency_mean = 0.0, coherency_max = 0.0;  ///< |object at site 1 - object at site 2| [m]
+  double coherency_mean = 0.0,
+         coherency_max = 0.0;  ///< the largest |copy at site 1 - at site 2| [m]
   SiteSummary sites[2];
   std::uint64_t state_hash = 0;
   double real_time_factor = 0.0;
@@ -62,7 +64,8 @@ class VirtualRun {
   std::unique_ptr<SimulatedLink> ends_[2];
   std::unique_ptr<SiteWorld> worlds_[2];
   std::unique_ptr<Recording> recordings_[2];
-  Vec3 object_start_W_ = Vec3::Zero();
+  /// First object as each site last heard of it [m].
+  std::array<Vec3, 2> received_W_ = {Vec3::Zero(), Vec3::Zero()};
   std::vector<SceneFrameRecord> frames_;
   RunSummary summary_;
 };

@@ -15,7 +15,17 @@ constexpr double kApart = 1e-3;
 constexpr Colour kNeighbourColour{0.55F, 0.65F, 0.75F}, kObstacleColour{0.45F, 0.45F, 0.47F},
     kFloorColour{0.87F, 0.87F, 0.85F};
 
+/// Of "#rrggbb".
+Colour parseColour(const std::string& text) {
+  const unsigned long bits = std::stoul(text.substr(1), nullptr, 16);
+  const auto channel = [&](int shift) {
+    return static_cast<float>((bits >> shift) & 0xFFu) / 255.0F;
+  };
+  return {channel(16), channel(8), channel(0)};
+}
+
 Colour chooseColour(const demos::SceneBody& body) {
+  if (!body.colour.empty()) return parseColour(body.colour);
   if (body.role == "object") return kObjectColour;
   if (body.role == "proxy") return kOtherColour;
   if (body.name == kFloor) return kFloorColour;

@@ -5,6 +5,8 @@
 #include "tandem/coordination/link.h"
 #include "tandem/coordination/passivity_observer.h"
 
+#include "world/received_object.h"
+
 namespace tandem::view {
 namespace {
 
@@ -49,8 +51,7 @@ std::optional<RigidState> Session::lookAt(Site& site, SessionLook& look) {
     look.energy = site.passivity().available();
     if (site.objectCount() == 0) return;
     look.object_W = site.object(0).p_W;
-    const StatePacket& latest = site.latest(0);
-    if (latest.object_count > 0) received = latest.objects[0].state;
+    received = demos::findObject(site.latest(0), 0);
   });
   return received;
 }

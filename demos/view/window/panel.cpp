@@ -78,6 +78,7 @@ PanelWishes Panel::show(demos::Scenario& scenario, const SessionLook& look,
   ImGui::SetNextWindowSize({kWidth, 0.0F});
   ImGui::Begin("Tandem", nullptr, ImGuiWindowFlags_NoResize);
   ImGui::TextWrapped("%s", scenario.title.c_str());
+  if (!scenario.text.empty()) ImGui::TextWrapped("%s", scenario.text.c_str());
   ImGui::Separator();
   if (may_change)
     showSettings(scenario, wishes);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <btBulletDynamicsCommon.h>
+
+#include "scenario/body_scenario.h"
+
+namespace tandem::demos {
+
+/// Makes Bullet's shapes of a scenario's forms, and keeps them.
+class SceneShapes {
+ public:
+  /// Files are relative to `folder`.
+  explicit SceneShapes(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// The shape of a body, about its origin. Lives as long as this. Throws UsageError for a file
+  /// that cannot be used, or a hull without volume.
+  [[nodiscard]] btCollisionShape& make(const BodyScenario& body);
+
+ private:
+  [[nodiscard]] btCollisionShape& makeForm(const ShapeScenario& form, const std::string& key);
+  [[nodiscard]] std::unique_ptr<btCollisionShape> makeHull(const ShapeScenario& form,
+                                                           const std::string& key) const;
+  [[nodiscard]] std::unique_ptr<btCollisionShape> makeMesh(const ShapeScenario& form);
+
+  std::filesystem::path folder_;
+  std::vector<std::unique_ptr<btTriangleMesh>> meshes_;  // outlive the shapes that use them
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+};
+
+}  // namespace tandem::demos
