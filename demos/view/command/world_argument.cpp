@@ -13,11 +13,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> listWorlds(const fs::path& folder) {
+/// Folders of Tandem's own worlds. The paper's experiments are scenarios.
+std::vector<fs::path> ownFolders() {
+  return {demos::findOwnData("worlds"), demos::findOwnData("scenarios")};
+}
+
+std::vector<std::string> listWorlds() {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  for (const fs::path& folder : ownFolders())
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
   std::ranges::sort(names);
   return names;
 }
@@ -25,14 +31,14 @@ std::vector<std::string> listWorlds(const fs::path& folder) {
 }  // namespace
 
 fs::path findWorld(const std::string& argument) {
-  const fs::path folder = demos::findOwnData("worlds");
   std::error_code ignored;
-  const fs::path own = folder / (argument + ".toml");
-  const bool is_name = argument.find('/') == std::string::npos;
-  if (is_name && fs::is_regular_file(own, ignored)) return own;
+  if (argument.find('/') == std::string::npos)
+    for (const fs::path& folder : ownFolders())
+      if (const fs::path own = folder / (argument + ".toml"); fs::is_regular_file(own, ignored))
+        return own;
   if (fs::exists(argument, ignored)) return argument;
   throw demos::UsageError(fmt::format("{}: there is no such file or world; worlds: {}", argument,
-                                      fmt::join(listWorlds(folder), ", ")));
+                                      fmt::join(listWorlds(), ", ")));
 }
 
 }  // namespace tandem::view
