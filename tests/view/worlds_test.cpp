@@ -128,7 +128,10 @@ TEST(Worlds, HaveAStoryEach) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(TANDEM_WORLDS)) {
     if (entry.path().extension() != ".toml") continue;
-    EXPECT_TRUE(kStories.contains(entry.path().stem())) << entry.path();
+    const std::string name = entry.path().stem();
+    EXPECT_TRUE(kStories.contains(name)) << name;
+    const auto page = std::filesystem::path(TANDEM_WORLDS) / "../../docs/worlds" / (name + ".md");
+    EXPECT_TRUE(std::filesystem::exists(page)) << page;
     ++count;
   }
   EXPECT_EQ(count, kStories.size());
