@@ -12,6 +12,8 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/mouse_device.h"
 
+#include "scenario/keys.h"
+
 namespace tandem::view {
 namespace {
 
@@ -34,6 +36,18 @@ void push(LiveSession& session, MouseDevice& mouse, double way) {
     sleepFor(0.01);
     ASSERT_LT(i, 3000) << "the cube does not move";
   }
+}
+
+/// Waits until time stands still after the tick `before`. Returns the ticks until then.
+std::uint64_t waitForPause(const LiveSession& session, std::uint64_t before = 0) {
+  std::uint64_t last = before;
+  for (int still = 0; still < 10;) {
+    sleepFor(0.02);
+    const std::uint64_t now = session.look()->loop.ticks;
+    still = now == last && now != before ? still + 1 : 0;
+    last = now;
+  }
+  return last;
 }
 
 TEST(LiveSession, IsFeltAndGoesOnFromWhereItWas) {
@@ -70,6 +84,50 @@ TEST(LiveSession, TakesAnotherNetworkAndRefusesABadOne) {
   network.loss = 2.0;
   EXPECT_THROW(session.setNetwork(network), std::invalid_argument);
   EXPECT_TRUE(session.goesOn());
+}
+
+TEST(LiveSession, BulletsOwnContactGoesOnFromWhereTandemsWas) {
+  demos::Scenario scenario = loadCube();
+  MouseDevice mouse = makeMouse(scenario);
+  LiveSession session(scenario, mouse);
+  push(session, mouse, 0.02);
+  const SessionPlaces places = session.end();
+  ASSERT_TRUE(places.areNear());
+
+  for (const ContactModel model :
+       {ContactModel::kNativeRigid, ContactModel::kNativeSoft, ContactModel::kSpring6Dof}) {
+    demos::Scenario native = scenario;
+    native.site.contact_model = model;
+    native.host_rate = 240.0;
+    startHandsAt(places, native);
+    MouseDevice again = makeMouse(native);
+    LiveSession next(native, again, places.bodies);
+    EXPECT_LT((next.look()->object_W - places.bodies.at("cube").p_W).norm(), 2e-3);
+    const double from = next.look()->object_W.x();
+    push(next, again, from + 0.01);
+    EXPECT_EQ(next.look()->status, kTickOk) << demos::nameOf(model);
+  }
+}
+
+TEST(LiveSession, StandsStillWhilePausedAndStepsWhenAsked) {
+  const demos::Scenario scenario = loadCube();
+  MouseDevice mouse = makeMouse(scenario);
+  LiveSession session(scenario, mouse);
+  push(session, mouse, 0.02);
+  session.setPace({1.0, true});
+  // Haptic threads end, the forces settle, and then nothing changes.
+  std::uint64_t ticks = waitForPause(session);
+  const double force = session.look()->force_W.norm();
+  EXPECT_GT(force, 0.1) << "the force that is shown came back after the threads had ended";
+  sleepFor(0.2);
+  EXPECT_EQ(session.look()->loop.ticks, ticks);
+  session.step();
+  const std::uint64_t after_step = waitForPause(session, ticks);
+  EXPECT_GE(after_step, ticks + 16);
+  EXPECT_LE(after_step, ticks + 17);
+  session.setPace({});
+  push(session, mouse, session.look()->object_W.x() + 0.005);
+  EXPECT_EQ(session.look()->status, kTickOk);
 }
 
 }  // namespace

@@ -1,14 +1,28 @@
 #include "session/live_session.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tandem/falcon/monotonic_clock.h"
+
+#include "session/paced_time.h"
 
 namespace tandem::view {
 namespace {
 
-/// From the start of the threads to the first tick [s].
-constexpr double kGetReady = 0.02;
+/// Without haptic threads the sites look at the clock so often [s].
+constexpr double kTurn = 1e-3;
+constexpr double kFarAway = 1000.0;  // [m]
 
 }  // namespace
+
+bool SessionPlaces::areNear() const {
+  const auto is_near = [](const Vec3& p_W) { return (p_W.array().abs() < kFarAway).all(); };
+  const auto is_body_near = [&](const auto& body) {
+    return is_near(body.second.p_W) && body.second.q_WB.coeffs().allFinite();
+  };
+  return std::ranges::all_of(hands_W, is_near) && std::ranges::all_of(bodies, is_body_near);
+}
 
 void startHandsAt(const SessionPlaces& places, demos::Scenario& scenario) {
   const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
@@ -20,55 +34,103 @@ void startHandsAt(const SessionPlaces& places, demos::Scenario& scenario) {
 }
 
 LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
-                         const demos::BodyPlaces& places)
-    : network_(scenario.network),
-      own_(scenario, 0, network_.end(0), device, places),
-      other_(scenario, 1, network_.end(1), places),
-      scene_look_(own_),
+                         const demos::BodyPlaces& places, const Pace& pace)
+    : pair_(scenario, &device, places),
+      scene_look_(pair_.own()),
       host_rate_(scenario.host_rate),
-      may_hold_(scenario.mayGrip()) {
+      may_hold_(scenario.mayGrip()),
+      has_threads_(hasHapticThreads(scenario)),
+      pace_(pace) {
   lookAtWorlds(0.0);
-  begin_ = readMonotonicClock() + kGetReady;
-  HapticLoopSettings settings;
-  settings.begin = begin_;
-  loops_[0] = std::make_unique<HapticLoop>(own_.site(), settings);
-  loops_[1] = std::make_unique<HapticLoop>(other_.site(), settings);
-  network_.start(begin_);
-  host_ = std::jthread([this](const std::stop_token& stop) { stepWorlds(stop); });
+  if (needsThreads()) startThreads();
+  host_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
 }
 
-LiveSession::~LiveSession() { stop(); }
+LiveSession::~LiveSession() = default;
 
-void LiveSession::stop() noexcept {
-  if (!host_.joinable()) return;
-  host_.request_stop();
-  host_.join();
-  for (auto& loop : loops_) loop->stop();
+bool LiveSession::hasHapticThreads(const demos::Scenario& scenario) {
+  return scenario.site.contact_model == ContactModel::kIsland &&
+         scenario.site.injection == Injection::kHandoff;
+}
+
+void LiveSession::setPace(const Pace& pace) {
+  const std::lock_guard lock(mutex_);
+  pace_ = pace;
+}
+
+Pace LiveSession::pace() const {
+  const std::lock_guard lock(mutex_);
+  return pace_;
+}
+
+std::vector<std::string> LiveSession::notes() const {
+  const std::lock_guard lock(mutex_);
+  return notes_;
+}
+
+bool LiveSession::goesOn() const {
+  const std::lock_guard lock(mutex_);
+  if (problem_) std::rethrow_exception(problem_);
+  return true;
 }
 
 SessionPlaces LiveSession::end() {
-  stop();
-  return {{own_.site().hip().p_W, other_.site().hip().p_W}, own_.places()};
+  host_ = {};
+  const auto hand_W = [](demos::SiteWorld& world) { return world.site().hip().p_W; };
+  return {{hand_W(pair_.own()), hand_W(pair_.other())}, pair_.own().places()};
 }
 
-void LiveSession::stepWorlds(const std::stop_token& stop) {
-  for (std::uint64_t step = 1; !stop.stop_requested(); ++step) {
-    const double time = static_cast<double>(step) / host_rate_;
-    sleepUntil(begin_ + time);
-    own_.stepHostUntil(time);
-    other_.stepHostUntil(time);
-    if (may_hold_) own_.hold(wantsHold());
-    if (isLookDue(time)) lookAtWorlds(time);
+void LiveSession::live(const std::stop_token& stop) {
+  try {
+    while (!stop.stop_requested()) needsThreads() ? runThreads(stop) : runPaced(stop);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    problem_ = std::current_exception();
   }
+  pair_.stop();
+}
+
+void LiveSession::startThreads() {
+  pair_.start();
+  const std::lock_guard lock(mutex_);
+  notes_ = pair_.loop().notes();
+}
+
+void LiveSession::runThreads(const std::stop_token& stop) {
+  if (!pair_.isLive()) startThreads();
+  const double steps_done = std::floor(pair_.time() * host_rate_ + 1e-9);
+  for (int step = 1; !stop.stop_requested() && needsThreads(); ++step) {
+    const double time = (steps_done + step) / host_rate_;
+    sleepUntil(pair_.begin() + time);
+    pair_.stepHosts(time);
+    afterSteps(time);
+  }
+  pair_.stop();
+}
+
+void LiveSession::runPaced(const std::stop_token& stop) {
+  PacedTime time(pair_, readMonotonicClock(), pace());
+  for (; !stop.stop_requested() && !needsThreads(); sleepFor(kTurn)) {
+    time.advance(readMonotonicClock(), pace(), steps_.exchange(0));
+    afterSteps(pair_.time());
+  }
+}
+
+void LiveSession::afterSteps(double time) {
+  if (may_hold_) pair_.own().hold(wantsHold());
+  if (isLookDue(readMonotonicClock())) lookAtWorlds(time);
 }
 
 void LiveSession::lookAtWorlds(double time) {
   const auto look = std::make_shared<SessionLook>();
   look->time = time;
   look->list = scene_look_.look(details());
-  look->apart = addGhosts(look->list, other_);
-  lookAt(own_.site(), *look);
-  if (loops_[0]) look->loop = loops_[0]->report();
+  look->apart = addGhosts(look->list, pair_.other());
+  lookAt(pair_.own().site(), *look);
+  if (pair_.isLive())
+    look->loop = pair_.loop().report();
+  else
+    look->loop.ticks = pair_.nextTick();
   publish(look);
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <array>
-#include <memory>
+#include <exception>
 #include <thread>
 
-#include "session/live_network.h"
+#include "session/pace.h"
 #include "session/session.h"
+#include "session/site_pair.h"
 
 namespace tandem::view {
 
@@ -13,41 +14,61 @@ namespace tandem::view {
 struct SessionPlaces {
   std::array<Vec3, 2> hands_W = {Vec3::Zero(), Vec3::Zero()};  ///< of both users [m]
   demos::BodyPlaces bodies;                                    ///< as user 1's site has them
+
+  /// False if something is beyond the 1000 m of packets, after a motion that grew without bounds.
+  [[nodiscard]] bool areNear() const;
 };
 
 /// Lets the hands of a scenario begin at these places.
 void startHandsAt(const SessionPlaces& places, demos::Scenario& scenario);
 
-/// Both sites of a scenario live in one process: two Bullet worlds, two haptic threads at the
-/// scenario's rate, a network between them, and a thread that steps the worlds. User 1 is at the
-/// device, user 2 moves as the scenario says.
+/// Both sites of a scenario in one process. User 1 is at the device, user 2 moves as the scenario
+/// says. A thread steps the worlds. In real time each site has a haptic thread at the scenario's
+/// rate. At another pace, and with Bullet's own contact, which has no haptic rate, the sites tick
+/// in the thread that steps the worlds.
 class LiveSession final : public Session {
  public:
   /// `device` must outlive this. Bodies begin at rest at `places`, or where the scenario says.
   /// Throws as SiteWorld and HapticLoop do.
   LiveSession(const demos::Scenario& scenario, HapticDevice& device,
-              const demos::BodyPlaces& places = {});
+              const demos::BodyPlaces& places = {}, const Pace& pace = {});
   /// Fades the forces and ends all threads.
   ~LiveSession() override;
 
+  /// True if sites of the scenario may tick in haptic threads. Others need a simulated device.
+  [[nodiscard]] static bool hasHapticThreads(const demos::Scenario& scenario);
+
   /// Changes the network while hands touch.
-  void setNetwork(const Impairments& network) { network_.change(network); }
-  [[nodiscard]] std::vector<std::string> notes() const override { return loops_[0]->notes(); }
+  void setNetwork(const Impairments& network) { pair_.network().change(network); }
+  /// Only with a simulated device, such as the mouse: a hand of flesh does not stop. See PacedTime.
+  void setPace(const Pace& pace);
+  /// While paused: time goes on by one host period.
+  void step() noexcept { ++steps_; }
+  [[nodiscard]] std::vector<std::string> notes() const override;
+  [[nodiscard]] bool goesOn() const override;
   /// Ends the session, and tells where it was.
   [[nodiscard]] SessionPlaces end();
 
  private:
-  void stop() noexcept;
-  void stepWorlds(const std::stop_token& stop);
+  void live(const std::stop_token& stop);
+  void runThreads(const std::stop_token& stop);
+  void runPaced(const std::stop_token& stop);
+  void afterSteps(double time);
   void lookAtWorlds(double time);
+  void startThreads();
+  [[nodiscard]] Pace pace() const;
+  [[nodiscard]] bool needsThreads() const { return has_threads_ && pace().isRealTime(); }
 
-  LiveNetwork network_;
-  demos::SiteWorld own_, other_;
+  SitePair pair_;
   SceneLook scene_look_;
   double host_rate_;
-  bool may_hold_;
-  double begin_ = 0.0;  ///< on the monotonic clock [s]
-  std::array<std::unique_ptr<HapticLoop>, 2> loops_;
+  bool may_hold_, has_threads_;
+  std::atomic<int> steps_ = 0;  ///< that the user still wants
+
+  mutable std::mutex mutex_;  // of the three below
+  Pace pace_;
+  std::vector<std::string> notes_;
+  std::exception_ptr problem_;
   std::jthread host_;  // the last: it ends before what it uses
 };
 
