@@ -94,9 +94,39 @@ def push_and_switch(tandem, display, folder):
     check(moved["status"] == 0, "no fault while pushing")
     display.press("1")
     view.wait_for("another scheme", lambda note: note["scheme"] != "remote_dynamic_proxy" and note["time"] > 0.2)
+    pause_and_step(view, display)
+    switch_contact(view, display)
     display.press("Escape")
     check(view.end() == 0, "Escape ends the window with status 0")
     check((folder / "last.png").read_bytes()[:4] == b"\x89PNG", "a screenshot")
+
+
+def pause_and_step(view, display):
+    display.press("space")
+    first = view.wait_for("a pause", lambda note: note["paused"])
+    paused = view.wait_for("a paused world", lambda note: note["frames"] > first["frames"] + 5)
+    later = view.wait_for("later pictures", lambda note: note["frames"] > paused["frames"] + 10)
+    check(all(later[name] == paused[name] for name in ("time", "hip", "object", "force")), "the world stands still")
+    display.press("period")
+    stepped = view.wait_for("a step", lambda note: note["time"] > paused["time"])
+    steps = (stepped["time"] - paused["time"]) * 60.0  # the world's host rate; a key that is held repeats
+    check(abs(steps - round(steps)) < 0.1 and stepped["paused"], f"whole host periods, not {steps}")
+    display.press("space")
+    view.wait_for("the world to go on", lambda note: not note["paused"] and note["time"] > stepped["time"] + 0.5)
+
+
+def switch_contact(view, display):
+    """Bullet's own contact and back. The joints of point_to_point let the cube fly apart, and Tandem begins anew."""
+    for key, contact, keeps_places in (("F4", "native_soft", True), ("F2", "island", True),
+                                       ("F6", "point_to_point", False), ("F2", "island", False)):
+        before = view.notes()[-1]
+        display.press(key)
+        after = view.wait_for(contact, lambda note, wanted=contact: note["contact"] == wanted)
+        way = max(abs(a - b) for a, b in zip(after["object"], before["object"], strict=True))
+        check(way < 0.05 or not keeps_places, f"the cube stays where it was, not {way} m away")
+        view.wait_for("a world that goes on", lambda note, since=after: note["frames"] > since["frames"] + 5)
+    last = view.wait_for("a world that is whole", lambda note: note["time"] > 0.5)
+    check(last["status"] == 0 and max(map(abs, last["object"])) < 1.0, "the cube is back")
 
 
 def meet_a_friend(tandem, worlds, display, folder):

@@ -172,6 +172,13 @@ Scenario loadScenario(const std::filesystem::path& file,
   return scenario;
 }
 
+Scenario changeScenario(const Scenario& scenario, const std::vector<std::string>& overrides) {
+  Scenario changed = scenario;
+  for (const std::string& override_text : overrides) applyOverride(changed, override_text);
+  checkTogether(changed, scenario.file.filename().string());
+  return changed;
+}
+
 nlohmann::json describeScenario(const Scenario& scenario) {
   nlohmann::json all;
   for (const auto& [name, key] : allKeys()) {

@@ -103,6 +103,10 @@ struct Scenario {
 [[nodiscard]] Scenario parseScenario(const std::string& text, const std::string& name,
                                      const std::vector<std::string>& overrides);
 
+/// The same scenario with other values, checked again. Throws UsageError.
+[[nodiscard]] Scenario changeScenario(const Scenario& scenario,
+                                      const std::vector<std::string>& overrides);
+
 /// All keys with their values, nested as in the file.
 [[nodiscard]] nlohmann::json describeScenario(const Scenario& scenario);
 

@@ -6,7 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include "tandem/coordination/scheme.h"
+#include "window/settings_panel.h"
 
 namespace tandem::view {
 namespace {
@@ -20,6 +20,8 @@ constexpr const char* kHelp =
     "left button         hold an object\n"
     "G                   the hand stays\n"
     "1, 2, 3             the scheme\n"
+    "F2 to F6            who carries contact\n"
+    "Space, full stop    pause, and one step\n"
     "right button        turn the view; wheel: zoom\n"
     "middle button       shift the view\n"
     "F1                  this help\n"
@@ -32,38 +34,9 @@ void describe(const char* name, const char* value) {
   ImGui::TextUnformatted(value);
 }
 
-/// A slider for a double whose change takes effect when the user lets go of it.
-bool slide(const char* name, double& value, double least, double most, const char* format) {
-  ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &least, &most, format,
-                      ImGuiSliderFlags_AlwaysClamp);
-  return ImGui::IsItemDeactivatedAfterEdit();
-}
-
-bool slideMilliseconds(const char* name, double& seconds, double most_ms) {
-  double ms = 1e3 * seconds;
-  const bool is_set = slide(name, ms, 0.0, most_ms, "%.0f ms");
-  seconds = 1e-3 * ms;
-  return is_set;
-}
-
-/// A list, and a digit for each scheme. True if the user chose another one.
-bool chooseScheme(std::string& chosen) {
-  std::string wanted = chosen;
-  const bool is_open = ImGui::BeginCombo("scheme", chosen.c_str());
-  int key = GLFW_KEY_1;
-  for (const Scheme* scheme : allSchemes()) {
-    const std::string name(scheme->name());
-    if (ImGui::IsKeyPressed(key++, false)) wanted = name;
-    if (is_open && ImGui::Selectable(name.c_str(), name == chosen)) wanted = name;
-  }
-  if (is_open) ImGui::EndCombo();
-  if (wanted == chosen) return false;
-  chosen = wanted;
-  return true;
-}
-
 const char* say(std::uint32_t status) {
   if (status & kStateNotFinite) return "diverged: lower the gains";
+  if (status & kOutOfRange) return "flew apart: Reset";
   if (status & kDeviceInvalid) return "no usable device reading";
   if (status & kBodyMissing) return "a shared body is missing";
   return status == kTickOk ? "fine" : "see the status bits";
@@ -71,51 +44,41 @@ const char* say(std::uint32_t status) {
 
 }  // namespace
 
-PanelWishes Panel::show(demos::Scenario& scenario, const SessionLook& look,
-                        const std::vector<std::string>& notes, bool may_change) {
+PanelWishes Panel::show(const SessionControl& control, const SessionLook& look) {
+  const demos::Scenario& scenario = control.scenario();
   PanelWishes wishes;
+  wishes.session.scenario = scenario;
+  wishes.session.pace = control.pace();
   ImGui::SetNextWindowPos({10.0F, 10.0F}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kWidth, 0.0F});
   ImGui::Begin("Tandem", nullptr, ImGuiWindowFlags_NoResize);
   ImGui::TextWrapped("%s", scenario.title.c_str());
   if (!scenario.text.empty()) ImGui::TextWrapped("%s", scenario.text.c_str());
   ImGui::Separator();
-  if (may_change)
-    showSettings(scenario, wishes);
-  else
-    describe("scheme", scenario.scheme.c_str());
+  showSettings(control, wishes.session);
   ImGui::Separator();
   showForce(look, scenario.device_max_force > 0.0 ? scenario.device_max_force : 10.0);
-  showState(scenario, look, notes);
+  showState(control, look);
   ImGui::Separator();
-  ImGui::Checkbox("contacts", &details_.contacts);
-  ImGui::SameLine();
-  ImGui::Checkbox("joints", &details_.joints);
-  ImGui::SameLine();
-  ImGui::Checkbox("bounds", &details_.bounds);
-  if (may_change) {
-    wishes.restarts |= ImGui::Button("Reset");
-    ImGui::SameLine();
-  }
-  wishes.takes_picture = ImGui::Button("Picture") || ImGui::IsKeyPressed(GLFW_KEY_F12, false);
-  ImGui::SameLine();
-  if (ImGui::Button("Help") || ImGui::IsKeyPressed(GLFW_KEY_F1, false)) shows_help_ = !shows_help_;
+  showButtons(control, wishes);
   if (shows_help_) ImGui::TextUnformatted(kHelp);
   ImGui::End();
   return wishes;
 }
 
-void Panel::showSettings(demos::Scenario& scenario, PanelWishes& wishes) {
-  wishes.changes_scheme |= chooseScheme(scenario.scheme);
-  Impairments& network = scenario.network;
-  wishes.changes_network |= slideMilliseconds("delay", network.delay, 500.0);
-  wishes.changes_network |= slideMilliseconds("jitter", network.jitter, 100.0);
-  wishes.changes_network |= slide("loss", network.loss, 0.0, 0.5, "%.2f");
-  SiteSettings& site = scenario.site;
-  wishes.changes_scheme |= slide("K_vc", site.contact.stiffness, 100.0, 8000.0, "%.0f N/m");
-  wishes.changes_scheme |= slide("B_vc", site.contact.damping, 0.0, 20.0, "%.1f N s/m");
-  wishes.changes_scheme |= slide("K_t", site.coordination.stiffness, 10.0, 1000.0, "%.0f N/m");
-  wishes.changes_scheme |= slide("B_t", site.coordination.damping, 0.0, 50.0, "%.1f N s/m");
+void Panel::showButtons(const SessionControl& control, PanelWishes& wishes) {
+  ImGui::Checkbox("contacts", &details_.contacts);
+  ImGui::SameLine();
+  ImGui::Checkbox("joints", &details_.joints);
+  ImGui::SameLine();
+  ImGui::Checkbox("bounds", &details_.bounds);
+  if (control.hasBothSites()) {
+    wishes.session.restarts |= ImGui::Button("Reset");
+    ImGui::SameLine();
+  }
+  wishes.takes_picture = ImGui::Button("Picture") || ImGui::IsKeyPressed(GLFW_KEY_F12, false);
+  ImGui::SameLine();
+  if (ImGui::Button("Help") || ImGui::IsKeyPressed(GLFW_KEY_F1, false)) shows_help_ = !shows_help_;
 }
 
 void Panel::showForce(const SessionLook& look, double most) {
@@ -130,12 +93,12 @@ void Panel::showForce(const SessionLook& look, double most) {
                    0.0F, scale, {ImGui::GetContentRegionAvail().x, 60.0F});
 }
 
-void Panel::showState(const demos::Scenario& scenario, const SessionLook& look,
-                      const std::vector<std::string>& notes) {
+void Panel::showState(const SessionControl& control, const SessionLook& look) {
   char text[64];
-  std::snprintf(text, sizeof text, "%.1f s", look.time);
+  const char* const pace = control.pace().is_paused ? ", paused" : "";
+  std::snprintf(text, sizeof text, "%.3f s%s", look.time, pace);
   describe("time", text);
-  if (scenario.hasObject()) {
+  if (control.scenario().hasObject()) {
     std::snprintf(text, sizeof text, "%.2f mm", 1e3 * look.apart);
     describe("copies apart", text);
   }
@@ -146,8 +109,8 @@ void Panel::showState(const demos::Scenario& scenario, const SessionLook& look,
   describe("energy account", text);
   std::snprintf(text, sizeof text, "%.3f ms, %llu skipped", 1e3 * look.loop.late_p99,
                 static_cast<unsigned long long>(look.loop.skipped));
-  describe("late, 99 %", text);
-  for (const std::string& note : notes) ImGui::TextWrapped("%s", note.c_str());
+  describe("late, 99 %", look.loop.late_p99 > 0.0 ? text : "no haptic threads");
+  for (const std::string& note : control.notes()) ImGui::TextWrapped("%s", note.c_str());
 }
 
 }  // namespace tandem::view

@@ -5,19 +5,19 @@
 #include <filesystem>
 #include <memory>
 
-#include "session/session.h"
+#include "session/session_control.h"
 
 namespace tandem::view {
 
 /// A file with one JSON object a line, every 0.1 s, for programs that drive the window: time,
-/// scheme, force, hip, object, apart, status, skipped, frames.
+/// scheme, contact, paused, speed, force, hip, object, apart, status, skipped, frames.
 class StatusFile {
  public:
   /// Throws Error if the file cannot be written.
   explicit StatusFile(const std::filesystem::path& file);
 
   /// `time` is the monotonic clock's [s].
-  void note(const demos::Scenario& scenario, const SessionLook& look, double time,
+  void note(const SessionControl& control, const SessionLook& look, double time,
             std::uint64_t frames);
 
  private:

@@ -3,12 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "device/live_device.h"
 #include "gl/gl_context.h"
 #include "gl/gl_scene.h"
-#include "session/live_session.h"
-#include "session/peer_session.h"
-#include "session/worker.h"
+#include "session/session_control.h"
 #include "window/gui.h"
 #include "window/hand_input.h"
 #include "window/hand_look.h"
@@ -31,19 +28,12 @@ class ViewRun {
   void run(const std::function<bool()>& stop);
 
  private:
-  void startSession(bool goes_on);
-  void makeSession(bool goes_on);
   void showFrame(double time);
-  void obey(const PanelWishes& wishes);
   void storePicture(const std::filesystem::path& file) const;
 
   ViewSettings settings_;
-  demos::Scenario scenario_;  ///< as the user has changed it
   demos::LiveDevice* device_;
-  Worker session_maker_;
-  std::unique_ptr<MouseDevice> mouse_;  ///< null with another device
-  std::unique_ptr<Session> session_;
-  LiveSession* both_ = nullptr;  ///< the session, if both sites are here
+  SessionControl control_;
   HandLook hand_look_;
   std::unique_ptr<GlWindow> window_;
   std::unique_ptr<GlScene> scene_;

@@ -1,0 +1,115 @@
+#include "session/session_control.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scenario/keys.h"
+#include "terminal/usage_error.h"
+
+namespace tandem::view {
+namespace {
+
+/// Bullet's own contact and couplers need steps of this rate at least [Hz]: at 60 Hz the world cube
+/// flies apart.
+constexpr double kLeastNativeRate = 240.0;
+
+std::string nameContact(const demos::Scenario& scenario) {
+  return "contact.model = " + demos::nameOf(scenario.site.contact_model);
+}
+
+}  // namespace
+
+SessionControl::SessionControl(const demos::Scenario& scenario,
+                               const std::optional<demos::PeerLine>& line,
+                               demos::LiveDevice* device)
+    : scenario_(scenario), line_(line), device_(device) {
+  if (!line_) checkHand(scenario_);
+  start({});
+}
+
+std::vector<std::string> SessionControl::notes() const {
+  std::vector<std::string> notes = session_->notes();
+  if (!refusal_.empty()) notes.push_back(refusal_);
+  return notes;
+}
+
+void SessionControl::obey(const SessionWishes& wishes) {
+  try {
+    if (wishes.pace != pace_ || wishes.steps > 0) changePace(wishes);
+    if (wishes.restarts || wishes.changes_sites) return changeSites(wishes);
+    scenario_ = wishes.scenario;
+    if (both_ && wishes.changes_network) both_->setNetwork(scenario_.network);
+  } catch (const demos::UsageError& error) {
+    refusal_ = error.what();
+  }
+}
+
+void SessionControl::changePace(const SessionWishes& wishes) {
+  if (!both_)
+    throw demos::UsageError("time goes on: your friend's hand does not stop with your window");
+  if (device_)
+    throw demos::UsageError("time goes on: a real hand does not stop; leave out --device");
+  refusal_.clear();
+  pace_ = wishes.pace;
+  both_->setPace(pace_);
+  for (int step = 0; step < wishes.steps; ++step) both_->step();
+}
+
+/// Sites that cannot be made leave those of before.
+void SessionControl::changeSites(const SessionWishes& wishes) {
+  demos::Scenario wanted = demos::changeScenario(wishes.scenario, {});
+  checkHand(wanted);
+  if (!both_) return;
+  refusal_.clear();
+  const SessionPlaces places = both_->end();
+  const bool goes_on = !wishes.restarts && places.areNear();
+  const auto kept = goes_on ? std::optional(places) : std::nullopt;
+  std::swap(scenario_, wanted);
+  try {
+    start(kept);
+  } catch (const std::exception& error) {
+    refusal_ = error.what();
+    std::swap(scenario_, wanted);
+    start(kept);
+  }
+}
+
+void SessionControl::checkHand(const demos::Scenario& scenario) const {
+  if (LiveSession::hasHapticThreads(scenario)) return;
+  if (line_)
+    throw demos::UsageError(nameContact(scenario) +
+                            ": a friend meets you by Tandem's own contact only; stay with island");
+  if (device_)
+    throw demos::UsageError(nameContact(scenario) +
+                            ": Bullet has no haptic rate for a device; take island, or the mouse");
+}
+
+void SessionControl::start(const std::optional<SessionPlaces>& places) {
+  session_maker_.run([&] { makeSession(places); });
+}
+
+void SessionControl::makeSession(const std::optional<SessionPlaces>& places) {
+  demos::Scenario scenario = scenario_;
+  if (places) startHandsAt(*places, scenario);
+  if (!LiveSession::hasHapticThreads(scenario))
+    scenario.host_rate = std::max(scenario.host_rate, kLeastNativeRate);
+  const int user = line_ ? line_->site - 1 : 0;
+  session_.reset();
+  both_ = nullptr;
+  if (!device_) {
+    MouseSettings settings;
+    settings.start_W = demos::computeStart(scenario, demos::makeSceneFrame(scenario), user);
+    mouse_ = std::make_unique<MouseDevice>(settings);
+  }
+  HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
+  if (line_) {
+    session_ = std::make_unique<PeerSession>(scenario, *line_, device);
+    return;
+  }
+  auto session = std::make_unique<LiveSession>(
+      scenario, device, places ? places->bodies : demos::BodyPlaces{}, pace_);
+  both_ = session.get();
+  session_ = std::move(session);
+}
+
+}  // namespace tandem::view

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tandem/falcon/mouse_device.h"
+
+#include "device/live_device.h"
+#include "session/live_session.h"
+#include "session/peer_session.h"
+#include "session/worker.h"
+
+namespace tandem::view {
+
+/// What the user wants of a session.
+struct SessionWishes {
+  demos::Scenario scenario;
+  Pace pace;
+  int steps = 0;                 ///< host periods that a paused world is to go on by
+  bool restarts = false;         ///< the world is to begin anew
+  bool changes_sites = false;    ///< scheme, contact or gains have changed; the world goes on
+  bool changes_network = false;  ///< Scenario::network alone has changed
+};
+
+/// The session behind a window, as its user changes it. Other sites need another session, which
+/// goes on from where hands and bodies are. For the thread of the window.
+class SessionControl {
+ public:
+  /// `line` leads to a friend's site; none: both sites are here. `device` is the user's, and must
+  /// outlive this; null: a mouse. Throws UsageError if the device cannot feel the scenario, and as
+  /// the sessions do.
+  SessionControl(const demos::Scenario& scenario, const std::optional<demos::PeerLine>& line,
+                 demos::LiveDevice* device);
+
+  [[nodiscard]] Session& session() noexcept { return *session_; }
+  [[nodiscard]] const Session& session() const noexcept { return *session_; }
+  /// Null with another device.
+  [[nodiscard]] MouseDevice* mouse() noexcept { return mouse_.get(); }
+  [[nodiscard]] const demos::Scenario& scenario() const noexcept { return scenario_; }
+  [[nodiscard]] const Pace& pace() const noexcept { return pace_; }
+  [[nodiscard]] bool hasBothSites() const noexcept { return both_ != nullptr; }
+  /// Lines for the user: rights that are missing, and why the last wish is refused.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+  /// Does what can be done. Refuses the rest, with a note.
+  void obey(const SessionWishes& wishes);
+
+ private:
+  void changeSites(const SessionWishes& wishes);
+  void changePace(const SessionWishes& wishes);
+  void checkHand(const demos::Scenario& scenario) const;
+  void start(const std::optional<SessionPlaces>& places);
+  void makeSession(const std::optional<SessionPlaces>& places);
+
+  demos::Scenario scenario_;
+  std::optional<demos::PeerLine> line_;
+  demos::LiveDevice* device_;
+  Pace pace_;
+  std::string refusal_;  ///< empty: none
+  Worker session_maker_;
+  std::unique_ptr<MouseDevice> mouse_;
+  std::unique_ptr<Session> session_;  // after the mouse, which outlives it
+  LiveSession* both_ = nullptr;       ///< the session, if both sites are here
+};
+
+}  // namespace tandem::view

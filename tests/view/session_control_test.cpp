@@ -1,0 +1,87 @@
+// What a user may change of a session, and what is refused.
+
+#include "session/session_control.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "tandem/falcon/monotonic_clock.h"
+
+namespace tandem::view {
+namespace {
+
+demos::Scenario loadWorld(const std::string& name) {
+  return demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / (name + ".toml"), {});
+}
+
+bool hasNote(const SessionControl& control, const std::string& text) {
+  return std::ranges::any_of(control.notes(), [&](const std::string& note) {
+    return note.find(text) != std::string::npos;
+  });
+}
+
+SessionWishes wishesOf(const SessionControl& control) {
+  SessionWishes wishes;
+  wishes.scenario = control.scenario();
+  wishes.pace = control.pace();
+  return wishes;
+}
+
+SessionWishes wishContact(const SessionControl& control, ContactModel model) {
+  SessionWishes wishes = wishesOf(control);
+  wishes.scenario.site.contact_model = model;
+  wishes.changes_sites = true;
+  return wishes;
+}
+
+void waitForTicks(const SessionControl& control) {
+  while (control.session().look()->loop.ticks < 10) sleepFor(1e-3);
+}
+
+TEST(SessionControl, SwitchesContactAndKeepsThePause) {
+  SessionControl control(loadWorld("cube"), std::nullopt, nullptr);
+  waitForTicks(control);
+  SessionWishes wishes = wishesOf(control);
+  wishes.pace.is_paused = true;
+  control.obey(wishes);
+  for (const ContactModel model : {ContactModel::kNativeSoft, ContactModel::kIsland}) {
+    control.obey(wishContact(control, model));
+    EXPECT_EQ(control.scenario().site.contact_model, model);
+    EXPECT_TRUE(control.pace().is_paused);
+    waitForTicks(control);
+    EXPECT_LT(control.session().look()->object_W.norm(), 5e-3) << "the cube is where it was";
+  }
+}
+
+TEST(SessionControl, RefusesWhatBulletCannotDoAndGoesOn) {
+  SessionControl control(loadWorld("touch"), std::nullopt, nullptr);
+  control.obey(wishContact(control, ContactModel::kNativeSoft));
+  SessionWishes wishes = wishesOf(control);
+  wishes.scenario.scheme = "kinematic_proxy";
+  wishes.changes_sites = true;
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, "two kinematic spheres do not touch"));
+  EXPECT_EQ(control.scenario().scheme, "remote_dynamic_proxy");
+  EXPECT_TRUE(control.session().goesOn());
+  // The next wish that can be had takes the line away.
+  control.obey(wishContact(control, ContactModel::kIsland));
+  EXPECT_FALSE(hasNote(control, "two kinematic spheres"));
+}
+
+TEST(SessionControl, ABodyThatFlewApartBeginsAnew) {
+  SessionControl control(loadWorld("cube"), std::nullopt, nullptr);
+  control.obey(wishContact(control, ContactModel::kPointToPoint));
+  for (int i = 0; control.session().look()->status == kTickOk; ++i) {
+    ASSERT_LT(i, 3000) << "point joints do not diverge any more: use another way to fly apart";
+    sleepFor(0.01);
+  }
+  control.obey(wishContact(control, ContactModel::kIsland));
+  waitForTicks(control);
+  EXPECT_EQ(control.session().look()->status, kTickOk);
+  EXPECT_LT(control.session().look()->object_W.norm(), 0.01);
+}
+
+}  // namespace
+}  // namespace tandem::view
