@@ -56,10 +56,10 @@ TEST(LiveSession, IsFeltAndGoesOnFromWhereItWas) {
   LiveSession session(scenario, mouse);
   push(session, mouse, 0.02);
   EXPECT_EQ(session.look()->status, kTickOk);
-  const SessionPlaces places = session.end();
+  const demos::ScenePlaces places = session.end();
 
   scenario.scheme = "kinematic_proxy";
-  startHandsAt(places, scenario);
+  demos::startHandsAt(places, scenario);
   const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
   for (int user : {0, 1}) {
     const Vec3 start_W = demos::computeStart(scenario, frame, user);
@@ -91,7 +91,7 @@ TEST(LiveSession, BulletsOwnContactGoesOnFromWhereTandemsWas) {
   MouseDevice mouse = makeMouse(scenario);
   LiveSession session(scenario, mouse);
   push(session, mouse, 0.02);
-  const SessionPlaces places = session.end();
+  const demos::ScenePlaces places = session.end();
   ASSERT_TRUE(places.areNear());
 
   for (const ContactModel model :
@@ -99,7 +99,7 @@ TEST(LiveSession, BulletsOwnContactGoesOnFromWhereTandemsWas) {
     demos::Scenario native = scenario;
     native.site.contact_model = model;
     native.host_rate = 240.0;
-    startHandsAt(places, native);
+    demos::startHandsAt(places, native);
     MouseDevice again = makeMouse(native);
     LiveSession next(native, again, places.bodies);
     EXPECT_LT((next.look()->object_W - places.bodies.at("cube").p_W).norm(), 2e-3);

@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tandem/falcon/monotonic_clock.h"
+#include "tandem/plugin/key_file.h"
 
 namespace tandem::view {
 namespace {
@@ -68,6 +70,28 @@ TEST(SessionControl, RefusesWhatBulletCannotDoAndGoesOn) {
   // The next wish that can be had takes the line away.
   control.obey(wishContact(control, ContactModel::kIsland));
   EXPECT_FALSE(hasNote(control, "two kinematic spheres"));
+}
+
+// Nobody is at the other end: the session waits meanwhile.
+TEST(SessionControl, DoesNotStopAFriendsTime) {
+  const std::filesystem::path key = std::filesystem::temp_directory_path() /
+                                    ("tandem-control-" + std::to_string(getpid()) + ".psk");
+  makeKeyFile(key);
+  demos::PeerLine line;
+  line.site = 1;
+  line.bind = "127.0.0.1:0";
+  line.peer = "127.0.0.1:9";
+  line.key = key;
+  SessionControl control(loadWorld("cube"), line, nullptr);
+  std::filesystem::remove(key);
+  SessionWishes wishes = wishesOf(control);
+  wishes.pace.is_paused = true;
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, "your friend's hand does not stop"));
+  EXPECT_FALSE(control.pace().is_paused);
+  control.obey(wishContact(control, ContactModel::kNativeSoft));
+  EXPECT_TRUE(hasNote(control, "by Tandem's own contact only"));
+  EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
 }
 
 TEST(SessionControl, ABodyThatFlewApartBeginsAnew) {

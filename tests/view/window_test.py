@@ -142,6 +142,10 @@ def meet_a_friend(tandem, worlds, display, folder):
                                "--bind", f"127.0.0.1:{ports[1]}", "--peer", f"127.0.0.1:{ports[0]}", "--quiet"])
     first = view.wait_for("the friend", lambda note: not note["waiting"])
     check(first["link"] == "live", "the friend is felt")
+    # Another scheme: the friend follows, and begins its duration anew.
+    display.press("1")
+    first = view.wait_for("a friend who follows", lambda note: note["scheme"] != first["scheme"] and not note["waiting"] and
+                          note["link"] == "live" and 100 < note["ticks"])
     check(friend.wait(timeout=PATIENCE) == 0, "the friend ends with status 0")
     last = view.wait_for("that the friend has left", lambda note: note["link"] != "live")
     check(last["ticks"] > first["ticks"] + 1000, "they met for more than a second")

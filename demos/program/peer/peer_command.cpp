@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tandem/falcon/monotonic_clock.h"
+#include "tandem/plugin/key_file.h"
 
 #include "command/command.h"
 #include "device/device_options.h"
-#include "peer/peer_line.h"
+#include "peer/peer_meeting.h"
 #include "peer/peer_output.h"
-#include "peer/peer_run.h"
 #include "peer/users_device.h"
 #include "terminal/standard_output.h"
 #include "terminal/usage_error.h"
@@ -62,6 +62,16 @@ void print(const PeerReport& report) {
   std::fflush(stdout);
 }
 
+PeerWatch makeWatch(const PeerOptions& options) {
+  PeerWatch watch;
+  watch.stop = [] { return stop_asked != 0; };
+  watch.report = [is_quiet = options.quiet](const PeerReport& one) {
+    if (!is_quiet) print(one);
+  };
+  watch.note = [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); };
+  return watch;
+}
+
 void runPeer(const PeerOptions& options) {
   checkPeerLine(options.line);
   const Scenario scenario = loadScenario(options.scenario, options.overrides);
@@ -70,7 +80,7 @@ void runPeer(const PeerOptions& options) {
   if (options.folder)
     folder.emplace(*options.folder, "--out " + *options.folder,
                    options.line.site == 1 ? FolderPart::kSite1 : FolderPart::kSite2);
-  UdpPeer peer = makeOtherSite(options.line);
+  (void)readKeyFile(options.line.key);  // a bad one is told before a device moves
   catchSignals(!options.device.device.empty());
   bool is_ended = false;
   const auto pause = [](double seconds) {
@@ -80,21 +90,15 @@ void runPeer(const PeerOptions& options) {
   const auto device = openUsersDevice(options.device, scenario, options.line.site - 1,
                                       options.quiet, pause, is_ended);
   if (is_ended) return;
-  std::function<bool()> wants_grip;
-  if (options.device.grip) wants_grip = [&] { return device->isGripPressed(); };
-  PeerRun run(scenario, options.line.site - 1, makeMeshSettings(options.line, scenario),
-              std::move(peer), device.get(), std::move(wants_grip));
-  const auto stop = [] { return stop_asked != 0; };
-  const auto report = [&](const PeerReport& one) {
-    if (!options.quiet) print(one);
-  };
+  PeerUser user{device.get(), {}, PeerPurpose::kResults, !folder};
+  if (options.device.grip) user.wants_grip = [&] { return device->isGripPressed(); };
+  PeerMeeting meeting(scenario, options.line, std::move(user));
   if (!options.quiet)
-    fmt::print("site {} on {}\n", options.line.site, toString(run.peers().bound()));
-  if (!run.waitForPeer(options.line.patience, stop, report)) return;
-  run.run(stop, report,
-          [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); });
-  const nlohmann::json summary = makePeerSummary(scenario, options.line.site, run);
-  if (folder) writePeerRun(*folder, options.line.site, summary, run);
+    fmt::print("site {} on {}\n", options.line.site, toString(meeting.run().peers().bound()));
+  if (!meeting.live(makeWatch(options))) return;
+  const nlohmann::json summary =
+      makePeerSummary(meeting.scenario().scenario, options.line.site, meeting.run());
+  if (folder) writePeerRun(*folder, options.line.site, summary, meeting.run());
   if (!options.quiet) printPeerSummary(summary, options.line.site);
   finishOutput();
 }

@@ -32,13 +32,14 @@ void checkPeerLine(const PeerLine& line) {
     throw UsageError("--wait: must be above 0 and at most 86400 s");
 }
 
-UdpMeshSettings makeMeshSettings(const PeerLine& line, const Scenario& scenario) {
+UdpMeshSettings makeMeshSettings(const PeerLine& line, const ChangedScenario& scenario) {
   UdpMeshSettings settings;
   settings.self = PeerId{static_cast<std::uint32_t>(line.site)};
   settings.bind = resolveAddress(line.bind);
   settings.profile = line.profile == "float64" ? WireProfile::kFloat64 : WireProfile::kFloat32;
   settings.playout.is_on = line.playout == "on";
-  Configuration items = makePeerConfiguration(scenario);
+  Configuration items = makePeerConfiguration(scenario.scenario);
+  if (const auto change = describeChange(scenario)) items.push_back(*change);
   items.push_back({"wire.profile", line.profile});
   settings.configuration = makeConfiguration(std::move(items));
   return settings;

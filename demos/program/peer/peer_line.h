@@ -5,7 +5,7 @@
 #include "tandem/plugin/udp_mesh.h"
 
 #include "command/arguments.h"
-#include "scenario/scenario.h"
+#include "peer/changed_scenario.h"
 
 namespace tandem::demos {
 
@@ -26,8 +26,10 @@ void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& ru
 /// Throws UsageError that names the option and the allowed values.
 void checkPeerLine(const PeerLine& line);
 
-/// Settings of the socket. Both sites must run the same scenario. Throws as resolveAddress() does.
-[[nodiscard]] UdpMeshSettings makeMeshSettings(const PeerLine& line, const Scenario& scenario);
+/// Settings of the socket. Both sites must run the same scenario, changed alike. Throws as
+/// resolveAddress() does.
+[[nodiscard]] UdpMeshSettings makeMeshSettings(const PeerLine& line,
+                                               const ChangedScenario& scenario);
 
 /// The other site with the key that both share. Says on stderr if the key may be swapped to disk.
 /// Throws as resolveAddress() and readKeyFile() do.

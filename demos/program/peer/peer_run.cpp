@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "peer/changed_scenario.h"
 #include "terminal/usage_error.h"
 #include "world/received_object.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
 constexpr double kMostBehind = 0.1;    ///< a site later than this joins a running one [s]
+constexpr double kFollowTime = 5.0;    ///< within which the other site follows a change [s]
 
 /// Explains a refusal in terms of the command line.
 const char* explainRefusal(RefuseCode code) {
@@ -25,12 +27,14 @@ const char* explainRefusal(RefuseCode code) {
 }  // namespace
 
 PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
-                 HapticDevice* device, std::function<bool()> wants_grip, PeerPurpose purpose)
+                 HapticDevice* device, std::function<bool()> wants_grip, PeerPurpose purpose,
+                 const BodyPlaces& places)
     : scenario_(scenario),
       index_(site),
       device_(device),
       wants_grip_(std::move(wants_grip)),
       purpose_(purpose),
+      places_(places),
       other_(peer.id),
       peers_(settings, [&] {
         std::vector<UdpPeer> peers;
@@ -48,8 +52,8 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
 void PeerRun::makeWorld() {
   world_.reset();
   Link& link = peers_.link(other_);
-  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, link, *device_)
-                   : std::make_unique<SiteWorld>(scenario_, index_, link);
+  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, link, *device_, places_)
+                   : std::make_unique<SiteWorld>(scenario_, index_, link, places_);
   Site& own = world_->site();
   if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
   if (purpose_ == PeerPurpose::kSession) return;
@@ -84,6 +88,20 @@ double PeerRun::receivedMean() const {
     sum += (recording_->object(i, 0).island.p_W - received_W).norm();
   }
   return sum / static_cast<double>(recording_->ticks().size());
+}
+
+ScenePlaces PeerRun::places() {
+  ScenePlaces places;
+  Site& site = world_->site();
+  const auto own = static_cast<std::size_t>(index_);
+  places.hands_W[1 - own] = computeStart(scenario_, makeSceneFrame(scenario_), 1 - index_);
+  places.hands_W[own] = computeStart(scenario_, makeSceneFrame(scenario_), index_);
+  site.betweenTicks([&] {
+    if (site.tickCount() > 0) places.hands_W[own] = site.hip().p_W;
+    if (site.counters().packets_taken > 0) places.hands_W[1 - own] = site.latest(0).user.p_W;
+  });
+  places.bodies = world_->places();
+  return places;
 }
 
 PeerStatus PeerRun::peerStatus() const { return peers_.status(other_, readMonotonicClock()); }
@@ -140,8 +158,14 @@ void PeerRun::joinLate(double now) {
   makeWorld();
 }
 
-void PeerRun::checkAnswer(double waited, double patience) const {
-  const PeerStatus status = peers_.status(other_, readMonotonicClock());
+void PeerRun::checkConfiguration(const PeerStatus& status, double waited) {
+  const bool is_change = status.difference && status.difference->key == kChangeKey;
+  if (is_change && !disagrees_since_) disagrees_since_ = waited;
+  if (is_change && waited - *disagrees_since_ < kFollowTime) return;
+  if (is_change)
+    throw UsageError(
+        fmt::format("site {} does not follow a change of scheme or gains; start both again",
+                    static_cast<std::uint32_t>(other_)));
   if (status.difference) {
     const ConfigurationDifference& d = *status.difference;
     const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
@@ -154,6 +178,11 @@ void PeerRun::checkAnswer(double waited, double patience) const {
     throw UsageError(fmt::format(
         "site {} says that it has another scenario; use the same file and --set on both sides",
         static_cast<std::uint32_t>(other_)));
+}
+
+void PeerRun::checkAnswer(double waited, double patience) {
+  const PeerStatus status = peerStatus();
+  checkConfiguration(status, waited);
   if (const auto refused = peers_.refusedCountdown())
     throw Error(
         fmt::format("site {} counts down {:.0f} s to the start, at most {:.0f} s are allowed; "

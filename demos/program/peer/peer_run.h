@@ -9,7 +9,7 @@
 #include "tandem/plugin/live_peers.h"
 #include "tandem/plugin/recording.h"
 
-#include "world/scene.h"
+#include "world/scene_places.h"
 
 namespace tandem::demos {
 
@@ -35,15 +35,16 @@ enum class PeerPurpose {
 class PeerRun {
  public:
   /// `site` is 0 or 1. `device` is the user's, and must outlive this; null means simulated, by the
-  /// scenario. `wants_grip`: the user wants to hold the cube; empty: the scenario says when. Throws
-  /// like LivePeers and SiteWorld.
+  /// scenario. `wants_grip`: the user wants to hold the cube; empty: the scenario says when. Bodies
+  /// begin at rest at `places`, or where the scenario says. Throws like LivePeers and SiteWorld.
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
           HapticDevice* device = nullptr, std::function<bool()> wants_grip = {},
-          PeerPurpose purpose = PeerPurpose::kResults);
+          PeerPurpose purpose = PeerPurpose::kResults, const BodyPlaces& places = {});
 
   /// Waits until the other site is there and both know the start. Throws UsageError if it has
-  /// another configuration. Throws tandem::Error if it does not answer within `patience` [s],
-  /// counts down for longer, or leaves before the start. Returns false if `stop` asked to end.
+  /// another configuration, or does not agree to a change within 5 s. Throws tandem::Error if it
+  /// does not answer within `patience` [s], counts down for longer, or leaves before the start.
+  /// Returns false if `stop` asked to end.
   bool waitForPeer(double patience, const std::function<bool()>& stop,
                    const std::function<void(const PeerReport&)>& report);
 
@@ -64,11 +65,14 @@ class PeerRun {
   /// Mean distance of the own copy to the other's as received [m].
   [[nodiscard]] double receivedMean() const;
   [[nodiscard]] PeerStatus peerStatus() const;
+  /// Where hands and bodies are. For the thread of run(), or after it.
+  [[nodiscard]] ScenePlaces places();
 
  private:
   void makeWorld();
   void joinLate(double now);
-  void checkAnswer(double waited, double patience) const;
+  void checkAnswer(double waited, double patience);
+  void checkConfiguration(const PeerStatus& status, double waited);
   void checkCountdown() const;
   [[nodiscard]] PeerReport makeReport(double time);
   [[nodiscard]] double computeCoherency() const noexcept;
@@ -78,12 +82,14 @@ class PeerRun {
   HapticDevice* device_;
   std::function<bool()> wants_grip_;
   PeerPurpose purpose_;
+  BodyPlaces places_;
   PeerId other_;
   LivePeers peers_;
   std::unique_ptr<SiteWorld> world_;
   std::unique_ptr<Recording> recording_;
   Vec3 object_start_W_ = Vec3::Zero();
   LoopReport loop_;
+  std::optional<double> disagrees_since_;  ///< the other site, about a change [s]
 };
 
 }  // namespace tandem::demos

@@ -1,6 +1,5 @@
 #include "session/live_session.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "tandem/falcon/monotonic_clock.h"
@@ -12,26 +11,8 @@ namespace {
 
 /// Without haptic threads the sites look at the clock so often [s].
 constexpr double kTurn = 1e-3;
-constexpr double kFarAway = 1000.0;  // [m]
 
 }  // namespace
-
-bool SessionPlaces::areNear() const {
-  const auto is_near = [](const Vec3& p_W) { return (p_W.array().abs() < kFarAway).all(); };
-  const auto is_body_near = [&](const auto& body) {
-    return is_near(body.second.p_W) && body.second.q_WB.coeffs().allFinite();
-  };
-  return std::ranges::all_of(hands_W, is_near) && std::ranges::all_of(bodies, is_body_near);
-}
-
-void startHandsAt(const SessionPlaces& places, demos::Scenario& scenario) {
-  const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
-  for (int user : {0, 1}) {
-    const auto at = static_cast<std::size_t>(user);
-    const Vec3 away_W = places.hands_W[at] - demos::computeStart(scenario, frame, user);
-    scenario.hands[at].start_offset += frame.toScene(away_W);
-  }
-}
 
 LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
                          const demos::BodyPlaces& places, const Pace& pace)
@@ -74,7 +55,7 @@ bool LiveSession::goesOn() const {
   return true;
 }
 
-SessionPlaces LiveSession::end() {
+demos::ScenePlaces LiveSession::end() {
   host_ = {};
   const auto hand_W = [](demos::SiteWorld& world) { return world.site().hip().p_W; };
   return {{hand_W(pair_.own()), hand_W(pair_.other())}, pair_.own().places()};

@@ -1,26 +1,14 @@
 #pragma once
 
-#include <array>
 #include <exception>
 #include <thread>
 
 #include "session/pace.h"
 #include "session/session.h"
 #include "session/site_pair.h"
+#include "world/scene_places.h"
 
 namespace tandem::view {
-
-/// Where a session is, for another one that goes on from there.
-struct SessionPlaces {
-  std::array<Vec3, 2> hands_W = {Vec3::Zero(), Vec3::Zero()};  ///< of both users [m]
-  demos::BodyPlaces bodies;                                    ///< as user 1's site has them
-
-  /// False if something is beyond the 1000 m of packets, after a motion that grew without bounds.
-  [[nodiscard]] bool areNear() const;
-};
-
-/// Lets the hands of a scenario begin at these places.
-void startHandsAt(const SessionPlaces& places, demos::Scenario& scenario);
 
 /// Both sites of a scenario in one process. User 1 is at the device, user 2 moves as the scenario
 /// says. A thread steps the worlds. In real time each site has a haptic thread at the scenario's
@@ -47,7 +35,7 @@ class LiveSession final : public Session {
   [[nodiscard]] std::vector<std::string> notes() const override;
   [[nodiscard]] bool goesOn() const override;
   /// Ends the session, and tells where it was.
-  [[nodiscard]] SessionPlaces end();
+  [[nodiscard]] demos::ScenePlaces end();
 
  private:
   void live(const std::stop_token& stop);

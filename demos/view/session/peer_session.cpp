@@ -1,12 +1,14 @@
 #include "session/peer_session.h"
 
+#include <algorithm>
+
+#include "tandem/falcon/monotonic_clock.h"
+
 namespace tandem::view {
 
 PeerSession::PeerSession(const demos::Scenario& scenario, const demos::PeerLine& line,
                          HapticDevice& device)
-    : patience_(line.patience),
-      run_(scenario, line.site - 1, demos::makeMeshSettings(line, scenario),
-           demos::makeOtherSite(line), &device, {}, demos::PeerPurpose::kSession) {
+    : meeting_(scenario, line, {&device, {}, demos::PeerPurpose::kSession}) {
   lookAtWorld(0.0, nullptr);
   thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
 }
@@ -25,21 +27,23 @@ bool PeerSession::goesOn() const {
 }
 
 void PeerSession::live(const std::stop_token& stop) {
-  const auto asks = [&] { return stop.stop_requested(); };
-  const auto report = [](const demos::PeerReport&) {};
-  const auto note = [&](const std::string& line) {
+  demos::PeerWatch watch;
+  watch.stop = [&] { return stop.stop_requested(); };
+  watch.report = [](const demos::PeerReport&) {};
+  watch.note = [&](const std::string& line) {
     const std::lock_guard lock(mutex_);
-    notes_.push_back(line);
+    if (std::ranges::find(notes_, line) == notes_.end()) notes_.push_back(line);
   };
-  const auto look = [&](double time, const HapticLoop& loop) {
-    run_.world().hold(wantsHold());
-    if (isLookDue(time)) lookAtWorld(time, &loop);
+  watch.has_world = [&] {
+    scene_look_.reset();
+    lookAtWorld(0.0, nullptr);
+  };
+  watch.after_step = [&](double time, const HapticLoop& loop) {
+    meeting_.run().world().hold(wantsHold());
+    if (isLookDue(readMonotonicClock())) lookAtWorld(time, &loop);
   };
   try {
-    if (run_.waitForPeer(patience_, asks, report)) {
-      scene_look_.reset();
-      run_.run(asks, report, note, look);
-    }
+    meeting_.live(watch);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     problem_ = std::current_exception();
@@ -49,7 +53,7 @@ void PeerSession::live(const std::stop_token& stop) {
 }
 
 void PeerSession::lookAtWorld(double time, const HapticLoop* loop) {
-  demos::SiteWorld& world = run_.world();
+  demos::SiteWorld& world = meeting_.run().world();
   if (!scene_look_) scene_look_.emplace(world);
   const auto look = std::make_shared<SessionLook>();
   look->time = time;

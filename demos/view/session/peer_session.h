@@ -4,14 +4,14 @@
 #include <optional>
 #include <thread>
 
-#include "peer/peer_line.h"
-#include "peer/peer_run.h"
+#include "peer/peer_meeting.h"
 #include "session/session.h"
 
 namespace tandem::view {
 
 /// One site of a scenario, live over UDP, with another user at another machine: what `tandem peer`
-/// does. It waits for the other site. Should that one leave, it may come again.
+/// does. It waits for the other site. Should that one leave, it may come again. Changes of scheme
+/// and gains by either user are followed by the other.
 class PeerSession final : public Session {
  public:
   /// `device` must outlive this. Throws as PeerRun does.
@@ -21,13 +21,16 @@ class PeerSession final : public Session {
 
   [[nodiscard]] std::vector<std::string> notes() const override;
   [[nodiscard]] bool goesOn() const override;
+  /// As PeerMeeting::propose().
+  void propose(const demos::Scenario& wanted) { meeting_.propose(wanted); }
+  /// What is in force, and by how many changes.
+  [[nodiscard]] demos::ChangedScenario scenario() const { return meeting_.scenario(); }
 
  private:
   void live(const std::stop_token& stop);
   void lookAtWorld(double time, const HapticLoop* loop);
 
-  double patience_;  ///< for the other site [s]
-  demos::PeerRun run_;
+  demos::PeerMeeting meeting_;
   std::optional<SceneLook> scene_look_;  ///< of the run's world, once that is final
 
   mutable std::mutex mutex_;  // of the three below

@@ -39,9 +39,18 @@ void SessionControl::obey(const SessionWishes& wishes) {
     if (wishes.restarts || wishes.changes_sites) return changeSites(wishes);
     scenario_ = wishes.scenario;
     if (both_ && wishes.changes_network) both_->setNetwork(scenario_.network);
+    if (friend_) followFriend();
   } catch (const demos::UsageError& error) {
     refusal_ = error.what();
   }
+}
+
+/// Own changes are in `scenario_` before they are in force.
+void SessionControl::followFriend() {
+  demos::ChangedScenario agreed = friend_->scenario();
+  if (agreed.changes == changes_) return;
+  changes_ = agreed.changes;
+  scenario_ = std::move(agreed.scenario);
 }
 
 void SessionControl::changePace(const SessionWishes& wishes) {
@@ -59,9 +68,13 @@ void SessionControl::changePace(const SessionWishes& wishes) {
 void SessionControl::changeSites(const SessionWishes& wishes) {
   demos::Scenario wanted = demos::changeScenario(wishes.scenario, {});
   checkHand(wanted);
-  if (!both_) return;
   refusal_.clear();
-  const SessionPlaces places = both_->end();
+  if (friend_) {
+    friend_->propose(wanted);
+    scenario_ = wanted;
+    return;
+  }
+  const demos::ScenePlaces places = both_->end();
   const bool goes_on = !wishes.restarts && places.areNear();
   const auto kept = goes_on ? std::optional(places) : std::nullopt;
   std::swap(scenario_, wanted);
@@ -84,13 +97,13 @@ void SessionControl::checkHand(const demos::Scenario& scenario) const {
                             ": Bullet has no haptic rate for a device; take island, or the mouse");
 }
 
-void SessionControl::start(const std::optional<SessionPlaces>& places) {
+void SessionControl::start(const std::optional<demos::ScenePlaces>& places) {
   session_maker_.run([&] { makeSession(places); });
 }
 
-void SessionControl::makeSession(const std::optional<SessionPlaces>& places) {
+void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places) {
   demos::Scenario scenario = scenario_;
-  if (places) startHandsAt(*places, scenario);
+  if (places) demos::startHandsAt(*places, scenario);
   if (!LiveSession::hasHapticThreads(scenario))
     scenario.host_rate = std::max(scenario.host_rate, kLeastNativeRate);
   const int user = line_ ? line_->site - 1 : 0;
@@ -103,7 +116,9 @@ void SessionControl::makeSession(const std::optional<SessionPlaces>& places) {
   }
   HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
   if (line_) {
-    session_ = std::make_unique<PeerSession>(scenario, *line_, device);
+    auto session = std::make_unique<PeerSession>(scenario, *line_, device);
+    friend_ = session.get();
+    session_ = std::move(session);
     return;
   }
   auto session = std::make_unique<LiveSession>(

@@ -50,9 +50,10 @@ class SessionControl {
  private:
   void changeSites(const SessionWishes& wishes);
   void changePace(const SessionWishes& wishes);
+  void followFriend();
   void checkHand(const demos::Scenario& scenario) const;
-  void start(const std::optional<SessionPlaces>& places);
-  void makeSession(const std::optional<SessionPlaces>& places);
+  void start(const std::optional<demos::ScenePlaces>& places);
+  void makeSession(const std::optional<demos::ScenePlaces>& places);
 
   demos::Scenario scenario_;
   std::optional<demos::PeerLine> line_;
@@ -63,6 +64,8 @@ class SessionControl {
   std::unique_ptr<MouseDevice> mouse_;
   std::unique_ptr<Session> session_;  // after the mouse, which outlives it
   LiveSession* both_ = nullptr;       ///< the session, if both sites are here
+  PeerSession* friend_ = nullptr;     ///< the session, if the other site is elsewhere
+  std::uint32_t changes_ = 0;         ///< of that session, which `scenario_` has
 };
 
 }  // namespace tandem::view

@@ -91,14 +91,10 @@ void showGains(SiteSettings& site, SessionWishes& wishes) {
 
 void showSettings(const SessionControl& control, SessionWishes& wishes) {
   demos::Scenario& scenario = wishes.scenario;
-  if (!control.hasBothSites()) {
-    ImGui::Text("scheme  %s", scenario.scheme.c_str());
-    return;
-  }
   wishes.changes_sites |= chooseScheme(scenario.scheme);
   wishes.changes_sites |= choose("contact", kContacts, GLFW_KEY_F2, scenario.site.contact_model,
                                  [](ContactModel model) { return demos::nameOf(model); });
-  showNetwork(scenario.network, wishes);
+  if (control.hasBothSites()) showNetwork(scenario.network, wishes);
   showGains(scenario.site, wishes);
   showPace(wishes);
 }

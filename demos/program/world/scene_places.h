@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+
+#include "world/scene.h"
+
+namespace tandem::demos {
+
+/// Where hands and bodies are, for another session that goes on from there.
+struct ScenePlaces {
+  std::array<Vec3, 2> hands_W = {Vec3::Zero(), Vec3::Zero()};  ///< of both users [m]
+  BodyPlaces bodies;                                           ///< as one site has them
+
+  /// False if something is beyond the 1000 m of packets, after a motion that grew without bounds.
+  [[nodiscard]] bool areNear() const;
+};
+
+/// Lets the hands of a scenario begin at these places.
+void startHandsAt(const ScenePlaces& places, Scenario& scenario);
+
+}  // namespace tandem::demos
