@@ -1,12 +1,9 @@
 #include "peer/peer_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "peer/changed_scenario.h"
+#include "peer/answer_check.h"
 #include "terminal/usage_error.h"
 #include "world/received_object.h"
 
@@ -15,14 +12,6 @@ namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
 constexpr double kMostBehind = 0.1;    ///< a site later than this joins a running one [s]
-constexpr double kFollowTime = 5.0;    ///< within which the other site follows a change [s]
-
-/// Explains a refusal in terms of the command line.
-const char* explainRefusal(RefuseCode code) {
-  if (code == RefuseCode::kUnknownPeer)
-    return "it does not expect this site; compare --site and --peer on both sides";
-  return explain(code);
-}
 
 }  // namespace
 
@@ -110,6 +99,7 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
                           const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
   peers_.agreeOnStart(held, scenario_.site.packet_rate, patience);
+  AnswerCheck answers(peers_, other_, patience);
   const double began = readMonotonicClock();
   double next_report = began;
   for (;;) {
@@ -130,9 +120,9 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
     }
     try {
       if (start)
-        checkCountdown();
+        answers.checkCountdown();
       else
-        checkAnswer(now - began, patience);
+        answers.check(now - began);
     } catch (const UsageError&) {
       peers_.sayFarewell(ByeReason::kConfigurationsDiffer);
       throw;
@@ -144,60 +134,11 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
   }
 }
 
-/// A site that leaves before the start will not be there at the start.
-void PeerRun::checkCountdown() const {
-  if (peerStatus().phase != PeerPhase::kLeft) return;
-  throw Error(fmt::format("site {} left before the start; start both again",
-                          static_cast<std::uint32_t>(other_)));
-}
-
 /// The other site has been running for a while: it and its copies fade in.
 void PeerRun::joinLate(double now) {
   peers_.setStart(now + kMostBehind);
   scenario_.site.link_loss.start_live = false;
   makeWorld();
-}
-
-void PeerRun::checkConfiguration(const PeerStatus& status, double waited) {
-  const bool is_change = status.difference && status.difference->key == kChangeKey;
-  if (is_change && !disagrees_since_) disagrees_since_ = waited;
-  if (is_change && waited - *disagrees_since_ < kFollowTime) return;
-  if (is_change)
-    throw UsageError(
-        fmt::format("site {} does not follow a change of scheme or gains; start both again",
-                    static_cast<std::uint32_t>(other_)));
-  if (status.difference) {
-    const ConfigurationDifference& d = *status.difference;
-    const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
-    throw UsageError(
-        fmt::format("site {} has another scenario: {} is {} here and {} there; use "
-                    "the same file and --set on both sides",
-                    static_cast<std::uint32_t>(other_), d.key, show(d.here), show(d.there)));
-  }
-  if (status.left == ByeReason::kConfigurationsDiffer)
-    throw UsageError(fmt::format(
-        "site {} says that it has another scenario; use the same file and --set on both sides",
-        static_cast<std::uint32_t>(other_)));
-}
-
-void PeerRun::checkAnswer(double waited, double patience) {
-  const PeerStatus status = peerStatus();
-  checkConfiguration(status, waited);
-  if (const auto refused = peers_.refusedCountdown())
-    throw Error(
-        fmt::format("site {} counts down {:.0f} s to the start, at most {:.0f} s are allowed; "
-                    "raise --wait, and "
-                    "if that does not help install the same release on both sides",
-                    static_cast<std::uint32_t>(refused->peer), refused->length,
-                    std::min(patience, kLongestCountdown)));
-  if (waited < patience) return;
-  const std::string where = status.address ? toString(*status.address) : "its address";
-  std::string why = "is it running, is the address right, does a firewall let UDP pass?";
-  if (status.is_called_with_another_key)
-    why = "it calls, but with another key; give both sides the same key file";
-  if (status.refused) why = fmt::format("it answers, but {}", explainRefusal(*status.refused));
-  throw Error(fmt::format("site {} at {} did not join within {} s: {}",
-                          static_cast<std::uint32_t>(other_), where, patience, why));
 }
 
 void PeerRun::run(const std::function<bool()>& stop,

@@ -71,9 +71,6 @@ class PeerRun {
  private:
   void makeWorld();
   void joinLate(double now);
-  void checkAnswer(double waited, double patience);
-  void checkConfiguration(const PeerStatus& status, double waited);
-  void checkCountdown() const;
   [[nodiscard]] PeerReport makeReport(double time);
   [[nodiscard]] double computeCoherency() const noexcept;
 
@@ -89,7 +86,6 @@ class PeerRun {
   std::unique_ptr<Recording> recording_;
   Vec3 object_start_W_ = Vec3::Zero();
   LoopReport loop_;
-  std::optional<double> disagrees_since_;  ///< the other site, about a change [s]
 };
 
 }  // namespace tandem::demos
