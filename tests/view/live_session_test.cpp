@@ -41,7 +41,7 @@ void push(LiveSession& session, MouseDevice& mouse, double way) {
 /// Waits until time stands still after the tick `before`. Returns the ticks until then.
 std::uint64_t waitForPause(const LiveSession& session, std::uint64_t before = 0) {
   std::uint64_t last = before;
-  for (int still = 0; still < 10;) {
+  for (int still = 0; still < 25;) {
     sleepFor(0.02);
     const std::uint64_t now = session.look()->loop.ticks;
     still = now == last && now != before ? still + 1 : 0;

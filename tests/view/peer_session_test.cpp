@@ -41,6 +41,8 @@ class PeerSessionTest : public ::testing::Test {
       lines_[at].peer = addresses_[1 - at];
       lines_[at].key = key_;
     }
+    // One is bound to all addresses, as on two machines.
+    lines_[0].bind = addresses_[0].substr(addresses_[0].rfind(':'));
   }
   ~PeerSessionTest() override {
     for (auto& session : sessions) session.reset();  // before its mouse
@@ -124,11 +126,13 @@ TEST_F(PeerSessionTest, FollowsGains) {
   EXPECT_EQ(sessions[1]->scenario().scenario.site.contact.stiffness, 1234.5);
 }
 
-TEST_F(PeerSessionTest, BothChangeAtOnceAndEndWithUser1s) {
+TEST_F(PeerSessionTest, BothChangeAtOnceAndEndWithTheSame) {
   startBoth();
   sessions[0]->propose(with("experiment.scheme=kinematic_proxy"));
   sessions[1]->propose(with("experiment.scheme=virtual_coupling"));
-  waitFor([&] { return meetWith("kinematic_proxy", 1); }, "one scheme at both");
+  // On a machine that stalls user 2's choice may come after that of user 1 was followed.
+  waitFor([&] { return meetWith("kinematic_proxy", 1) || meetWith("virtual_coupling", 2); },
+          "one scheme at both");
 }
 
 TEST_F(PeerSessionTest, AUserWhoComesAgainFollowsWhatWasChanged) {

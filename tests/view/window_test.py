@@ -134,7 +134,7 @@ def meet_a_friend(tandem, worlds, display, folder):
     key = folder / "key"
     subprocess.run([tandem, "key", "new", key], check=True, stdout=subprocess.DEVNULL)
     ports = free_ports()
-    settings = ["--set", "experiment.duration=3"]
+    settings = ["--set", "experiment.duration=6"]
     view = View(tandem, display, folder, "cube", *settings, "--site", "1", "--key", key,
                 "--bind", f"127.0.0.1:{ports[0]}", "--peer", f"127.0.0.1:{ports[1]}")
     view.wait_for("a picture while waiting", lambda note: note["waiting"] and note["frames"] > 5)
