@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/falcon/gamepad_device.h"
 #include "tandem/falcon/hid_switch.h"
 #include "tandem/falcon/raw_hid_device.h"
 #include "tandem/falcon/space_mouse_device.h"
 
+#include "devices/fake_event_port.h"
 #include "devices/raw_hid_emulator.h"
 
 // This program replaces operator new and counts per thread. Not in sanitizer builds, which own the
@@ -73,6 +75,21 @@ TEST(HidAllocation, ATickOfARawHidDeviceDoesNone) {
   bool is_valid = true;
   EXPECT_EQ(countIn([&](double time) {
               is_valid = device.read(1e-3 * time).valid && is_valid;  // within 20 ms
+              device.write(Vec3(1, 2, 3));
+            }),
+            0U);
+  EXPECT_TRUE(is_valid);
+}
+
+TEST(HidAllocation, ATickOfAGamepadDoesNone) {
+  test::FakeEventDevice fake;
+  test::FakeEventDevice::makePad(fake);
+  GamepadDevice device(fake.opener());
+  fake.tell(EV_ABS, ABS_X, 32767);
+  ASSERT_TRUE(comesTrue([&] { return device.status().counters.reports == 1; }));
+  bool is_valid = true;
+  EXPECT_EQ(countIn([&](double time) {
+              is_valid = device.read(time).valid && is_valid;
               device.write(Vec3(1, 2, 3));
             }),
             0U);

@@ -13,6 +13,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "hid/user_evdev.h"
+
 namespace tandem::test {
 namespace {
 
@@ -152,8 +154,8 @@ UserHidraw* UserHidraw::find(int file) {
 
 }  // namespace tandem::test
 
-// hidapi finds these before the C library's functions. They call the kernel directly, past the
-// sanitizers' versions; only the latter's argument checks are lost.
+// hidapi and openGamepad() find these before the C library's functions. They call the kernel
+// directly, past the sanitizers' versions; only the latter's argument checks are lost.
 
 extern "C" int open(const char* path, int flags, ...) {
   mode_t mode = 0;
@@ -167,6 +169,8 @@ extern "C" int open(const char* path, int flags, ...) {
     tandem::test::UserHidraw* const node = tandem::test::UserHidraw::find(std::string(path));
     return node ? node->openFile() : tandem::test::failWith(ENOENT);
   }
+  if (tandem::test::UserEvdev* const node = tandem::test::UserEvdev::find(std::string(path)))
+    return node->openFile();
   return static_cast<int>(::syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
 
@@ -177,6 +181,9 @@ extern "C" int ioctl(int file, unsigned long request, ...) noexcept {
   va_end(arguments);
   if (_IOC_TYPE(request) == tandem::test::kHidType)
     if (tandem::test::UserHidraw* const node = tandem::test::UserHidraw::find(file))
+      return node->control(request, argument);
+  if (_IOC_TYPE(request) == 'E')
+    if (tandem::test::UserEvdev* const node = tandem::test::UserEvdev::find(file))
       return node->control(request, argument);
   return static_cast<int>(::syscall(SYS_ioctl, file, request, argument));
 }

@@ -70,6 +70,16 @@ void RateControl::advance(double interval) noexcept {
   wrist_.w_W += done * behind_turn_W;
   if (const double angle = turn_W.norm(); angle > 0.0)
     wrist_.q_WH = (Quat(Eigen::AngleAxisd(angle, turn_W / angle)) * wrist_.q_WH).normalized();
+  keepInBox();
+}
+
+void RateControl::putPoint(const Vec3& p_W) noexcept {
+  if (!p_W.allFinite()) return;
+  point_.p_W = p_W;
+  keepInBox();
+}
+
+void RateControl::keepInBox() noexcept {
   const Vec3 low_W = settings_.start_W - settings_.workspace;
   const Vec3 high_W = settings_.start_W + settings_.workspace;
   for (int i = 0; i < 3; ++i) {

@@ -28,6 +28,8 @@ class RateControl {
   void stop() noexcept;
   /// Advances both by `interval` [s]. Does nothing unless it is finite and above 0.
   void advance(double interval) noexcept;
+  /// Puts the point to `p_W`, or to the nearest place in the box. Does nothing unless it is finite.
+  void putPoint(const Vec3& p_W) noexcept;
 
   [[nodiscard]] const PointState& point() const noexcept { return point_; }
   /// Empty with a turn_speed of 0. It starts at the identity.
@@ -38,6 +40,8 @@ class RateControl {
   [[nodiscard]] const RateControlSettings& settings() const noexcept { return settings_; }
 
  private:
+  void keepInBox() noexcept;
+
   RateControlSettings settings_;
   PointState point_;
   WristState wrist_;
