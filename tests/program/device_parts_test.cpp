@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tandem/falcon/gamepad_device.h"
+
 #include "demos/program/device/bars.h"
 #include "demos/program/device/device_spec.h"
 #include "demos/program/device/device_switch.h"
@@ -33,7 +35,9 @@ TEST(DeviceSpec, ReadsEverySpellingAndWritesItBack) {
                {"spacemouse", Kind::kSpaceMouse, ""},
                {"spacemouse:/dev/hidraw3", Kind::kSpaceMouse, "/dev/hidraw3"},
                {"hid", Kind::kRawHid, ""},
-               {"hid:/dev/hidraw0", Kind::kRawHid, "/dev/hidraw0"}};
+               {"hid:/dev/hidraw0", Kind::kRawHid, "/dev/hidraw0"},
+               {"gamepad", Kind::kGamepad, ""},
+               {"gamepad:/dev/input/event5", Kind::kGamepad, "/dev/input/event5"}};
   for (const auto& one : cases) {
     SCOPED_TRACE(one.text);
     const DeviceSpec spec = parseDeviceSpec(one.text);
@@ -44,9 +48,10 @@ TEST(DeviceSpec, ReadsEverySpellingAndWritesItBack) {
 }
 
 TEST(DeviceSpec, RefusesTheRest) {
-  for (const char* text : {"", "Falcon", "falcon:", "falcon@", "falcon@ttyUSB0", "falcon@ft260x",
-                           "emulated:1", "simulated@/dev/x", "spacemouse:", "spacemouse:3",
-                           "hid@/dev/hidraw0", "hid:", "hid:/", ":", "@/dev/ttyUSB0", "falcon "}) {
+  for (const char* text :
+       {"", "Falcon", "falcon:", "falcon@", "falcon@ttyUSB0", "falcon@ft260x", "emulated:1",
+        "simulated@/dev/x", "spacemouse:", "spacemouse:3", "hid@/dev/hidraw0", "hid:", "hid:/",
+        "gamepad:", "gamepad:5", "gamepad@/dev/x", ":", "@/dev/ttyUSB0", "falcon "}) {
     SCOPED_TRACE(text);
     EXPECT_THROW((void)parseDeviceSpec(text), UsageError);
   }
@@ -57,6 +62,12 @@ TEST(DeviceSwitch, ReadsButtonsAndPedals) {
   EXPECT_EQ(parseSwitch("--clutch", "forward").button, kForwardButton);
   EXPECT_EQ(parseSwitch("--clutch", "centre").button, kCentreButton);
   EXPECT_EQ(parseSwitch("--clutch", "minus").button, kMinusButton);
+  EXPECT_EQ(parseSwitch("--grip", "south").button, kSouthButton);
+  EXPECT_EQ(parseSwitch("--grip", "east").button, kEastButton);
+  EXPECT_EQ(parseSwitch("--grip", "north").button, kNorthButton);
+  EXPECT_EQ(parseSwitch("--grip", "west").button, kWestButton);
+  EXPECT_EQ(parseSwitch("--grip", "left").button, kLeftShoulder);
+  EXPECT_EQ(parseSwitch("--grip", "right").button, kRightShoulder);
   const SwitchSpec pedal = parseSwitch("--clutch", "hid:/dev/hidraw4,key,0,2,0x68");
   EXPECT_EQ(pedal.button, 0);
   EXPECT_EQ(pedal.path, "/dev/hidraw4");

@@ -15,13 +15,17 @@ TEST(DeviceUse, RefusesWhatIsNotThere) {
   expectRefused(runTandem({"device", "info", "--device", "falcon@/dev/tandem-none"}), 1,
                 {"/dev/tandem-none", "plugged in"});
   expectRefused(runTandem({"device", "info", "--device", "falcon:NO-SUCH-SERIAL"}), 1, {"device"});
+  expectRefused(runTandem({"device", "info", "--device", "gamepad:/dev/input/tandem-none"}), 1,
+                {"/dev/input/tandem-none", "No such file", "tandem device list"});
+  expectRefused(runTandem({"device", "info", "--device", "gamepad:/dev/null"}), 1,
+                {"/dev/null is no input device", "/dev/input/event"});
   expectRefused(runEmulated("info", {"--firmware", "/tandem/none.bin"}), 2,
                 {"--firmware", "/tandem/none.bin"});
 }
 
 TEST(DeviceUse, RefusesBadUse) {
   expectRefused(runTandem({"device", "info", "--device", "nonsense"}), 2,
-                {"nonsense", "emulated", "spacemouse"});
+                {"nonsense", "emulated", "spacemouse", "gamepad"});
   expectRefused(runEmulated("info", {"--scale", "0"}), 2, {"--scale 0"});
   expectRefused(runEmulated("info", {"--max-force", "9"}), 2, {"--max-force 9", "at most 8"});
   expectRefused(runEmulated("info", {"--motors-per-torque", "-1"}), 2, {"--motors-per-torque -1"});

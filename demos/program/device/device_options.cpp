@@ -19,7 +19,7 @@ void require(bool holds, const char* option, double value, const char* allowed) 
 void declareDeviceOptions(Arguments& arguments, DeviceOptions& options) {
   arguments.option("--device", options.device,
                    "falcon, falcon:SERIAL, falcon@/dev/ttyUSB0, falcon@ft260, emulated, simulated, "
-                   "spacemouse[:PATH], hid[:PATH]");
+                   "spacemouse[:PATH], hid[:PATH], gamepad[:PATH]");
   arguments.option("--firmware", options.firmware,
                    "file of the Falcon's image; none comes with us");
   arguments.option("--motors-per-torque", options.motors_per_torque,
@@ -28,10 +28,13 @@ void declareDeviceOptions(Arguments& arguments, DeviceOptions& options) {
   arguments.option("--scale", options.scale, "way in the world by way of the hand, 1");
   arguments.triple("--offset", options.offset, "moves the workspace in the world: x y z [m]");
   arguments.option("--clutch", options.clutch,
-                   "while pressed the hand goes back alone: plus, forward, centre, minus, or "
+                   "while pressed the hand goes back alone: plus, forward, centre, minus; on a "
+                   "gamepad south, east, north, west, left, right; or "
                    "hid:PATH,KIND,REPORT,BYTE,VALUE");
-  arguments.option("--grip", options.grip,
-                   "while pressed the hand holds the cube that it touches: as --clutch");
+  arguments.option(
+      "--grip", options.grip,
+      "while pressed the hand holds the cube that it touches: as --clutch; on a gamepad "
+      "south without it");
 }
 
 void checkDeviceOptions(const DeviceOptions& options) {

@@ -14,7 +14,7 @@ using Kind = DeviceSpec::Kind;
 
 constexpr const char* kAllowed =
     "falcon, falcon:SERIAL, falcon@/dev/ttyUSB0, falcon@ft260, emulated, simulated, "
-    "spacemouse[:PATH], hid[:PATH]; tandem device list says what is plugged in";
+    "spacemouse[:PATH], hid[:PATH], gamepad[:PATH]; tandem device list says what is plugged in";
 
 [[noreturn]] void refuse(const std::string& text) {
   throw UsageError(fmt::format("--device {}: no such device; allowed: {}", text, kAllowed));
@@ -33,6 +33,7 @@ DeviceSpec parseDeviceSpec(const std::string& text) {
     if (name == "simulated") return {Kind::kSimulated, ""};
     if (name == "spacemouse") return {Kind::kSpaceMouse, ""};
     if (name == "hid") return {Kind::kRawHid, ""};
+    if (name == "gamepad") return {Kind::kGamepad, ""};
     refuse(text);
   }
   const std::string place = text.substr(end + 1);
@@ -43,6 +44,7 @@ DeviceSpec parseDeviceSpec(const std::string& text) {
     if (name == "falcon" && !place.empty()) return {Kind::kFalconUsb, place};
     if (name == "spacemouse" && isPath(place)) return {Kind::kSpaceMouse, place};
     if (name == "hid" && isPath(place)) return {Kind::kRawHid, place};
+    if (name == "gamepad" && isPath(place)) return {Kind::kGamepad, place};
   }
   refuse(text);
 }
@@ -66,6 +68,8 @@ std::string toText(const DeviceSpec& spec) {
       return with("spacemouse");
     case Kind::kRawHid:
       return with("hid");
+    case Kind::kGamepad:
+      return with("gamepad");
   }
   return "";
 }

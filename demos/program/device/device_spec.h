@@ -13,14 +13,16 @@ struct DeviceSpec {
     kEmulated,     ///< a Falcon in this process, byte by byte
     kSimulated,
     kSpaceMouse,  ///< `place`: path of the hidraw node, empty for the first
-    kRawHid       ///< likewise
+    kRawHid,      ///< likewise
+    kGamepad      ///< `place`: path of the input node, empty for the first
   };
   Kind kind = Kind::kSimulated;
   std::string place;
 };
 
 /// Reads "falcon", "falcon:SERIAL", "falcon@/dev/ttyUSB0", "falcon@ft260", "emulated", "simulated",
-/// "spacemouse[:PATH]" or "hid[:PATH]". Throws UsageError with the allowed values.
+/// "spacemouse[:PATH]", "hid[:PATH]" or "gamepad[:PATH]". Throws UsageError with the allowed
+/// values.
 [[nodiscard]] DeviceSpec parseDeviceSpec(const std::string& text);
 
 /// The spelling of `spec`; inverse of parseDeviceSpec().

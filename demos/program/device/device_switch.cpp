@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tandem/falcon/falcon_status.h"
+#include "tandem/falcon/gamepad_device.h"
 
 #include "device/plugged_in.h"
 #include "terminal/usage_error.h"
@@ -15,7 +16,8 @@ namespace {
 
 [[noreturn]] void refuse(const char* option, const std::string& text) {
   throw UsageError(
-      fmt::format("{} {}: allowed: plus, forward, centre, minus, or "
+      fmt::format("{} {}: allowed: plus, forward, centre, minus, south, east, north, west, left, "
+                  "right, or "
                   "hid:PATH,KIND,REPORT,BYTE,VALUE with KIND bits, key or usage",
                   option, text));
 }
@@ -56,6 +58,12 @@ SwitchSpec parseSwitch(const char* option, const std::string& text) {
   if (text == "forward") return {kForwardButton, "", {}};
   if (text == "centre") return {kCentreButton, "", {}};
   if (text == "minus") return {kMinusButton, "", {}};
+  if (text == "south") return {kSouthButton, "", {}};
+  if (text == "east") return {kEastButton, "", {}};
+  if (text == "north") return {kNorthButton, "", {}};
+  if (text == "west") return {kWestButton, "", {}};
+  if (text == "left") return {kLeftShoulder, "", {}};
+  if (text == "right") return {kRightShoulder, "", {}};
   if (!text.starts_with("hid:/")) refuse(option, text);
   const std::vector<std::string> parts = split(text.substr(4));
   if (parts.size() != 5) refuse(option, text);

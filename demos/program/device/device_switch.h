@@ -13,12 +13,13 @@ namespace tandem::demos {
 
 /// A switch of a user: a button or a pedal.
 struct SwitchSpec {
-  std::uint8_t button = 0;  ///< a FalconButton on the device itself; 0: a pedal
+  std::uint8_t button = 0;  ///< FalconButton or GamepadButton of the device itself; 0: a pedal
   std::string path;         ///< path of the pedal's hidraw node
   HidSwitchMap map;
 };
 
-/// "plus", "forward", "centre", "minus": a button of a Falcon's grip. Or a pedal:
+/// "plus", "forward", "centre", "minus": a button of a Falcon's grip. "south", "east", "north",
+/// "west", "left", "right": a button or shoulder of a gamepad. Or a pedal:
 /// "hid:PATH,KIND,REPORT,BYTE,VALUE", with KIND one of bits, key, usage. Throws UsageError with the
 /// allowed values, naming the `option`.
 [[nodiscard]] SwitchSpec parseSwitch(const char* option, const std::string& text);

@@ -8,6 +8,7 @@
 #include "tandem/falcon/simulated_device.h"
 #include "tandem/falcon/space_mouse_device.h"
 
+#include "device/gamepad_driver.h"
 #include "device/plugged_in.h"
 #include "terminal/usage_error.h"
 
@@ -178,6 +179,8 @@ Driver openDriver(const DeviceSpec& spec, const DeviceOptions& options, UserWish
       return makeSpaceMouse(spec.place);
     case Kind::kRawHid:
       return makeRawHid(spec.place, options);
+    case Kind::kGamepad:
+      return makeGamepadDriver([path = spec.place] { return openGamepad(path); }, options);
   }
   throw Error("no such device");
 }

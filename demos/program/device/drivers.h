@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "tandem/falcon/haptic_device.h"
 
@@ -18,6 +20,7 @@ struct Driver {
   std::unique_ptr<HapticDevice> device;
   std::function<DeviceReport()> report;   ///< only for the thread that made it
   std::function<std::uint8_t()> pressed;  ///< buttons, wait-free, for any thread; may be empty
+  std::optional<std::string> usual_grip;  ///< the switch that holds things without --grip
 };
 
 /// Opens the device of `spec`. A Falcon then boots in its own thread. Throws tandem::Error with the

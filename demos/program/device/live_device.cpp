@@ -24,7 +24,7 @@ LiveDevice::LiveDevice(DeviceSpec spec, Driver driver, const DeviceOptions& opti
     : spec_(std::move(spec)),
       driver_(std::move(driver)),
       clutch_("--clutch", options.clutch),
-      grip_("--grip", options.grip),
+      grip_("--grip", options.grip ? options.grip : driver_.usual_grip),
       placement_(placement) {
   GuardSettings guard;
   guard.max_force = options.max_force;

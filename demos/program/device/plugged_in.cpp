@@ -1,8 +1,12 @@
 #include "device/plugged_in.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "tandem/coordination/types.h"
+
+#include "device/gamepad_driver.h"
 
 #ifdef TANDEM_HAS_DEVICES
 #include "tandem/falcon/byte_transport.h"
@@ -32,6 +36,7 @@ std::vector<PluggedIn> findPluggedIn() {
     found.push_back({{Kind::kFalconFt260, ""}, "FT260 bridge, " + toText(one)});
   for (const HidAddress& one : findSpaceMice())
     found.push_back({{Kind::kSpaceMouse, one.path}, "SpaceMouse, " + toText(one)});
+  for (PluggedIn& one : findPluggedGamepads()) found.push_back(std::move(one));
   return found;
 }
 
@@ -68,7 +73,7 @@ namespace {
 }  // namespace
 
 bool hasDeviceLibraries() noexcept { return false; }
-std::vector<PluggedIn> findPluggedIn() { return {}; }
+std::vector<PluggedIn> findPluggedIn() { return findPluggedGamepads(); }
 std::unique_ptr<ByteTransport> openFalconUsb(const std::string&) { refuse("a Falcon on USB"); }
 std::unique_ptr<ByteTransport> openFalconFt260() { refuse("an FT260"); }
 std::unique_ptr<HidPort> openMouse(const std::string&) { refuse("a SpaceMouse"); }

@@ -10,8 +10,8 @@
 #include "device/device_spec.h"
 
 /// \file
-/// Functions that need libftdi1 and hidapi. A program built without these finds no device, and
-/// opening throws a tandem::Error that explains it.
+/// Functions that need libftdi1 and hidapi. A program built without these finds gamepads only, and
+/// opening others throws a tandem::Error that explains it.
 namespace tandem::demos {
 
 struct PluggedIn {
