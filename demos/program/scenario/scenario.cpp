@@ -8,9 +8,9 @@
 #include "tandem/plugin/toml_text.h"
 
 #include "scenario/body_checks.h"
+#include "scenario/described_scenario.h"
 #include "scenario/keys.h"
 #include "scenario/table_keys.h"
-#include "scenario/toml_input.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
@@ -154,15 +154,24 @@ void checkTogether(const Scenario& s, const std::string& file) {
   checkBodies(s, refuse_pair);
 }
 
+Scenario makeScenario(const toml::table& table, const std::string& name,
+                      const std::vector<std::string>& overrides) {
+  Scenario scenario;
+  applyTable(scenario, name, "", table);
+  for (const std::string& override_text : overrides) applyOverride(scenario, override_text);
+  checkTogether(scenario, name);
+  return scenario;
+}
+
 }  // namespace
 
 Scenario parseScenario(const std::string& text, const std::string& name,
                        const std::vector<std::string>& overrides) {
-  Scenario scenario;
-  applyTable(scenario, name, "", parseToml(text, name));
-  for (const std::string& override_text : overrides) applyOverride(scenario, override_text);
-  checkTogether(scenario, name);
-  return scenario;
+  return makeScenario(parseToml(text, name), name, overrides);
+}
+
+Scenario readScenario(const nlohmann::json& described, const std::string& name) {
+  return makeScenario(makeToml(described, describeScenario({}), name), name, {});
 }
 
 Scenario loadScenario(const std::filesystem::path& file,

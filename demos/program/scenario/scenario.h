@@ -110,6 +110,10 @@ struct Scenario {
 /// All keys with their values, nested as in the file.
 [[nodiscard]] nlohmann::json describeScenario(const Scenario& scenario);
 
+/// The scenario that describeScenario() describes; `name` stands for its file in messages. Throws
+/// UsageError as loadScenario() does.
+[[nodiscard]] Scenario readScenario(const nlohmann::json& described, const std::string& name);
+
 /// True for a key that is a site's own business: two sites of one cooperation may differ in it.
 [[nodiscard]] bool isOwnKey(std::string_view name);
 
