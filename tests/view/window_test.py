@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Drives `tandem view` on a display of its own as a user does: pushes, switches the scheme, ends. Then what goes wrong:
-no display, a bad world, a bad option.
+"""Drives `tandem view` on a display of its own as a user does: pushes, switches the scheme, ends. Shows a recorded
+run. Then what goes wrong: no display, a bad world, a bad option.
 
 Usage: window_test.py TANDEM WITH_WINDOW
 """
@@ -153,6 +153,28 @@ def meet_a_friend(tandem, worlds, display, folder):
     check(view.end() == 0, "Escape ends the window with status 0")
 
 
+def replay_a_run(tandem, worlds, display, folder):
+    run = folder / "run"
+    subprocess.run([tandem, "run", worlds / "cube.toml", "--out", run, "--quiet"], check=True)
+    view = View(tandem, display, folder, "--replay", run, "--site", "2", "--screenshot", folder / "replay.png")
+    view.wait_for("a run that plays", lambda note: note["frames"] > 5 and note["time"] > 0.2)
+    display.press("space")
+    stopped = view.wait_for("a run that pauses", lambda note: len(view.notes()) > 1
+                            and note["time"] == view.notes()[-2]["time"])
+    display.press("Right")
+    later = view.wait_for("a later picture", lambda note: note["time"] > stopped["time"])
+    display.press("Home")
+    view.wait_for("the beginning", lambda note: note["time"] == 0.0)
+    check(later["time"] < 6.0, "the pause came before the end")
+    display.press("Escape")
+    check(view.end() == 0, "Escape ends the window with status 0")
+    check((folder / "replay.png").read_bytes()[:4] == b"\x89PNG", "a screenshot of a run")
+    refuse(tandem, display.environment, 2, "--replay: shows what was recorded", "cube", "--replay", run)
+    refuse(tandem, display.environment, 2, "must be 1 or 2", "--replay", run, "--site", "3")
+    (run / "scene.csv").unlink()
+    refuse(tandem, display.environment, 2, "scene.csv: cannot be read", "--replay", run)
+
+
 def free_ports():
     sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2)]
     for one in sockets:
@@ -185,6 +207,7 @@ def main():
                                   timeout=PATIENCE, check=True)
             check("status 0" in host.stdout, f"a host's own world in a window: {host.stdout}")
             meet_a_friend(tandem, worlds, display, folder)
+            replay_a_run(tandem, worlds, display, folder)
             bad = folder / "bad.toml"
             bad.write_text("[object]\nmass = -1\n")
             refuse(tandem, display.environment, 2, "object.mass", bad)

@@ -4,7 +4,7 @@
 namespace tandem::demos {
 
 CommandEntry viewCommand() {
-  return {"view", "a live world in a window", 8, nullptr,
+  return {"view", "a live world or a recorded run in a window", 8, nullptr,
           [](char** arguments) { startView("view", arguments); }};
 }
 

@@ -5,26 +5,32 @@
 
 #include "command/command.h"
 #include "command/picture_size_option.h"
+#include "command/user_option.h"
 #include "command/world_argument.h"
 #include "device/device_options.h"
 #include "peer/peer_line.h"
 #include "peer/users_device.h"
 #include "terminal/stop_signals.h"
 #include "terminal/usage_error.h"
+#include "window/replay_run.h"
 #include "window/view_run.h"
 
 namespace tandem::demos {
 namespace {
 
-/// `tandem view`: a live world in a window.
+constexpr const char* kUsualWorld = "crate";
+
+/// `tandem view`: a live world in a window, or a recorded run.
 class ViewCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
     arguments.option("WORLD", world_,
                      "a world's name, such as crate (the default), or a scenario file");
+    arguments.option("--replay", replay_,
+                     "folder of a recorded run to show instead; --site 2: as user 2");
     arguments.repeated("--set", overrides_, "override a key, as for tandem run");
     arguments.option("--size", size_, "width and height in pixels, e.g. 1280x800");
-    arguments.option("--seconds", settings_.duration, "close after this time");
+    arguments.option("--seconds", settings_.window.duration, "close after this time");
     arguments.option("--status", status_, "file of a JSON line every 0.1 s");
     arguments.option("--screenshot", screenshot_, "PNG file of the last frame");
     declarePeerLine(arguments, line_, {});
@@ -34,10 +40,31 @@ class ViewCommand final : public Command {
   ExitStatus run() override {
     // Mesa's software driver would take both cores from the haptic threads.
     setenv("LP_NUM_THREADS", "1", 0);
-    settings_.scenario = loadScenario(view::findWorld(world_), overrides_);
-    settings_.size = view::parsePictureSize(size_);
-    if (status_) settings_.status = *status_;
-    if (screenshot_) settings_.screenshot = *screenshot_;
+    settings_.window.size = view::parsePictureSize(size_);
+    if (status_) settings_.window.status = *status_;
+    if (screenshot_) settings_.window.screenshot = *screenshot_;
+    if (replay_) {
+      showReplay();
+    } else {
+      showSession();
+    }
+    return kDone;
+  }
+
+ private:
+  void showReplay() {
+    if (!line_.peer.empty() || !device_.device.empty() || !overrides_.empty() || !world_.empty())
+      throw UsageError(
+          "--replay: shows what was recorded; leave WORLD, --set, --peer and --device");
+    view::RunReplay replay(view::loadRecordedRun(*replay_), view::chooseUser(line_.site));
+    const StopSignals signals;
+    view::ReplayRun run(settings_.window, replay);
+    run.run([&] { return signals.isAskedWithin(0.0); });
+  }
+
+  void showSession() {
+    settings_.scenario =
+        loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_), overrides_);
     if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
     checkGrip(device_, settings_.scenario);
     const StopSignals signals;
@@ -45,13 +72,11 @@ class ViewCommand final : public Command {
     const auto pause = [&](double seconds) { return signals.isAskedWithin(seconds); };
     const auto device = openUsersDevice(device_, settings_.scenario, view::userOf(settings_), false,
                                         pause, is_ended);
-    if (is_ended) return kDone;
+    if (is_ended) return;
     view::ViewRun run(settings_, device.get());
     run.run([&] { return signals.isAskedWithin(0.0); });
-    return kDone;
   }
 
- private:
   [[nodiscard]] const PeerLine& completeLine() const {
     checkPeerLine(line_);
     if (line_.bind.empty() || line_.peer.empty() || line_.key.empty())
@@ -63,14 +88,14 @@ class ViewCommand final : public Command {
   DeviceOptions device_;
   PeerLine line_;
   std::vector<std::string> overrides_;
-  std::string world_ = "crate", size_ = "1280x800";
-  std::optional<std::string> status_, screenshot_;
+  std::string world_, size_ = "1280x800";
+  std::optional<std::string> replay_, status_, screenshot_;
 };
 
 }  // namespace
 
 CommandEntry viewCommand() {
-  return {"view", "a live world in a window", 1, makeCommand<ViewCommand>};
+  return {"view", "a live world or a recorded run in a window", 1, makeCommand<ViewCommand>};
 }
 
 }  // namespace tandem::demos

@@ -6,33 +6,25 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "window/panel_parts.h"
 #include "window/settings_panel.h"
 
 namespace tandem::view {
 namespace {
 
-constexpr float kWidth = 330.0F;  // [pixel]
-
-constexpr const char* kHelp =
-    "move the mouse      the hand, level\n"
-    "Shift               the hand, upright\n"
-    "wheel               the hand, up and down\n"
-    "left button         hold an object\n"
-    "G                   the hand stays\n"
-    "1, 2, 3             the scheme\n"
-    "F2 to F6            who carries contact\n"
-    "Space, full stop    pause, and one step\n"
-    "right button        turn the view; wheel: zoom\n"
-    "middle button       shift the view\n"
-    "F1                  this help\n"
-    "F12                 store a picture\n"
-    "Escape              end";
-
-void describe(const char* name, const char* value) {
-  ImGui::TextUnformatted(name);
-  ImGui::SameLine(140.0F);
-  ImGui::TextUnformatted(value);
-}
+constexpr HelpLine kHelp[] = {{"move the mouse", "the hand, level"},
+                              {"Shift", "the hand, upright"},
+                              {"wheel", "the hand, up and down"},
+                              {"left button", "hold an object"},
+                              {"G", "the hand stays"},
+                              {"1, 2, 3", "the scheme"},
+                              {"F2 to F6", "who carries contact"},
+                              {"Space, full stop", "pause, and one step"},
+                              {"right button", "turn the view; wheel: zoom"},
+                              {"middle button", "shift the view"},
+                              {"F1", "this help"},
+                              {"F12", "store a picture"},
+                              {"Escape", "end"}};
 
 const char* say(std::uint32_t status) {
   if (status & kStateNotFinite) return "diverged: lower the gains";
@@ -49,19 +41,13 @@ PanelWishes Panel::show(const SessionControl& control, const SessionLook& look) 
   PanelWishes wishes;
   wishes.session.scenario = scenario;
   wishes.session.pace = control.pace();
-  ImGui::SetNextWindowPos({10.0F, 10.0F}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({kWidth, 0.0F});
-  ImGui::Begin("Tandem", nullptr, ImGuiWindowFlags_NoResize);
-  ImGui::TextWrapped("%s", scenario.title.c_str());
-  if (!scenario.text.empty()) ImGui::TextWrapped("%s", scenario.text.c_str());
-  ImGui::Separator();
+  beginPanel(scenario);
   showSettings(control, wishes.session);
   ImGui::Separator();
   showForce(look, scenario.device_max_force > 0.0 ? scenario.device_max_force : 10.0);
   showState(control, look);
   ImGui::Separator();
   showButtons(control, wishes);
-  if (shows_help_) ImGui::TextUnformatted(kHelp);
   ImGui::End();
   return wishes;
 }
@@ -76,9 +62,9 @@ void Panel::showButtons(const SessionControl& control, PanelWishes& wishes) {
     wishes.session.restarts |= ImGui::Button("Reset");
     ImGui::SameLine();
   }
-  wishes.takes_picture = ImGui::Button("Picture") || ImGui::IsKeyPressed(GLFW_KEY_F12, false);
+  wishes.takes_picture = askForPicture();
   ImGui::SameLine();
-  if (ImGui::Button("Help") || ImGui::IsKeyPressed(GLFW_KEY_F1, false)) shows_help_ = !shows_help_;
+  showHelp(shows_help_, kHelp);
 }
 
 void Panel::showForce(const SessionLook& look, double most) {

@@ -23,16 +23,15 @@ StatusFile::StatusFile(const std::filesystem::path& file) : file_(std::fopen(fil
                             std::strerror(errno)));
 }
 
-void StatusFile::note(const SessionControl& control, const SessionLook& look, double time,
-                      std::uint64_t frames) {
+void StatusFile::note(const demos::Scenario& scenario, const Pace& pace, const SessionLook& look,
+                      double time, std::uint64_t frames) {
   if (time < next_) return;
   next_ = time + kPeriod;
-  const demos::Scenario& scenario = control.scenario();
   const nlohmann::json line = {{"time", look.time},
                                {"scheme", scenario.scheme},
                                {"contact", demos::nameOf(scenario.site.contact_model)},
-                               {"paused", control.pace().is_paused},
-                               {"speed", control.pace().speed},
+                               {"paused", pace.is_paused},
+                               {"speed", pace.speed},
                                {"delay", scenario.network.delay},
                                {"force", look.force_W.norm()},
                                {"hip", toJson(look.hip_W)},

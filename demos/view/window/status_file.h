@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "session/session_control.h"
+#include "session/pace.h"
+#include "session/session.h"
 
 namespace tandem::view {
 
@@ -17,7 +18,7 @@ class StatusFile {
   explicit StatusFile(const std::filesystem::path& file);
 
   /// `time` is the monotonic clock's [s].
-  void note(const SessionControl& control, const SessionLook& look, double time,
+  void note(const demos::Scenario& scenario, const Pace& pace, const SessionLook& look, double time,
             std::uint64_t frames);
 
  private:

@@ -1,20 +1,15 @@
 #include "window/view_run.h"
 
-#include <cstdio>
-
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "tandem/falcon/monotonic_clock.h"
 
-#include "gl/picture.h"
 #include "session/first_eye.h"
 #include "window/frame_pace.h"
+#include "window/store_picture.h"
 
 namespace tandem::view {
 namespace {
-
-constexpr const char* kPictureName = "tandem-view.png";
 
 /// The picture must not take time from the haptic threads.
 void standBack() { setpriority(PRIO_PROCESS, 0, 19); }
@@ -27,9 +22,9 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
       control_(settings.scenario, settings.line, device),
       hand_look_(settings.scenario.site.proxy.radius),
       eye_(chooseFirstEye(settings.scenario, userOf(settings))) {
-  if (settings.status) status_.emplace(*settings.status);
+  if (settings.window.status) status_.emplace(*settings.window.status);
   standBack();
-  window_ = std::make_unique<GlWindow>("Tandem", settings.size);
+  window_ = std::make_unique<GlWindow>("Tandem", settings.window.size);
   scene_ = std::make_unique<GlScene>();
   input_ = std::make_unique<HandInput>(window_->handle());
   gui_ = std::make_unique<Gui>(window_->handle());
@@ -41,10 +36,10 @@ void ViewRun::run(const std::function<bool()>& stop) {
   for (;;) {
     const double now = pace.wait();
     if (stop() || !control_.session().goesOn() || !window_->isOpen()) break;
-    if (settings_.duration && now - begin > *settings_.duration) break;
+    if (settings_.window.duration && now - begin > *settings_.window.duration) break;
     if (!window_->size().isEmpty()) showFrame(now);
   }
-  if (settings_.screenshot) storePicture(*settings_.screenshot);
+  if (settings_.window.screenshot) storePicture(window_->size(), *settings_.window.screenshot);
 }
 
 void ViewRun::showFrame(double time) {
@@ -63,16 +58,11 @@ void ViewRun::showFrame(double time) {
   gui_->begin();
   const PanelWishes wishes = panel_.show(control_, *look);
   gui_->draw();
-  if (wishes.takes_picture) storePicture(kPictureName);
+  if (wishes.takes_picture) storePicture(size, kPictureName);
   window_->show();
   ++frames_;
-  if (status_) status_->note(control_, *look, time, frames_);
+  if (status_) status_->note(control_.scenario(), control_.pace(), *look, time, frames_);
   control_.obey(wishes.session);
-}
-
-void ViewRun::storePicture(const std::filesystem::path& file) const {
-  if (const auto problem = writePng(readPicture(window_->size()), file))
-    fmt::print(stderr, "tandem: {}\n", *problem);
 }
 
 }  // namespace tandem::view

@@ -29,7 +29,6 @@ class ViewRun {
 
  private:
   void showFrame(double time);
-  void storePicture(const std::filesystem::path& file) const;
 
   ViewSettings settings_;
   demos::LiveDevice* device_;

@@ -1,0 +1,45 @@
+#include "replay/run_replay.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "terminal/usage_error.h"
+
+namespace tandem::view {
+
+RunReplay::RunReplay(RecordedRun run, std::optional<int> user)
+    : run_(std::move(run)), user_(chooseUser(user)), own_(run_, user_), scene_look_(own_.world()) {
+  if (run_.has(1 - user_)) other_ = std::make_unique<SiteReplay>(run_, 1 - user_);
+}
+
+int RunReplay::chooseUser(std::optional<int> wanted) const {
+  const int user = wanted.value_or(run_.has(0) ? 0 : 1);
+  if (run_.has(user)) return user;
+  throw demos::UsageError(fmt::format("--site {}: {} has site {} only; give --site {}", user + 1,
+                                      run_.summary.parent_path().string(), 2 - user, 2 - user));
+}
+
+const std::vector<double>& RunReplay::frames() const {
+  return run_.sites[static_cast<std::size_t>(user_)]->scene.times;
+}
+
+SessionLook RunReplay::look(double time) {
+  own_.moveTo(time);
+  SessionLook look;
+  look.time = time;
+  look.list = scene_look_.look();
+  if (other_) {
+    other_->moveTo(time);
+    look.apart = addGhosts(look.list, other_->world());
+  }
+  look.hip_W = own_.hip_W();
+  look.force_W = own_.force_W();
+  const std::vector<demos::SceneBody>& bodies = own_.world().bodies();
+  const auto object = std::ranges::find(bodies, "object", &demos::SceneBody::role);
+  if (object != bodies.end()) look.object_W = own_.world().pose(*object).p_W;
+  return look;
+}
+
+}  // namespace tandem::view

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "replay/recorded_run.h"
+#include "replay/site_replay.h"
+#include "session/session.h"
+
+namespace tandem::view {
+
+/// A recorded run as one of its users saw it. For one thread.
+class RunReplay {
+ public:
+  /// `user` is 0 or 1; without it the first one whose site was recorded. Throws UsageError if that
+  /// site was not.
+  RunReplay(RecordedRun run, std::optional<int> user);
+  RunReplay(const RunReplay&) = delete;
+  RunReplay& operator=(const RunReplay&) = delete;
+
+  /// What the user saw at that time [s]. The list has no hand of the user's own.
+  [[nodiscard]] SessionLook look(double time);
+
+  [[nodiscard]] int user() const noexcept { return user_; }
+  [[nodiscard]] const demos::Scenario& scenario() const noexcept { return run_.scenario; }
+  [[nodiscard]] double duration() const noexcept { return run_.duration; }
+  /// Moments of the recorded pictures, growing [s].
+  [[nodiscard]] const std::vector<double>& frames() const;
+
+ private:
+  [[nodiscard]] int chooseUser(std::optional<int> wanted) const;
+
+  RecordedRun run_;
+  int user_;
+  SiteReplay own_;
+  std::unique_ptr<SiteReplay> other_;  ///< null if that site was not recorded
+  SceneLook scene_look_;
+};
+
+}  // namespace tandem::view

@@ -1,0 +1,38 @@
+#include "window/panel_parts.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+namespace tandem::view {
+namespace {
+
+constexpr float kWidth = 330.0F;  // [pixel]
+
+}  // namespace
+
+void beginPanel(const demos::Scenario& scenario) {
+  ImGui::SetNextWindowPos({10.0F, 10.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({kWidth, 0.0F});
+  ImGui::Begin("Tandem", nullptr, ImGuiWindowFlags_NoResize);
+  ImGui::TextWrapped("%s", scenario.title.c_str());
+  if (!scenario.text.empty()) ImGui::TextWrapped("%s", scenario.text.c_str());
+  ImGui::Separator();
+}
+
+void describe(const char* name, const char* value) {
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine(140.0F);
+  ImGui::TextUnformatted(value);
+}
+
+bool askForPicture() {
+  return ImGui::Button("Picture") || ImGui::IsKeyPressed(GLFW_KEY_F12, false);
+}
+
+void showHelp(bool& is_shown, std::span<const HelpLine> help) {
+  if (ImGui::Button("Help") || ImGui::IsKeyPressed(GLFW_KEY_F1, false)) is_shown = !is_shown;
+  if (!is_shown) return;
+  for (const HelpLine& line : help) describe(line.input, line.meaning);
+}
+
+}  // namespace tandem::view
