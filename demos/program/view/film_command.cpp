@@ -4,7 +4,7 @@
 namespace tandem::demos {
 
 CommandEntry filmCommand() {
-  return {"film", "a world as a film", 9, nullptr,
+  return {"film", "a world or a recorded run as a film", 9, nullptr,
           [](char** arguments) { startView("film", arguments); }};
 }
 
