@@ -78,7 +78,8 @@ TEST(Peer, TwoProcessesCooperate) {
   ASSERT_EQ(both.second.status, 0) << both.second.err;
   EXPECT_NE(both.first.out.find("live"), std::string::npos) << both.first.out;
   EXPECT_EQ(test::listFolder(folder / "out"),
-            (std::vector<std::string>{"site1.csv", "site1.json", "site2.csv", "site2.json"}));
+            (std::vector<std::string>{"scene1.csv", "scene2.csv", "site1.csv", "site1.json",
+                                      "site2.csv", "site2.json"}));
   for (const char* name : {"site1", "site2"}) {
     const auto summary = nlohmann::json::parse(test::readFile(folder / "out/" + name + ".json"));
     // The ticks in which the force fades come on top.
@@ -87,6 +88,14 @@ TEST(Peer, TwoProcessesCooperate) {
     EXPECT_TRUE(std::isfinite(force));
     EXPECT_GT(summary["network"]["states"]["given"].get<int>(), 0);
     EXPECT_EQ(summary["network"]["datagrams"]["refused"].value("forged", 0), 0);
+    // All bodies are in each picture, at most 30 a second.
+    const std::size_t bodies = summary["scene"]["bodies"].size();
+    EXPECT_EQ(bodies, 3u) << "hand, cube and proxy";
+    const std::string scene = std::string("scene") + name[4] + ".csv";
+    const std::size_t rows = test::readColumns(folder / ("out/" + scene)).at("t").size();
+    EXPECT_EQ(rows % bodies, 0u);
+    EXPECT_GE(rows, 2 * bodies);
+    EXPECT_LE(rows, 17 * bodies);
   }
   // User 1 pushes the cube towards user 2.
   const auto first = nlohmann::json::parse(test::readFile(folder / "out/site1.json"));

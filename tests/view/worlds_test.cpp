@@ -48,7 +48,7 @@ class Ended {
     const auto body = std::ranges::find(bodies, name, &SceneBody::name);
     const auto index = static_cast<std::size_t>(body - bodies.begin());
     std::pair<double, double> range{HUGE_VAL, -HUGE_VAL};
-    for (const SceneFrameRecord& frame : run_.frames()) {
+    for (const SceneFrameRecord& frame : run_.scene().frames()) {
       range.first = std::min(range.first, frame.poses[index].p_W[axis]);
       range.second = std::max(range.second, frame.poses[index].p_W[axis]);
     }

@@ -96,8 +96,7 @@ void runPeer(const PeerOptions& options) {
   if (!options.quiet)
     fmt::print("site {} on {}\n", options.line.site, toString(meeting.run().peers().bound()));
   if (!meeting.live(makeWatch(options))) return;
-  const nlohmann::json summary =
-      makePeerSummary(meeting.scenario().scenario, options.line.site, meeting.run());
+  const nlohmann::json summary = makePeerSummary(meeting.run());
   if (folder) writePeerRun(*folder, options.line.site, summary, meeting.run());
   if (!options.quiet) printPeerSummary(summary, options.line.site);
   finishOutput();
@@ -112,7 +111,7 @@ class PeerCommand final : public Command {
     arguments.option("--scenario", own.scenario, "scenario file (TOML)", required);
     arguments.repeated("--set", own.overrides, "override a key, as for tandem run");
     declarePeerLine(arguments, own.line, required);
-    arguments.option("--out", own.folder, "folder for siteN.csv and siteN.json");
+    arguments.option("--out", own.folder, "folder for siteN.csv, sceneN.csv and siteN.json");
     declareDeviceOptions(arguments, own.device);
     arguments.flag("--quiet", own.quiet, "print nothing but errors");
   }

@@ -3,20 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "world/site_summary.h"
-
 namespace tandem::demos {
 namespace {
-
-nlohmann::json summariseOwnSite(const Scenario& scenario, int number, PeerRun& run) {
-  const Site& site = run.world().site();
-  SiteSummary summary = summariseSite(site, run.recording());
-  summary.received_mean = run.receivedMean();
-  const SceneFrame frame = makeSceneFrame(scenario);
-  const Vec3 moved_W = site.hip().p_W - computeStart(scenario, frame, number - 1);
-  summary.device_end = frame.toScene(moved_W).x();
-  return describeSite(summary);
-}
 
 nlohmann::json summariseNetwork(const PeerRun& run) {
   const PeerStatus peer = run.peerStatus();
@@ -38,30 +26,16 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
 
 }  // namespace
 
-nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run) {
-  const LoopReport& loop = run.loop();
-  nlohmann::json j;
-  j["title"] = scenario.title;
-  j["scenario"] = describeScenario(scenario);
-  j["scalar"] = sizeof(btScalar) == 8 ? "float64" : "float";
-  j[fmt::format("site{}", site)] = summariseOwnSite(scenario, site, run);
+nlohmann::json makePeerSummary(const PeerRun& run) {
+  nlohmann::json j = run.record().summarise(run.loop());
   j["network"] = summariseNetwork(run);
-  j["loop"] = {
-      {"ticks", loop.ticks},
-      {"late", loop.late},
-      {"skipped", loop.skipped},
-      {"worst_lateness", loop.late_max},
-      {"lateness", {{"p50", loop.late_p50}, {"p99", loop.late_p99}}},
-      {"tick_time", {{"p50", loop.tick_p50}, {"p99", loop.tick_p99}, {"max", loop.tick_max}}}};
   return j;
 }
 
 void writePeerRun(const OutputFolder& folder, int site, const nlohmann::json& summary,
                   const PeerRun& run) {
-  const std::string name = fmt::format("site{}", site);
-  run.recording().writeCsv(folder / (name + ".csv"), makeSceneFrame(run.scenario()).q_WS);
-  writeText(folder / (name + ".json"), summary.dump(2) + "\n");
-  folder.publish(name + ".json", {"summary.json"});
+  run.record().write(folder, summary);
+  publishSites(folder, site);
 }
 
 void printPeerSummary(const nlohmann::json& summary, int site) {

@@ -9,9 +9,9 @@ namespace tandem::demos {
 
 /// Summary of one site's live run: the keys of summary.json that one site can know, its network and
 /// its loop.
-[[nodiscard]] nlohmann::json makePeerSummary(const Scenario& scenario, int site, PeerRun& run);
+[[nodiscard]] nlohmann::json makePeerSummary(const PeerRun& run);
 
-/// Publishes siteN.csv and siteN.json: both or, on an error, none.
+/// Publishes siteN.csv, sceneN.csv and siteN.json: all or, on an error, none.
 void writePeerRun(const OutputFolder& folder, int site, const nlohmann::json& summary,
                   const PeerRun& run);
 

@@ -46,37 +46,11 @@ void PeerRun::makeWorld() {
   Site& own = world_->site();
   if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
   if (purpose_ == PeerPurpose::kSession) return;
-  const auto ticks =
-      static_cast<std::size_t>(std::llround(duration() * scenario_.site.haptic_rate));
-  const auto arrivals =
-      static_cast<std::size_t>(2.0 * duration() * scenario_.site.packet_rate) + 64;
-  recording_ =
-      std::make_unique<Recording>(ticks, arrivals, own.objectCount(), own.proxyBody(0) ? 1 : 0);
-  own.record(recording_.get());
+  record_ = std::make_unique<SiteRecord>(scenario_, index_, *world_, duration());
 }
 
 double PeerRun::duration() const noexcept {
   return purpose_ == PeerPurpose::kSession ? HUGE_VAL : scenario_.duration;
-}
-
-double PeerRun::receivedMean() const {
-  if (!scenario_.hasObject() || recording_->ticks().empty()) return 0.0;
-  auto next = recording_->arrivals().begin();
-  const auto end = recording_->arrivals().end();
-  std::uint64_t newest = 0;
-  Vec3 received_W = object_start_W_;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < recording_->ticks().size(); ++i) {
-    for (; next != end && next->arrival.time <= recording_->ticks()[i].time; ++next) {
-      const StatePacket& packet = next->arrival.packet;
-      const auto first = findObject(packet, 0);
-      if (packet.sequence < newest || !first) continue;
-      newest = packet.sequence;
-      received_W = first->p_W;
-    }
-    sum += (recording_->object(i, 0).island.p_W - received_W).norm();
-  }
-  return sum / static_cast<double>(recording_->ticks().size());
 }
 
 ScenePlaces PeerRun::places() {
@@ -159,6 +133,7 @@ void PeerRun::run(const std::function<bool()>& stop,
       const double time = static_cast<double>(step) / scenario_.host_rate;
       sleepUntil(start + time);
       world_->stepHostUntil(time);
+      if (record_) record_->noteStep(time);
       if (wants_grip_) world_->hold(wants_grip_());
       if (after_step) after_step(time, loop);
       if (time < next_report) continue;

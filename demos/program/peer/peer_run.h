@@ -7,8 +7,9 @@
 
 #include "tandem/plugin/haptic_loop.h"
 #include "tandem/plugin/live_peers.h"
-#include "tandem/plugin/recording.h"
 
+#include "run/site_record.h"
+#include "world/scene.h"
 #include "world/scene_places.h"
 
 namespace tandem::demos {
@@ -56,14 +57,12 @@ class PeerRun {
            const std::function<void(double, const HapticLoop&)>& after_step = {});
 
   /// Only with PeerPurpose::kResults.
-  [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
+  [[nodiscard]] const SiteRecord& record() const noexcept { return *record_; }
   [[nodiscard]] const LoopReport& loop() const noexcept { return loop_; }
   [[nodiscard]] const LivePeers& peers() const noexcept { return peers_; }
   [[nodiscard]] SiteWorld& world() noexcept { return *world_; }
   [[nodiscard]] double duration() const noexcept;
   [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
-  /// Mean distance of the own copy to the other's as received [m].
-  [[nodiscard]] double receivedMean() const;
   [[nodiscard]] PeerStatus peerStatus() const;
   /// Where hands and bodies are. For the thread of run(), or after it.
   [[nodiscard]] ScenePlaces places();
@@ -83,7 +82,7 @@ class PeerRun {
   PeerId other_;
   LivePeers peers_;
   std::unique_ptr<SiteWorld> world_;
-  std::unique_ptr<Recording> recording_;
+  std::unique_ptr<SiteRecord> record_;
   Vec3 object_start_W_ = Vec3::Zero();
   LoopReport loop_;
 };

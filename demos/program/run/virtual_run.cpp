@@ -9,9 +9,6 @@
 namespace tandem::demos {
 namespace {
 
-/// Frames of the picture per simulated second [Hz].
-constexpr double kFrameRate = 30.0;
-
 /// Largest number of packets that one site can receive in a run, with all duplicates and some room.
 std::size_t countArrivals(const Scenario& scenario) {
   return static_cast<std::size_t>(2.0 * scenario.duration * scenario.site.packet_rate) + 16;
@@ -23,7 +20,8 @@ VirtualRun::VirtualRun(const Scenario& scenario)
     : scenario_(scenario),
       frame_(makeSceneFrame(scenario)),
       tick_count_(
-          static_cast<std::uint64_t>(std::llround(scenario.duration * scenario.site.haptic_rate))) {
+          static_cast<std::uint64_t>(std::llround(scenario.duration * scenario.site.haptic_rate))),
+      scene_(frame_, scenario.duration) {
   const double in_flight =
       (scenario.network.delay + scenario.network.jitter) * scenario.site.packet_rate * 2.0;
   std::tie(ends_[0], ends_[1]) =
@@ -34,20 +32,20 @@ VirtualRun::VirtualRun(const Scenario& scenario)
     recordings_[s] = std::make_unique<Recording>(tick_count_, countArrivals(scenario),
                                                  site.objectCount(), site.proxyBody(0) ? 1 : 0);
     site.record(recordings_[s].get());
+    scene_.add(s + 1, *worlds_[s]);
   }
   if (scenario.hasObject()) received_W_.fill(worlds_[0]->site().object(0).p_W);
-  frames_.reserve(static_cast<std::size_t>(scenario.duration * kFrameRate) + 2);
 }
 
 void VirtualRun::run(const std::function<void(double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
-  keepFrame(0.0);
+  scene_.keep(0.0);
   for (std::uint64_t tick = 0; tick < tick_count_; ++tick) {
     tickAll(tick);
     const double time = static_cast<double>(tick + 1) / scenario_.site.haptic_rate;
     for (auto& world : worlds_) world->stepHostUntil(time);
-    if (time * kFrameRate >= static_cast<double>(frames_.size())) {
-      keepFrame(time);
+    if (scene_.isDue(time)) {
+      scene_.keep(time);
       checkHealth();
       if (progress) progress(static_cast<double>(tick + 1) / static_cast<double>(tick_count_));
     }
@@ -77,27 +75,6 @@ void VirtualRun::addCoherency() {
     if (const auto received = findObject(site.latest(0), 0)) received_W_[s] = received->p_W;
     summary_.sites[s].received_mean += (site.object(0).p_W - received_W_[s]).norm();
   }
-}
-
-void VirtualRun::keepFrame(double time) {
-  SceneFrameRecord record;
-  record.time = time;
-  for (const auto& world : worlds_) {
-    for (const SceneBody& body : world->bodies()) {
-      RigidState pose = world->pose(body);
-      pose.p_W = frame_.toScene(pose.p_W);
-      pose.q_WB = body.body ? Quat(frame_.q_WS.conjugate() * pose.q_WB) : pose.q_WB;
-      record.poses.push_back(pose);
-    }
-  }
-  frames_.push_back(std::move(record));
-}
-
-std::vector<PlacedSceneBody> VirtualRun::sceneBodies() const {
-  std::vector<PlacedSceneBody> all;
-  for (int s = 0; s < 2; ++s)
-    for (const SceneBody& body : worlds_[s]->bodies()) all.push_back({s + 1, body});
-  return all;
 }
 
 void VirtualRun::checkHealth() {

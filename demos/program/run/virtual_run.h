@@ -3,27 +3,15 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "tandem/plugin/recording.h"
 
+#include "run/scene_record.h"
 #include "scenario/scenario.h"
 #include "world/scene.h"
 #include "world/site_summary.h"
 
 namespace tandem::demos {
-
-/// Poses of all bodies of both sites at one moment, in the scene's frame, for pictures.
-struct SceneFrameRecord {
-  double time = 0.0;
-  std::vector<RigidState> poses;  ///< ordered as in VirtualRun::sceneBodies()
-};
-
-/// A body of a picture, and its site (1 or 2).
-struct PlacedSceneBody {
-  int site = 1;
-  SceneBody body;
-};
 
 /// Results of a run: the numbers of summary.json.
 struct RunSummary {
@@ -48,13 +36,11 @@ class VirtualRun {
   [[nodiscard]] const Recording& recording(int site) const noexcept { return *recordings_[site]; }
   [[nodiscard]] const SceneFrame& frame() const noexcept { return frame_; }
   [[nodiscard]] SiteWorld& world(int site) noexcept { return *worlds_[site]; }
-  [[nodiscard]] std::vector<PlacedSceneBody> sceneBodies() const;
-  [[nodiscard]] const std::vector<SceneFrameRecord>& frames() const noexcept { return frames_; }
+  [[nodiscard]] const SceneRecord& scene() const noexcept { return scene_; }
 
  private:
   void tickAll(std::uint64_t tick);
   void addCoherency();
-  void keepFrame(double time);
   void checkHealth();
   void summarise();
 
@@ -66,7 +52,7 @@ class VirtualRun {
   std::unique_ptr<Recording> recordings_[2];
   /// First object as each site last heard of it [m].
   std::array<Vec3, 2> received_W_ = {Vec3::Zero(), Vec3::Zero()};
-  std::vector<SceneFrameRecord> frames_;
+  SceneRecord scene_;
   RunSummary summary_;
 };
 

@@ -8,16 +8,10 @@
 #include "session/scene_look.h"
 
 namespace tandem::view {
-namespace {
-
-/// VirtualRun calls back as often for each simulated second, and runs are recorded so [Hz].
-constexpr double kFrameRate = 30.0;
-
-}  // namespace
 
 void makeFilm(const demos::Scenario& scenario, const FilmSettings& settings,
               const std::function<void(double)>& progress) {
-  const auto sink = makeFrameSink(settings.out, settings.size, kFrameRate);
+  const auto sink = makeFrameSink(settings.out, settings.size, demos::SceneRecord::kRate);
   const HeadlessContext context;
   demos::VirtualRun run(scenario);
   SceneLook look(run.world(0));
@@ -38,7 +32,7 @@ void makeFilm(const demos::Scenario& scenario, const FilmSettings& settings,
 
 void makeFilm(RunReplay& replay, const FilmSettings& settings,
               const std::function<void(double)>& progress) {
-  const auto sink = makeFrameSink(settings.out, settings.size, kFrameRate);
+  const auto sink = makeFrameSink(settings.out, settings.size, demos::SceneRecord::kRate);
   const HeadlessContext context;
   FilmCamera camera(settings.size, replay.scenario(), replay.user());
   for (const double time : replay.frames()) {
