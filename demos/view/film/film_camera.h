@@ -14,8 +14,8 @@ namespace tandem::view {
 /// of OpenGL, also when it is deleted.
 class FilmCamera {
  public:
-  /// Behind user 0 or 1 of the scenario. Throws Error as FrameTarget and GlScene do.
-  FilmCamera(PictureSize size, const demos::Scenario& scenario, int user);
+  /// At `eye`. Throws Error as FrameTarget and GlScene do.
+  FilmCamera(PictureSize size, const demos::Scenario& scenario, const Eye& eye);
 
   /// Adds the user's own hand `hip_W` [m] and its force [N] to the list, and draws it.
   [[nodiscard]] Picture take(DrawList list, const Vec3& hip_W, const Vec3& force_W);

@@ -25,6 +25,18 @@ const std::vector<double>& RunReplay::frames() const {
   return run_.sites[static_cast<std::size_t>(user_)]->scene.times;
 }
 
+std::vector<Vec3> RunReplay::findWays() {
+  std::vector<Vec3> ways_W;
+  for (const double time : frames()) {
+    own_.moveTo(time);
+    ways_W.push_back(own_.hip_W());
+    for (const demos::SceneBody& body : own_.world().bodies())
+      if (body.role == "object" || body.role == "proxy")
+        ways_W.push_back(own_.world().pose(body).p_W);
+  }
+  return ways_W;
+}
+
 SessionLook RunReplay::look(double time) {
   own_.moveTo(time);
   SessionLook look;

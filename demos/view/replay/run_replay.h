@@ -22,6 +22,9 @@ class RunReplay {
   /// What the user saw at that time [s]. The list has no hand of the user's own.
   [[nodiscard]] SessionLook look(double time);
 
+  /// Where the user's hand, the other's and the objects are in all recorded pictures [m].
+  [[nodiscard]] std::vector<Vec3> findWays();
+
   [[nodiscard]] int user() const noexcept { return user_; }
   [[nodiscard]] const demos::Scenario& scenario() const noexcept { return run_.scenario; }
   [[nodiscard]] double duration() const noexcept { return run_.duration; }

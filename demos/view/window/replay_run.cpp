@@ -1,6 +1,6 @@
 #include "window/replay_run.h"
 
-#include "session/first_eye.h"
+#include "replay/replay_eye.h"
 #include "window/frame_pace.h"
 #include "window/store_picture.h"
 
@@ -12,7 +12,7 @@ ReplayRun::ReplayRun(const WindowSettings& settings, RunReplay& replay)
       clock_(replay.frames(), replay.duration()),
       hand_look_(replay.scenario().site.proxy.radius),
       window_("Tandem", settings.size),
-      eye_(chooseFirstEye(replay.scenario(), replay.user())) {
+      eye_(chooseReplayEye(replay, settings.size)) {
   if (settings.status) status_.emplace(*settings.status);
 }
 
