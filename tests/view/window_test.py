@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Drives `tandem view` on a display of its own as a user does: pushes, switches the scheme, ends. Shows a recorded
-run. Then what goes wrong: no display, a bad world, a bad option.
+run, and makes films of it. Then what goes wrong: no display, a bad world, a bad option.
 
 Usage: window_test.py TANDEM WITH_WINDOW
 """
@@ -185,8 +185,21 @@ def free_ports():
     return ports
 
 
-def refuse(tandem, environment, status, words, *options):
-    done = subprocess.run([tandem, "view", *options], env=environment, capture_output=True, text=True,
+def film_a_run(tandem, display, folder):
+    for rate, pictures in ((30, 31), (10, 11)):
+        out = folder / f"film{rate}"
+        subprocess.run([tandem, "film", folder / "short", "--out", out, "--rate", str(rate), "--size", "64x64",
+                        "--quiet"], check=True)
+        check(len(list(out.iterdir())) == pictures, f"{pictures} pictures of a second at {rate} Hz")
+    out = folder / "bad"
+    refuse(tandem, display.environment, 2, "--rate 31", folder / "short", "--out", out, "--rate", "31", command="film")
+    refuse(tandem, display.environment, 2, "--set", folder / "short", "--out", out, "--set", "title=a", command="film")
+    refuse(tandem, display.environment, 2, "--site", "cube", "--out", out, "--site", "2", command="film")
+    check(not out.exists(), "a refused film leaves nothing")
+
+
+def refuse(tandem, environment, status, words, *options, command="view"):
+    done = subprocess.run([tandem, command, *options], env=environment, capture_output=True, text=True,
                           timeout=PATIENCE, check=False)
     lines = done.stderr.strip().split("\n")
     check(done.returncode == status, f"{options}: status {done.returncode}, not {status}: {done.stderr}")
@@ -208,6 +221,9 @@ def main():
             check("status 0" in host.stdout, f"a host's own world in a window: {host.stdout}")
             meet_a_friend(tandem, worlds, display, folder)
             replay_a_run(tandem, worlds, display, folder)
+            subprocess.run([tandem, "run", worlds / "cube.toml", "--set", "experiment.duration=1", "--out",
+                            folder / "short", "--quiet"], check=True)
+            film_a_run(tandem, display, folder)
             bad = folder / "bad.toml"
             bad.write_text("[object]\nmass = -1\n")
             refuse(tandem, display.environment, 2, "object.mass", bad)

@@ -9,6 +9,7 @@
 #include "command/world_argument.h"
 #include "film/film.h"
 #include "replay/run_replay.h"
+#include "run/scene_record.h"
 #include "terminal/status_line.h"
 #include "terminal/stop_signals.h"
 #include "terminal/usage_error.h"
@@ -29,11 +30,14 @@ class FilmCommand final : public Command {
     arguments.option("--out", out_, "film.mp4, .webm, .gif, or a folder for PNG frames",
                      {.is_required = true});
     arguments.option("--size", size_, "width and height in pixels, e.g. 960x600");
+    arguments.option("--rate", rate_, "pictures for each second, 1 to 30 (the default)");
     arguments.flag("--quiet", is_quiet_, "print nothing but errors");
   }
 
   ExitStatus run() override {
-    const view::FilmSettings settings{out_, view::parsePictureSize(size_)};
+    if (!(rate_ >= 1.0 && rate_ <= SceneRecord::kRate))
+      throw UsageError(fmt::format("--rate {}: must be from 1 to 30", rate_));
+    const view::FilmSettings settings{out_, view::parsePictureSize(size_), rate_};
     {
       ProgressLine line(is_quiet_);
       const StopSignals signals;
@@ -69,6 +73,7 @@ class FilmCommand final : public Command {
 
   std::vector<std::string> overrides_;
   int site_ = 0;
+  double rate_ = SceneRecord::kRate;
   std::string world_, out_, size_ = "960x600";
   bool is_quiet_ = false;
 };
