@@ -91,9 +91,12 @@ demonstrate_live() {
   echo "${runs[0]}/report.html"
 }
 
-prepare_release build demo
-step "Building $program on $(nproc) cores; a few minutes the first time"
-build_preset release "$program"
+prepare_release build demo view
+targets=("$program")
+# Elsewhere than on Debian the packages of graphics may be missing: then the report has no films.
+! pkg-config --exists imgui glfw3 egl opengl || targets+=(tandem-view)
+step "Building ${targets[*]} on $(nproc) cores; a few minutes the first time"
+build_preset release "${targets[@]}"
 
 if [[ $live == yes ]]; then
   demonstrate_live

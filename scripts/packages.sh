@@ -5,10 +5,10 @@
 #   scripts/packages.sh missing build demo   prints which of them are not installed
 #   scripts/packages.sh install build demo   installs what is missing; needs no network if none is missing
 #
-# Groups: build (library and program), demo (figures), view (the window and films), test, bench (other engines that
-# tandem bench compares with, and valgrind for instruction counts; optional), live (cyclictest, for live_bench.sh;
-# optional), hosts (a foreign simulator with Bullet inside, for tests/preload), package (Debian packages), ci (Clang,
-# sanitizers, fuzzing, format).
+# Groups: build (library and program), demo (figures), view (the window, films, and those of reports), test, bench
+# (other engines that tandem bench compares with, and valgrind for instruction counts; optional), live (cyclictest, for
+# live_bench.sh; optional), hosts (a foreign simulator with Bullet inside, for tests/preload), package (Debian
+# packages), ci (Clang, sanitizers, fuzzing, format).
 set -euo pipefail
 
 packages_of() {

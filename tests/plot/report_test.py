@@ -19,11 +19,11 @@ from run_figures import contact_stretches, recorded_time
 from table import Table
 
 
-def plot(*folders):
+def plot(*folders, program=""):
     """Exit status, standard output and standard error."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        status = main(["runs", f"{VC},{KP},{RDP}", *folders])
+        status = main(["runs", f"{VC},{KP},{RDP}", program, *folders])
     return status, out.getvalue(), err.getvalue()
 
 
@@ -56,7 +56,7 @@ class ReportTest(FolderTest):
             twin = self.folder / "b" / path.relative_to(self.folder / "a")
             self.assertEqual(path.read_bytes(), twin.read_bytes(), path.name)
 
-    def test_draws_a_playground_with_its_moving_picture(self):
+    def test_draws_a_playground(self):
         body = {"shape": "box", "half_extents": [0.1, 0.1, 0.1]}
         folder = self.make_run_folder(
             "play", RDP, "playground", title="Boxes & <more>",
@@ -65,12 +65,21 @@ class ReportTest(FolderTest):
             f"{t},{b + 1},{b},{t},0,0,1,0,0,0\n" for t in (0, 0.5, 1) for b in (0, 1)))
         self.assertEqual(plot(folder)[0], 0)
         names = {path.name for path in (self.folder / "play/figures").iterdir()}
-        self.assertLessEqual({"playground-animation.svg", "playground-top-view.svg",
-                              "playground-motion.png"}, names)
+        self.assertLessEqual({"playground-top-view.svg", "playground-motion.png"}, names)
         report = (self.folder / "play/report.html").read_text()
         self.assertIn("<title>Tandem: Boxes &amp; &lt;more&gt;</title>", report)
-        self.assertIn("<animateTransform", report)
-        self.assertIn("pauseAnimations()", report)
+
+    def test_films_that_cannot_be_drawn_are_left_out_with_one_note(self):
+        body = {"shape": "box", "half_extents": [0.1, 0.1, 0.1], "site": 1, "role": "object"}
+        folders = [self.make_run_folder(name, RDP, "playground", scene={"bodies": [body]})
+                   for name in ("a", "b")]
+        for name in ("a", "b"):
+            self.write(f"{name}/scene.csv", "t,site,body,x,y,z,qw,qx,qy,qz\n0,1,0,0,0,0,1,0,0,0\n"
+                       "1,1,0,1,0,0,1,0,0,0\n")
+        status, _, err = plot(*folders, program="/bin/false")
+        self.assertEqual((status, err),
+                         (0, "tandem: note: the report has no films: /bin/false broke off\n"))
+        self.assertNotIn("image/gif", (self.folder / "a/report.html").read_text())
 
     def test_sets_a_live_run_beside_its_twin(self):
         virtual = self.make_run_folder("virtual")

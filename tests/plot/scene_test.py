@@ -1,18 +1,13 @@
-"""Recorded scenes and their moving picture: frames, outlines, what hides what, key frames."""
+"""Recorded scenes: frames and outlines."""
 
 import itertools
-import random
-import re
 import unittest
-import xml.etree.ElementTree as xml
 
 import numpy as np
 
 from support import RDP, message_of, run_of
 
-from animation import animate_scene, drawing_orders
 from scene import read_motion, rotations
-from smil import LoopClock, animate_visibility, key_frames, shaded
 from table import Table
 from top_view import outline
 
@@ -72,63 +67,6 @@ class MotionTest(unittest.TestCase):
             for point, normal in zip(edge, normals / np.linalg.norm(normals, axis=1)[:, None]):
                 reach = (corners - point) @ normal
                 self.assertAlmostEqual(reach.max(), 0, places=9)
-
-
-class DrawingOrderTest(unittest.TestCase):
-    def test_follows_bodies_that_pass_each_other(self):
-        """The ball passes from behind the box to before it: it is drawn first, then last."""
-        centres = np.array([[(0, 0, 0), (0, 0.5, 0)], [(0, 0, 0), (0, -0.5, 0)]])
-        reach = np.array([[0.1], [0.05]])
-        self.assertEqual(drawing_orders(centres - reach, centres + reach),
-                         [(0, [1, 0]), (1, [0, 1])])
-
-    def test_a_stack_is_drawn_from_below(self):
-        centres = np.array([[(0, 0, 0.4), (0, 0, 0), (0, 0, 0.2)]])
-        self.assertEqual(drawing_orders(centres - 0.1, centres + 0.1), [(0, [1, 2, 0])])
-
-
-class SmilTest(unittest.TestCase):
-    def test_key_frames_stay_within_tolerance_of_a_random_walk(self):
-        numbers, x, values = random.Random(7), 0.0, []
-        for frame in range(400):
-            x += 0.3 if frame % 100 < 50 else numbers.random() - 0.5
-            values.append([x])
-        phases, values = np.linspace(0, 1, 400), np.array(values)
-        keys = key_frames(phases, values, 0.2)
-        self.assertEqual((keys[0], keys[-1]), (0, 399))
-        self.assertLess(len(keys), 400)
-        straight = np.interp(phases, phases[keys], values[keys, 0])
-        self.assertLessEqual(np.abs(straight - values[:, 0]).max(), 0.2 + 1e-9)
-
-    def test_short_recordings_are_slowed_down(self):
-        self.assertEqual(LoopClock([0.0, 0.5, 1.0]).slowdown, 5)
-        self.assertEqual(LoopClock([0.0, 8.0]).slowdown, 1)
-        self.assertEqual(LoopClock([0.0]).length, 1)
-
-    def test_visibility_keeps_changes_alone(self):
-        text = animate_visibility(LoopClock([0, 8]), [0, 0.25, 0.5], [True, True, False])
-        self.assertIn('keyTimes="0;0.5" values="visible;hidden"', text)
-
-    def test_shades(self):
-        self.assertEqual([shaded("#f0c800", light) for light in (1, 0.5, 9)],
-                         ["#f0c800", "#786400", "#ffff00"])
-
-
-class AnimationTest(unittest.TestCase):
-    def test_is_one_whole_picture_that_moves(self):
-        rows = "".join(f"{t},1,0,{t},0,0,{np.cos(t)},0,0,{np.sin(t)}\n"
-                       f"{t},1,1,0.5,{0.5 - t},0,1,0,0,0\n{t},1,2,0,0,-0.3,1,0,0,0\n"
-                       for t in np.arange(0, 1.01, 0.1))
-        run, motion = motion_of(rows, BOX | {"name": "a < b"}, BALL, FLOOR)
-        picture = animate_scene(run, motion, "scene")
-        tree = xml.fromstring(picture.svg)
-        tags = [element.tag.split("}")[1] for element in tree.iter()]
-        for tag in ("animate", "animateTransform", "polygon", "circle", "use"):
-            self.assertIn(tag, tags)
-        self.assertNotIn("nan", picture.svg)
-        times = re.findall(r'keyTimes="([^"]*)"', picture.svg)
-        self.assertTrue(all(one.startswith("0") for one in times))
-        self.assertIn("slowed down 5.0 times", picture.caption)
 
 
 if __name__ == "__main__":

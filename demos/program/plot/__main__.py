@@ -1,7 +1,9 @@
 """Draws Tandem's figures; the program `tandem` starts it.
 
-    python3 plot runs SCHEME,SCHEME... FOLDER...   figures and report.html of runs
-    python3 plot bench FOLDER/NAME.json            figures beside the numbers of a bench
+    python3 plot runs SCHEME,SCHEME... VIEW FOLDER...   figures and report.html of runs
+    python3 plot bench FOLDER/NAME.json                 figures beside the numbers of a bench
+
+VIEW is the program that draws films; it may be empty.
 """
 
 import sys

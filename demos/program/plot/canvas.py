@@ -39,21 +39,19 @@ _NO_TEXT = FuncFormatter(lambda value, place: "")
 
 @dataclass
 class Figure:
-    """A picture of the report. `paint` draws it on a Sheet; a finished `svg` needs no drawing."""
+    """A picture of the report. `paint` draws it on a Sheet."""
     name: str  # of the files, without extension
     title: str
     caption: str
     height: float  # [px]
-    paint: Callable = None
-    svg: str = ""
+    paint: Callable
+
+    suffix = ".svg"  # of the file that the report shows
+    width = WIDTH
 
     def save(self, folder):
-        """Writes NAME.svg and NAME.png; of a finished picture the SVG alone."""
+        """Writes NAME.svg and NAME.png."""
         path = os.path.join(folder, self.name)
-        if self.svg:
-            with open(f"{path}.svg", "w", encoding="utf-8") as file:
-                file.write(self.svg)
-            return
         sheet = Sheet(self.title, self.height)
         self.paint(sheet)
         sheet.drawing.savefig(f"{path}.svg", metadata={"Date": None})

@@ -25,21 +25,25 @@ _jobs = []  # figures to draw and their folder; processes that fork inherit them
 
 def save(job):
     figure, folder = _jobs[job]
-    figure.save(folder)
-    return figure.name
+    return figure.name, figure.save(folder)
 
 
 def draw(figures, folder):
-    """Draws on all cores, and says how far it is when somebody watches."""
+    """Draws on all cores, and says how far it is when somebody watches. Says once what is left
+    out."""
     _jobs[:] = [(figure, folder) for figure in figures]
+    problems = set()
     watched, workers = sys.stderr.isatty(), len(os.sched_getaffinity(0))
     with get_context("fork").Pool(min(workers, len(figures)) or 1, signal.signal,
                                   (signal.SIGINT, signal.SIG_IGN)) as pool:
-        for count, name in enumerate(pool.imap_unordered(save, range(len(figures))), 1):
+        for count, (name, problem) in enumerate(pool.imap_unordered(save, range(len(figures))), 1):
+            problems.add(problem)
             if watched:
                 sys.stderr.write(f"\r\033[Kfigure {count} of {len(figures)}: {name}")
     if watched:
         sys.stderr.write("\r\033[K")
+    for problem in filter(None, problems):
+        print(f"tandem: note: {problem}", file=sys.stderr)
 
 
 def marks(folders):
@@ -63,7 +67,7 @@ def publish(draft, home):
         os.remove(report)
     os.makedirs(figures, exist_ok=True)
     for name in os.listdir(figures):  # the folder belongs to this command
-        if name.endswith((".svg", ".png")):
+        if name.endswith((".svg", ".png", ".gif")):
             os.remove(os.path.join(figures, name))
     for name in os.listdir(draft):
         if name != "report.html":
@@ -99,9 +103,11 @@ def main(arguments):
             from benches import bench_figures
             draw(bench_figures(arguments[1]), os.path.dirname(arguments[1]))
         else:
+            from film import use_program
             from words import know_schemes
             know_schemes(arguments[1].split(","))
-            plot_runs(arguments[2:])
+            use_program(arguments[2])
+            plot_runs(arguments[3:])
         return 0
     except KeyboardInterrupt:
         return 1

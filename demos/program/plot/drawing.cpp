@@ -74,6 +74,13 @@ int draw(const std::string& what, const std::vector<std::string>& arguments, boo
   return runAndWait(command, is_silent);
 }
 
+/// The program that draws films, beside this one; empty if it is not built.
+std::string findFilmProgram() {
+  std::error_code ignored;
+  const fs::path program = findOwnFolder() / "tandem-view";
+  return fs::exists(program, ignored) ? program.string() : "";
+}
+
 }  // namespace
 
 void requireDrawing() { (void)findDrawing(); }
@@ -81,7 +88,8 @@ void requireDrawing() { (void)findDrawing(); }
 int plotRuns(const std::vector<std::string>& folders) {
   std::vector<std::string> schemes;
   for (const Scheme* scheme : allSchemes()) schemes.emplace_back(scheme->name());
-  std::vector<std::string> arguments = {fmt::format("{}", fmt::join(schemes, ","))};
+  std::vector<std::string> arguments = {fmt::format("{}", fmt::join(schemes, ",")),
+                                        findFilmProgram()};
   arguments.insert(arguments.end(), folders.begin(), folders.end());
   const int status = draw("runs", arguments, false);
   if (status < 0) throw Error("the drawing of figures was broken off");

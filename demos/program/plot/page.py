@@ -5,7 +5,6 @@ import os
 import re
 from html import escape
 
-from canvas import WIDTH
 from words import scheme_colour, scheme_label
 
 _STYLE = """
@@ -32,16 +31,11 @@ thead .group { text-align: center; border-left: 2px solid #fff; }
 .scheme { display: inline-block; width: 0.7em; height: 0.7em; margin-right: 0.45em; }
 .reference { display: block; color: #5d6770; font-size: 0.92em; }
 figure { margin: 1.2rem 0 1.6rem; max-width: 900px; }
-figure img, figure svg { display: block; width: 100%; height: auto; min-width: 640px; }
+figure img { display: block; width: 100%; height: auto; min-width: 640px; }
 figcaption { color: #414b54; font-size: 0.92rem; margin-top: 0.35rem; max-width: 46rem; }
-button { font: inherit; padding: 0.2rem 0.9rem; border: 1px solid #9aa4ad; border-radius: 0.3rem;
-  background: #f4f6f8; cursor: pointer; }
-@media print { figure img, figure svg { min-width: 0; } figure, tr { break-inside: avoid; }
-  button { display: none; } }
+@media print { figure img { min-width: 0; } figure, tr { break-inside: avoid; } }
 """
-_PAUSE = ("const s=this.parentNode.querySelector('svg');if(s.animationsPaused())"
-          "{s.unpauseAnimations();this.textContent='Pause';}"
-          "else{s.pauseAnimations();this.textContent='Play';}")
+_TYPES = {".svg": "image/svg+xml", ".gif": "image/gif"}
 _NUMBER = re.compile("–|[0-9./ -]+")
 
 
@@ -71,17 +65,16 @@ def table(header, rows, note="", groups=()):
 
 
 def figure(picture, folder):
-    """A figure whose files are in `folder`. Moving pictures get a button that stops them."""
-    if picture.svg:
-        inside = (f'<div class="wide">{picture.svg}</div>'
-                  f'<button type="button" onclick="{_PAUSE}">Pause</button>')
-    else:  # as an image: ids of two drawings cannot clash
-        with open(os.path.join(folder, f"{picture.name}.svg"), "rb") as file:
-            data = base64.b64encode(file.read()).decode()
-        inside = (f'<div class="wide"><img width="{WIDTH}" height="{picture.height}" '
-                  f'alt="{escape(picture.title)}" src="data:image/svg+xml;base64,{data}"></div>')
-    return (f'<figure id="{picture.name}">{inside}<figcaption>{escape(picture.caption)}'
-            "</figcaption></figure>\n")
+    """A figure whose files are in `folder`; nothing without its file."""
+    path = os.path.join(folder, picture.name + picture.suffix)
+    if not os.path.exists(path):
+        return ""
+    with open(path, "rb") as file:  # as an image: ids of two drawings cannot clash
+        data = base64.b64encode(file.read()).decode()
+    return (f'<figure id="{picture.name}"><div class="wide"><img width="{picture.width}" '
+            f'height="{picture.height}" alt="{escape(picture.title)}" '
+            f'src="data:{_TYPES[picture.suffix]};base64,{data}"></div>'
+            f"<figcaption>{escape(picture.caption)}</figcaption></figure>\n")
 
 
 def page(title, body):

@@ -3,7 +3,7 @@
 import math
 from html import escape
 
-from animation import animate_scene
+from film import Film, can_film
 from findings import coherency_findings, contact_findings, sweep_findings
 from grouping import Grouping, text_without_scheme
 from page import figure, page
@@ -76,8 +76,8 @@ class Report:
     def _add_scene(self, run, prefix):
         if run.bodies:
             motion = load_motion(run)
-            if motion.is_spatial(run):
-                self.figure(animate_scene(run, motion, f"{prefix}-animation"))
+            if can_film():
+                self.figure(Film(run, motion.times, f"{prefix}-film"))
             self.figure(top_view(run, motion, f"{prefix}-top-view"))
 
     def _add_cooperation(self, groups):

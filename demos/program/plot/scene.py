@@ -4,7 +4,6 @@ import os
 
 import numpy as np
 
-from runs import PLAYGROUND
 from table import UsageError, read_table
 
 
@@ -40,17 +39,6 @@ class Motion:
             if not is_large and np.linalg.norm(away) <= 1.5 * reach:
                 low, high = np.minimum(low, self.low[b, 0]), np.maximum(high, self.high[b, 0])
         return low, high
-
-    def does_rotate(self, b):
-        """True when the body turns by more than a degree or so at any time."""
-        cosine = np.clip(np.abs(self.q[b] @ self.q[b, 0]), 0, 1)
-        return bool((2 * np.arccos(cosine) > 0.02).any())
-
-    def is_spatial(self, run):
-        """Is there more than the paper's one axis: neighbours, obstacles or rotation?"""
-        return run.kind == PLAYGROUND or any(
-            body.role in ("neighbour", "obstacle") or body.is_box and self.does_rotate(b)
-            for b, body in enumerate(self.bodies))
 
 
 def rotations(q):
