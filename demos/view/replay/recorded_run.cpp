@@ -32,27 +32,32 @@ RecordedRun loadWhole(const fs::path& folder) {
   return run;
 }
 
-}  // namespace
+fs::path summaryOf(const fs::path& folder, int site) {
+  return folder / fmt::format("site{}.json", site + 1);
+}
 
-RecordedRun loadRecordedRun(const fs::path& folder) {
-  std::error_code ignored;
-  const auto siteFile = [&](int site, const char* end) {
-    return folder / fmt::format("site{}{}", site + 1, end);
-  };
-  const bool is_whole = fs::exists(folder / "summary.json", ignored);
-  if (is_whole ||
-      !(fs::exists(siteFile(0, ".json"), ignored) || fs::exists(siteFile(1, ".json"), ignored)))
-    return loadWhole(folder);
+/// Of `tandem peer`: one site or both, each with files of its own.
+RecordedRun loadSites(const fs::path& folder) {
   RecordedRun run;
-  for (int site : {1, 0}) {
-    if (!fs::exists(siteFile(site, ".json"), ignored)) continue;
-    RunSummary summary = readRunSummary(siteFile(site, ".json"));
+  std::error_code ignored;
+  for (int site : {1, 0}) {  // the first site's scenario stays
+    if (!fs::exists(summaryOf(folder, site), ignored)) continue;
+    RunSummary summary = readRunSummary(summaryOf(folder, site));
     run.summary = summary.file;
     run.scenario = std::move(summary.scenario);
     auto scenes = readRecordedScenes(folder / fmt::format("scene{}.csv", site + 1), summary.bodies);
     addSite(run, site, folder, std::move(scenes[static_cast<std::size_t>(site)]));
   }
   return run;
+}
+
+}  // namespace
+
+RecordedRun loadRecordedRun(const fs::path& folder) {
+  std::error_code ignored;
+  const auto exists = [&](const fs::path& file) { return fs::exists(file, ignored); };
+  const bool has_site = exists(summaryOf(folder, 0)) || exists(summaryOf(folder, 1));
+  return has_site && !exists(folder / "summary.json") ? loadSites(folder) : loadWhole(folder);
 }
 
 }  // namespace tandem::view
