@@ -91,6 +91,26 @@ TEST(WorldKeys, FormsHaveWhatTheyNeedAndNothingElse) {
   expectRefused(form("size = [1, 1, 1]\ntool_of = 3\n"), "own.toml:7: body.b.tool_of", "1 or 2");
 }
 
+TEST(WorldKeys, TrianglesHaveTheirPoints) {
+  const auto mesh = [](const std::string& triangles) {
+    return kHead + "[[body]]\nname = \"b\"\nshape = \"mesh\"\n" +
+           "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n" + triangles;
+  };
+  EXPECT_EQ(parse(mesh("triangles = [[0, 1, 2]]\n")).bodies[0].shape.triangles.size(), 1u);
+  expectRefused(mesh(""), "own.toml: body.b", "needs triangles");
+  expectRefused(mesh("triangles = [[0, 1, 3]]\n"), "own.toml: body.b.triangles", "no point 3");
+  expectRefused(mesh("triangles = [[0, 1, 0.5]]\n"), "own.toml:8: body.b.triangles", "numbers of");
+  expectRefused(kHead + kBall + "triangles = [[0, 1, 2]]\n", "own.toml: body.ball.triangles",
+                "only a mesh");
+}
+
+TEST(WorldKeys, InertiaBelongsToABodyThatMoves) {
+  const std::string box = kHead + "[[body]]\nname = \"b\"\nsize = [1, 1, 1]\n";
+  EXPECT_TRUE(parse(box + "mass = 1\ninertia = [1, 1, 1]\n").bodies[0].inertia.has_value());
+  expectRefused(box + "inertia = [1, 1, 1]\n", "own.toml: body.b.inertia", "mass");
+  expectRefused(box + "mass = 1\ninertia = [1, 0, 1]\n", "own.toml:8: body.b.inertia", "above 0");
+}
+
 TEST(WorldKeys, BodiesHaveNamesOfTheirOwn) {
   expectRefused(kHead + "[[body]]\nsize = [1, 1, 1]\n", "own.toml: body.name", "1 to 57");
   expectRefused(kHead + kBall + kBall, "own.toml: body.name = \"ball\"", "two bodies");

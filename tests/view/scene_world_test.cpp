@@ -72,6 +72,18 @@ TEST(SceneWorld, HasAllForms) {
   }
 }
 
+TEST(SceneWorld, TakesInertiaAndTrianglesOfTheScenario) {
+  const SceneWorld scene(makeWorld(
+      "[[body]]\nname = \"b\"\nsize = [1, 1, 1]\nmass = 2\ninertia = [0.1, 0.2, 0.3]\n"
+      "[[body]]\nname = \"m\"\nshape = \"mesh\"\npoints = [[0, 0, 0], [2, 0, 0], [0, 3, 0]]\n"
+      "triangles = [[0, 1, 2]]\n"));
+  const btVector3 inertia = scene.bodies()[0].body->getLocalInertia();
+  EXPECT_LT((inertia - btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.3))).length(), 1e-6);
+  btVector3 low, high;
+  scene.bodies()[1].body->getAabb(low, high);
+  EXPECT_LT(((high - low) - btVector3(2, 3, 0)).length(), 0.008);
+}
+
 TEST(SceneWorld, JointsHold) {
   const std::string body = "size = [0.1, 0.1, 0.1]\nmass = 1\nposition = [0.2, 0, 1]\n";
   Scenario s = makeWorld("[[body]]\nname = \"swings\"\n" + body +

@@ -11,17 +11,33 @@ namespace {
 
 using Refuse = std::function<void(const std::string&)>;
 
-/// What a form needs. A hull needs points or a file.
+/// What a form needs. A hull or mesh needs points or a file.
 struct ShapeNeeds {
   bool size = false, radius = false, height = false, file = false;
 };
 
+bool takesPoints(const ShapeScenario& shape) {
+  return shape.kind == "hull" || shape.kind == "mesh";
+}
+
 ShapeNeeds needsOf(const ShapeScenario& shape) {
   if (shape.kind == "box") return {.size = true};
   if (shape.kind == "sphere") return {.radius = true};
-  if (shape.kind == "mesh") return {.file = true};
-  if (shape.kind == "hull") return {.file = shape.points.empty()};
+  if (takesPoints(shape)) return {.file = shape.points.empty()};
   return {.radius = true, .height = true};
+}
+
+/// A mesh with points has triangles, whose corners are among them.
+void checkTriangles(const ShapeScenario& shape, const std::string& key, const Refuse& refuse) {
+  const bool needs = shape.kind == "mesh" && !shape.points.empty();
+  if (needs && shape.triangles.empty()) refuse(key + ": a mesh with points needs triangles");
+  if (!needs && !shape.triangles.empty())
+    refuse(key + ".triangles: only a mesh with points has them");
+  for (const std::array<int, 3>& corners : shape.triangles)
+    for (const int corner : corners)
+      if (corner < 0 || static_cast<std::size_t>(corner) >= shape.points.size())
+        refuse(fmt::format("{}.triangles: there is no point {}; they count from 0 to {}", key,
+                           corner, shape.points.size() - 1));
 }
 
 /// Checks that a form has what it needs, and nothing else.
@@ -34,12 +50,13 @@ void checkShape(const ShapeScenario& shape, const std::string& key, const Refuse
   check("size", needs.size, shape.size.has_value());
   check("radius", needs.radius, shape.radius.has_value());
   check("height", needs.height, shape.height.has_value());
-  if (shape.kind == "hull" && shape.points.empty() && shape.file.empty())
-    refuse(key + ": a hull needs points or file");
+  if (takesPoints(shape) && shape.points.empty() && shape.file.empty())
+    refuse(fmt::format("{}: a {} needs points or file", key, shape.kind));
   check("file", needs.file, !shape.file.empty());
-  check("points", shape.kind == "hull" && !shape.points.empty(), !shape.points.empty());
-  if (!shape.points.empty() && shape.points.size() < 4)
+  check("points", takesPoints(shape) && !shape.points.empty(), !shape.points.empty());
+  if (shape.kind == "hull" && !shape.points.empty() && shape.points.size() < 4)
     refuse(key + ".points: a hull needs at least 4 points");
+  checkTriangles(shape, key, refuse);
 }
 
 void checkParts(const BodyScenario& body, const std::string& key, const Refuse& refuse) {
@@ -73,6 +90,7 @@ void checkBody(const BodyScenario& body, const Refuse& refuse) {
     checkParts(body, key, refuse);
   if (body.shape.kind == "mesh" && body.mass > 0.0)
     refuse(key + ".mass: a mesh does not move; leave mass out, or use a hull or parts");
+  if (body.inertia && body.mass == 0.0) refuse(key + ".inertia: needs mass above 0, in kg");
   if (body.shared && body.mass == 0.0) refuse(key + ".shared = true: needs mass above 0, in kg");
   if (body.tool_of != 0 && !body.shared) refuse(key + ".tool_of: needs shared = true");
 }

@@ -32,6 +32,26 @@ Vec3 readSize(const Place& place, const toml::node& node) {
   return size;
 }
 
+Vec3 readInertia(const Place& place, const toml::node& node) {
+  const Vec3 inertia = readVector(place, node);
+  if (!(inertia.minCoeff() > 0.0)) refuse(place, node, "three moments of inertia above 0");
+  return inertia;
+}
+
+/// Corners of triangles; which points there are is checked with all else.
+std::vector<std::array<int, 3>> readTriangles(const Place& place, const toml::node& node) {
+  const FieldRange range{0.0, 1e6, false, "a list of triangles [a, b, c], numbers of points"};
+  std::vector<std::array<int, 3>> triangles;
+  for (const std::array<double, 3>& row : readRows<3>(place, node, range)) {
+    std::array<int, 3>& corners = triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = static_cast<int>(row[i]);
+      if (corners[i] != row[i]) refuse(place, node, range.allowed);
+    }
+  }
+  return triangles;
+}
+
 /// Keys of a form; `shape` finds it in its owner.
 template <typename Owner, typename Shape>
 std::vector<KeyOf<Owner>> makeShapeKeys(Shape shape) {
@@ -60,8 +80,11 @@ std::vector<KeyOf<Owner>> makeShapeKeys(Shape shape) {
       valueKey<Owner>(
           {"height", "of a capsule (between its half balls), cylinder or cone", "m", "", "none"},
           "> 0", length, in(&S::height)),
-      valueKey<Owner>({"points", "of a hull: list of `[x, y, z]`", "m", "", "none"},
-                      "4 points or more, not in a plane", points, in(&S::points)),
+      valueKey<Owner>(
+          {"points", "of a hull, or corners of a mesh: list of `[x, y, z]`", "m", "", "none"},
+          "of a hull 4 or more, not in a plane", points, in(&S::points)),
+      valueKey<Owner>({"triangles", "of a mesh with points: list of `[a, b, c]`", "", "", "none"},
+                      "numbers of points, from 0", &readTriangles, in(&S::triangles)),
       textKey<Owner>(
           {"file", "of a hull or mesh: an OBJ file [m]; path from the scenario", "", "", "none"},
           in(&S::file)),
@@ -98,6 +121,13 @@ std::vector<KeyOf<BodyScenario>> makeBodyKeys() {
                      "", "", "none"},
                     partKeys(), kMostParts, &B::parts),
        numberKey<B>({"mass", "0: static", "kg", "a mesh: 0"}, kNotNegative, &B::mass),
+       valueKey<B>(
+           {"inertia", "about its own axes", "kg m^2", "mass above 0", "of its shape"},
+           "three numbers > 0",
+           [](const Place& place, const toml::node& node) {
+             return std::optional<Vec3>(readInertia(place, node));
+           },
+           &B::inertia),
        vectorKey<B>({"position", "of its centre of mass", "m"}, &B::position),
        vectorKey<B>({"rotation", "axis times angle", "rad"}, &B::rotation),
        valueKey<B>({"friction", "of a pair, the product", "", "", "`world.friction`"}, ">= 0",

@@ -15,7 +15,8 @@ struct ShapeScenario {
   std::string kind = "box";                   ///< box, sphere, capsule, cylinder, cone, hull, mesh
   std::optional<Vec3> size;                   ///< edges of a box
   std::optional<double> radius, height;       ///< a capsule's height is that between its half balls
-  std::vector<std::array<double, 3>> points;  ///< of a hull
+  std::vector<std::array<double, 3>> points;  ///< of a hull, or corners of a mesh
+  std::vector<std::array<int, 3>> triangles;  ///< of a mesh: numbers of points, from 0
   std::string file;  ///< OBJ file of a hull or mesh, relative to the scenario
 };
 
@@ -32,6 +33,7 @@ struct BodyScenario {
   ShapeScenario shape;
   std::vector<PartScenario> parts;  ///< in place of one shape
   double mass = 0.0;                ///< [kg]; 0: static
+  std::optional<Vec3> inertia;      ///< about its own axes [kg m^2]; empty: that of its shape
   Vec3 position = Vec3::Zero();     ///< of its centre of mass [m]
   Vec3 rotation = Vec3::Zero();     ///< axis times angle [rad]
   std::optional<double> friction;   ///< empty: that of the world

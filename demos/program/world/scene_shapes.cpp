@@ -33,6 +33,18 @@ std::unique_ptr<btCollisionShape> makeRound(const ShapeScenario& form) {
   return cone;
 }
 
+void addTriangles(const ObjFile& file, btTriangleMesh& mesh) {
+  for (const auto& [a, b, c] : file.triangles)
+    mesh.addTriangle(toBullet(file.points[a]), toBullet(file.points[b]), toBullet(file.points[c]));
+}
+
+void addTriangles(const ShapeScenario& form, btTriangleMesh& mesh) {
+  const auto corner = [&](int number) {
+    return toBullet(Vec3(form.points[static_cast<std::size_t>(number)].data()));
+  };
+  for (const auto& [a, b, c] : form.triangles) mesh.addTriangle(corner(a), corner(b), corner(c));
+}
+
 }  // namespace
 
 btCollisionShape& SceneShapes::make(const BodyScenario& body) {
@@ -74,10 +86,11 @@ std::unique_ptr<btCollisionShape> SceneShapes::makeHull(const ShapeScenario& for
 }
 
 std::unique_ptr<btCollisionShape> SceneShapes::makeMesh(const ShapeScenario& form) {
-  const ObjFile file = readObj(folder_ / form.file);
   auto mesh = std::make_unique<btTriangleMesh>();
-  for (const auto& [a, b, c] : file.triangles)
-    mesh->addTriangle(toBullet(file.points[a]), toBullet(file.points[b]), toBullet(file.points[c]));
+  if (form.points.empty())
+    addTriangles(readObj(folder_ / form.file), *mesh);
+  else
+    addTriangles(form, *mesh);
   auto shape = std::make_unique<btBvhTriangleMeshShape>(mesh.get(), true);
   shape->setMargin(kMargin);
   meshes_.push_back(std::move(mesh));

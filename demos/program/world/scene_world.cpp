@@ -36,7 +36,10 @@ void SceneWorld::addBody(const PlannedBody& plan, double friction, const BodyPla
   btCollisionShape& shape = shapes_.make(body);
   const auto mass = static_cast<btScalar>(body.mass);
   btVector3 inertia(0, 0, 0);
-  if (body.mass > 0.0) shape.calculateLocalInertia(mass, inertia);
+  if (body.inertia)
+    inertia = toBullet(*body.inertia);
+  else if (body.mass > 0.0)
+    shape.calculateLocalInertia(mass, inertia);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &shape, inertia);
   info.m_friction = static_cast<btScalar>(body.friction.value_or(friction));
   info.m_restitution = static_cast<btScalar>(body.restitution);
