@@ -18,15 +18,7 @@ macro(tandem_add_engine name target package)
   endif()
 endmacro()
 
-# Debian's own config of MuJoCo 2.2.2 names a folder that does not exist.
-find_path(TANDEM_MUJOCO_INCLUDE mujoco/mujoco.h)
-find_library(TANDEM_MUJOCO_LIBRARY mujoco)
-mark_as_advanced(TANDEM_MUJOCO_INCLUDE TANDEM_MUJOCO_LIBRARY)
-if(TANDEM_MUJOCO_INCLUDE AND TANDEM_MUJOCO_LIBRARY)
-  add_library(tandem_mujoco INTERFACE IMPORTED GLOBAL)
-  target_include_directories(tandem_mujoco SYSTEM INTERFACE "${TANDEM_MUJOCO_INCLUDE}")
-  target_link_libraries(tandem_mujoco INTERFACE "${TANDEM_MUJOCO_LIBRARY}")
-endif()
+include(TandemMujoco)
 tandem_add_engine(MuJoCo tandem_mujoco libmujoco-dev)
 
 pkg_check_modules(ODE QUIET IMPORTED_TARGET GLOBAL ode)

@@ -17,7 +17,7 @@ esac
 
 if [[ $# == 0 ]]; then
   step "Looking for packages that are missing"
-  "$checkout/scripts/packages.sh" install build package
+  "$checkout/scripts/packages.sh" install build import package
   step "Configuring preset shared"
   configure_preset shared
   step "Building on $(nproc) cores"

@@ -5,10 +5,10 @@
 #   scripts/packages.sh missing build demo   prints which of them are not installed
 #   scripts/packages.sh install build demo   installs what is missing; needs no network if none is missing
 #
-# Groups: build (library and program), demo (figures), view (the window, films, and those of reports), test, bench
-# (other engines that tandem bench compares with, and valgrind for instruction counts; optional), live (cyclictest, for
-# live_bench.sh; optional), hosts (a foreign simulator with Bullet inside, for tests/preload), package (Debian
-# packages), ci (Clang, sanitizers, fuzzing, format).
+# Groups: build (library and program), demo (figures), view (the window, films, and those of reports), import (worlds
+# as URDF, MJCF and .bullet; optional), test, bench (other engines that tandem bench compares with, and valgrind for
+# instruction counts; optional), live (cyclictest, for live_bench.sh; optional), hosts (a foreign simulator with Bullet
+# inside, for tests/preload), package (Debian packages), ci (Clang, sanitizers, fuzzing, format).
 set -euo pipefail
 
 packages_of() {
@@ -17,6 +17,7 @@ packages_of() {
                 nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev libsodium-dev \
                 libftdi1-dev libhidapi-dev libtinyobjloader-dev ;;
     demo)  echo python3-matplotlib ;;
+    import) echo libmujoco-dev libbullet-extras-dev ;;
     view)  echo libglfw3-dev libimgui-dev libopengl-dev libegl-dev libgl1 libgl1-mesa-dri fonts-dejavu-core ;;
     test)  echo libgtest-dev python3 ccache xvfb xdotool ;;
     bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;
@@ -24,7 +25,7 @@ packages_of() {
     hosts) echo libignition-physics-sdf-dev libignition-plugin-dev libignition-physics5-bullet-plugin5 ;;
     package) echo dpkg-dev binutils ;;
     ci)    echo clang libclang-rt-14-dev llvm clang-format clang-tidy ;;
-    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, view, test, bench, live, hosts, package, ci" >&2; return 2 ;;
+    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, view, import, test, bench, live, hosts, package, ci" >&2; return 2 ;;
   esac
 }
 

@@ -36,6 +36,6 @@ prepare_release() {
   step "Looking for packages that are missing"
   "$checkout/scripts/packages.sh" install "$@"
   step "Configuring the build"
-  [[ -z "$("$checkout/scripts/packages.sh" missing test)" ]] || tests=OFF
+  [[ -z "$("$checkout/scripts/packages.sh" missing import test)" ]] || tests=OFF
   configure_preset release "-DTANDEM_BUILD_TESTS=$tests"
 }

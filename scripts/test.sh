@@ -16,7 +16,7 @@ long_simulations+='|GuestBench.HardlyAnything|Model.AgreesForParameters|JointsFo
 long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory'
 
 preset=${1:-release}
-groups=(build demo view test)
+groups=(build demo view import test)
 targets=()
 selection=()
 case "$preset" in

@@ -10,7 +10,7 @@ case "${1:-}" in
   -h|--help) sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
 esac
 
-prepare_release build view
+prepare_release build view import
 step "Building the window on $(nproc) cores; a few minutes the first time"
 build_preset release tandem tandem-view
 

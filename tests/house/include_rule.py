@@ -79,7 +79,8 @@ RULES = {
     "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
     # An adaptor must look at a host's own bodies, and reads its settings from a file.
     ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++")),
-    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11")),
+    "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11",
+                              "MuJoCo")),
     VIEW: Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "GLFW", "Dear ImGui",
                                         "OpenGL", "stb")),
     "bench": Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "Boost",

@@ -131,6 +131,13 @@ TEST(WorldKeys, JointsHoldBodiesThatAreThere) {
       "own.toml: joint.1.bodies", "mass above 0");
 }
 
+TEST(WorldKeys, SharesNamesOfAWorldFileOnly) {
+  expectRefused(kHead + kBall + "[world]\nshare = [\"ball\"]\n", "own.toml: world.share",
+                "shared = true");
+  expectRefused("[world]\nfile = \"x.urdf\"\n", "own.toml: world.file", "\"world\"");
+  EXPECT_TRUE(parse(kHead + "[world]\nfile = \"x.urdf\"\nshare = [\"a\"]\n").hasObject());
+}
+
 TEST(WorldKeys, BelongToAWorld) {
   expectRefused(kBall, "own.toml: [[body]]", "\"world\"");
   expectRefused(kHead, "own.toml: experiment.kind", "needs a body");

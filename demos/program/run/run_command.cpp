@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/command.h"
+#include "import/file_scenario.h"
 #include "run/run_output.h"
 #include "scenario/scenario.h"
 #include "terminal/standard_output.h"
@@ -32,15 +33,18 @@ void printSummary(const nlohmann::json& s) {
 class RunCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
-    arguments.option("scenario", scenario_, "scenario file (TOML)", {.is_required = true});
+    arguments.option("scenario", scenario_,
+                     "scenario file (TOML), or a .urdf, .xml or .bullet file",
+                     {.is_required = true});
     arguments.repeated("--set", overrides_, "override a key, e.g. --set network.delay=0.1");
+    arguments.repeated("--share", shares_, "a body of the world's file that both users move");
     arguments.option("--out", folder_, "folder for site1.csv, site2.csv, scene.csv, summary.json");
     arguments.flag("--json", json_, "print summary.json to stdout");
     arguments.flag("--quiet", quiet_, "print nothing but errors");
   }
 
   ExitStatus run() override {
-    const Scenario scenario = loadScenario(scenario_, overrides_);
+    const Scenario scenario = loadScenario(scenario_, addShares(overrides_, shares_));
     std::optional<OutputFolder> folder;
     if (folder_) folder.emplace(*folder_, "--out " + *folder_);
     VirtualRun run(scenario);
@@ -65,7 +69,7 @@ class RunCommand final : public Command {
   }
 
   std::string scenario_;
-  std::vector<std::string> overrides_;
+  std::vector<std::string> overrides_, shares_;
   std::optional<std::string> folder_;
   bool json_ = false, quiet_ = false;
 };

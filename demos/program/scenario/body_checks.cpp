@@ -124,8 +124,11 @@ void checkBodies(const Scenario& s, const Refuse& refuse) {
   if (!s.isWorld()) {
     if (!s.bodies.empty() || !s.joints.empty())
       refuse("[[body]], [[joint]]: need experiment.kind = \"world\"");
+    if (!s.world_file.empty()) refuse("world.file: needs experiment.kind = \"world\"");
     return;
   }
+  if (!s.world_file.empty()) return;  // its bodies are not known yet
+  if (!s.shared.empty()) refuse("world.share: needs world.file; a [[body]] has shared = true");
   if (s.bodies.empty()) refuse("experiment.kind = \"world\": needs a body, [[body]]");
   if (!s.boxes.empty()) refuse("world.boxes: in a world, boxes are [[body]]");
   std::set<std::string> names;

@@ -208,6 +208,14 @@ Keys makeNetworkKeys() {
   };
 }
 
+std::vector<std::string> readNames(const Place& place, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (!array) refuse(place, node, "a list of names of bodies");
+  std::vector<std::string> names;
+  for (const toml::node& name : *array) names.push_back(readString(place, name));
+  return names;
+}
+
 Keys makeWorldKeys() {
   return {
       numberKey({"world.gravity", "along -z", "m/s^2"}, kNotNegative, &S::gravity),
@@ -219,6 +227,14 @@ Keys makeWorldKeys() {
                 bodyKeys(), kMostBodies, &S::bodies),
       tablesKey({"joint", "joints of a `world`: tables `[[joint]]`, below", "", "", "none"},
                 jointKeys(), kMostBodies, &S::joints),
+      own(textKey(
+          {"world.file",
+           "a `.urdf`, `.xml` (MJCF) or `.bullet` file with more bodies and joints; path from "
+           "the scenario",
+           "", "`world` only", "none"},
+          &S::world_file)),
+      valueKey({"world.share", "its bodies that both users move", "", "", "none"},
+               "a list of names", &readNames, &S::shared),
   };
 }
 

@@ -174,13 +174,6 @@ Scenario readScenario(const nlohmann::json& described, const std::string& name) 
   return makeScenario(makeToml(described, describeScenario({}), name), name, {});
 }
 
-Scenario loadScenario(const std::filesystem::path& file,
-                      const std::vector<std::string>& overrides) {
-  Scenario scenario = parseScenario(readText(file, "scenario"), file.string(), overrides);
-  scenario.file = file;
-  return scenario;
-}
-
 Scenario changeScenario(const Scenario& scenario, const std::vector<std::string>& overrides) {
   Scenario changed = scenario;
   for (const std::string& override_text : overrides) applyOverride(changed, override_text);

@@ -79,6 +79,10 @@ struct Scenario {
   double friction = 0.5;  ///< friction of all bodies of the world
   std::vector<NeighbourBox> boxes;
   std::vector<BodyScenario> bodies;  ///< of a world
+  /// A world of another format, relative to the scenario. loadScenario() puts its bodies and joints
+  /// among those of the scenario, and leaves this empty.
+  std::string world_file;
+  std::vector<std::string> shared;  ///< names of that file's bodies; empty afterwards, too
   std::vector<JointScenario> joints;
   CameraScenario camera;
 
@@ -88,18 +92,20 @@ struct Scenario {
            site.injection == Injection::kHandoff;
   }
   [[nodiscard]] bool hasObject() const {
-    return isWorld() ? std::ranges::any_of(bodies, &BodyScenario::shared) : kind != "user_contact";
+    if (!isWorld()) return kind != "user_contact";
+    return !shared.empty() || std::ranges::any_of(bodies, &BodyScenario::shared);
   }
   /// True if its bodies are those of its tables [[body]].
   [[nodiscard]] bool isWorld() const { return kind == "world"; }
 };
 
-/// Reads a scenario and applies `overrides` ("key=value", dotted key). Throws UsageError, one line:
-/// file, key, value, allowed values.
+/// Reads a scenario, applies `overrides` ("key=value", dotted key), and imports its world file.
+/// A world file may stand in place of a scenario: users' hands begin beside the first shared body.
+/// Throws UsageError, one line: file, key, value, allowed values.
 [[nodiscard]] Scenario loadScenario(const std::filesystem::path& file,
                                     const std::vector<std::string>& overrides);
 
-/// The same from text, for tests and fuzzing; `name` replaces the file in messages.
+/// The same from text, without the world file; `name` replaces the file in messages.
 [[nodiscard]] Scenario parseScenario(const std::string& text, const std::string& name,
                                      const std::vector<std::string>& overrides);
 

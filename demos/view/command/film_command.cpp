@@ -8,6 +8,7 @@
 #include "command/user_option.h"
 #include "command/world_argument.h"
 #include "film/film.h"
+#include "import/file_scenario.h"
 #include "replay/run_replay.h"
 #include "run/scene_record.h"
 #include "terminal/status_line.h"
@@ -23,9 +24,10 @@ class FilmCommand final : public Command {
   void declare(Arguments& arguments) override {
     arguments.option(
         "WORLD", world_,
-        "a world's name, such as crate, a scenario file, or a folder of a recorded run",
+        "a world's name, such as crate, a file as for tandem view, or a folder of a recorded run",
         {.is_required = true});
     arguments.repeated("--set", overrides_, "override a key, as for tandem run");
+    arguments.repeated("--share", shares_, "a body of the world's file that both users move");
     arguments.option("--site", site_, "of a recorded run: whose view, 1 or 2");
     arguments.option("--out", out_, "film.mp4, .webm, .gif, or a folder for PNG frames",
                      {.is_required = true});
@@ -59,8 +61,9 @@ class FilmCommand final : public Command {
   using Progress = std::function<void(double)>;
 
   void filmRun(const view::FilmSettings& settings, const Progress& progress) const {
-    if (!overrides_.empty())
-      throw UsageError("--set: " + world_ + " is a recorded run, whose keys are set; leave --set");
+    if (!overrides_.empty() || !shares_.empty())
+      throw UsageError("--set: " + world_ +
+                       " is a recorded run, whose keys are set; leave --set and --share");
     view::RunReplay replay(view::loadRecordedRun(world_), view::chooseUser(site_));
     view::makeFilm(replay, settings, progress);
   }
@@ -68,10 +71,11 @@ class FilmCommand final : public Command {
   void filmWorld(const view::FilmSettings& settings, const Progress& progress) const {
     if (site_ != 0)
       throw UsageError("--site: chooses the view of a recorded run; leave it for a world");
-    view::makeFilm(loadScenario(view::findWorld(world_), overrides_), settings, progress);
+    view::makeFilm(loadScenario(view::findWorld(world_), addShares(overrides_, shares_)), settings,
+                   progress);
   }
 
-  std::vector<std::string> overrides_;
+  std::vector<std::string> overrides_, shares_;
   int site_ = 0;
   double rate_ = SceneRecord::kRate;
   std::string world_, out_, size_ = "960x600";

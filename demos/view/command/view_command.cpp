@@ -8,6 +8,7 @@
 #include "command/user_option.h"
 #include "command/world_argument.h"
 #include "device/device_options.h"
+#include "import/file_scenario.h"
 #include "peer/peer_line.h"
 #include "peer/users_device.h"
 #include "terminal/stop_signals.h"
@@ -24,11 +25,14 @@ constexpr const char* kUsualWorld = "crate";
 class ViewCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
-    arguments.option("WORLD", world_,
-                     "a world's name, such as crate (the default), or a scenario file");
+    arguments.option(
+        "WORLD", world_,
+        "a world's name, such as crate (the default), or a file: scenario, .urdf, .xml "
+        "(MJCF), .bullet");
     arguments.option("--replay", replay_,
                      "folder of a recorded run to show instead; --site 2: as user 2");
     arguments.repeated("--set", overrides_, "override a key, as for tandem run");
+    arguments.repeated("--share", shares_, "a body of the world's file that both users move");
     arguments.option("--size", size_, "width and height in pixels, e.g. 1280x800");
     arguments.option("--seconds", settings_.window.duration, "close after this time");
     arguments.option("--status", status_, "file of a JSON line every 0.1 s");
@@ -53,9 +57,10 @@ class ViewCommand final : public Command {
 
  private:
   void showReplay() {
-    if (!line_.peer.empty() || !device_.device.empty() || !overrides_.empty() || !world_.empty())
+    if (!line_.peer.empty() || !device_.device.empty() || !overrides_.empty() || !shares_.empty() ||
+        !world_.empty())
       throw UsageError(
-          "--replay: shows what was recorded; leave WORLD, --set, --peer and --device");
+          "--replay: shows what was recorded; leave WORLD, --set, --share, --peer and --device");
     view::RunReplay replay(view::loadRecordedRun(*replay_), view::chooseUser(line_.site));
     const StopSignals signals;
     view::ReplayRun run(settings_.window, replay);
@@ -63,8 +68,8 @@ class ViewCommand final : public Command {
   }
 
   void showSession() {
-    settings_.scenario =
-        loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_), overrides_);
+    settings_.scenario = loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_),
+                                      addShares(overrides_, shares_));
     if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
     checkGrip(device_, settings_.scenario);
     const StopSignals signals;
@@ -87,7 +92,7 @@ class ViewCommand final : public Command {
   view::ViewSettings settings_;
   DeviceOptions device_;
   PeerLine line_;
-  std::vector<std::string> overrides_;
+  std::vector<std::string> overrides_, shares_;
   std::string world_, size_ = "1280x800";
   std::optional<std::string> replay_, status_, screenshot_;
 };
