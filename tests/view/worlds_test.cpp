@@ -108,6 +108,12 @@ const std::map<std::string, Story> kStories = {
        EXPECT_NEAR(world.at("plank").y(), 0.16, 0.01);
      }},
     {"rail", [](Ended& world) { EXPECT_GT(world.range("cube", 0).second, 0.05); }},
+    {"robot",
+     [](Ended& world) {
+       EXPECT_GT(world.range("hand_plate", 1).second, 0.06);
+       EXPECT_LT(world.at("hand_plate").y(), 0.03);
+       EXPECT_GT(world.at("hand_plate").z(), 0.2);
+     }},
     {"seesaw",
      [](Ended& world) {
        EXPECT_GT(world.at("cube").z(), 0.05);
