@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "import/obj_file.h"
+#include "import/shape_files.h"
 #include "terminal/usage_error.h"
-#include "world/obj_file.h"
 
 namespace tandem::demos {
 namespace {
@@ -61,6 +62,10 @@ TEST(SceneWorld, HasAllForms) {
       "[[body]]\nname = \"h\"\nparts = [{size = [1, 1, 1], position = [2, 0, 0]}, {size = [1, 1, "
       "1]}]\n");
   s.file = files.write("t.obj", kTetrahedron);
+  readShapeFiles(s);
+  EXPECT_EQ(s.bodies[5].shape.points.size(), 4u);
+  EXPECT_EQ(s.bodies[6].shape.triangles.size(), 4u);
+  EXPECT_TRUE(s.bodies[6].shape.file.empty());
   const SceneWorld scene(s);
   const std::vector<btVector3> expected = {{2, 1, 3}, {1, 1, 1},       {1, 1, 3},       {1, 1, 2},
                                            {1, 1, 2}, {0.1, 0.1, 0.1}, {0.1, 0.1, 0.1}, {3, 1, 1}};

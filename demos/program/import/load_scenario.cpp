@@ -1,5 +1,6 @@
 #include "import/file_scenario.h"
 #include "import/import_world.h"
+#include "import/shape_files.h"
 #include "scenario/scenario.h"
 #include "scenario/toml_input.h"
 
@@ -12,6 +13,7 @@ Scenario loadScenario(const std::filesystem::path& file,
   Scenario scenario = parseScenario(text, file.string(), overrides);
   scenario.file = file;
   importWorld(scenario);
+  readShapeFiles(scenario);
   if (is_world) placeUsers(scenario);
   return scenario;
 }

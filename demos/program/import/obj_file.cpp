@@ -1,4 +1,4 @@
-#include "world/obj_file.h"
+#include "import/obj_file.h"
 
 #include <fstream>
 #include <sstream>

@@ -17,7 +17,9 @@ struct ShapeScenario {
   std::optional<double> radius, height;       ///< a capsule's height is that between its half balls
   std::vector<std::array<double, 3>> points;  ///< of a hull, or corners of a mesh
   std::vector<std::array<int, 3>> triangles;  ///< of a mesh: numbers of points, from 0
-  std::string file;  ///< OBJ file of a hull or mesh, relative to the scenario
+  /// OBJ file of a hull or mesh, relative to the scenario. loadScenario() reads it into the two
+  /// above, and leaves this empty.
+  std::string file;
 };
 
 /// A form at its place in a body.

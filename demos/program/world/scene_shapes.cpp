@@ -7,7 +7,6 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "terminal/usage_error.h"
-#include "world/obj_file.h"
 #include "world/rotation.h"
 
 namespace tandem::demos {
@@ -31,11 +30,6 @@ std::unique_ptr<btCollisionShape> makeRound(const ShapeScenario& form) {
   auto cone = std::make_unique<btConeShapeZ>(radius, height);
   cone->setMargin(kMargin);
   return cone;
-}
-
-void addTriangles(const ObjFile& file, btTriangleMesh& mesh) {
-  for (const auto& [a, b, c] : file.triangles)
-    mesh.addTriangle(toBullet(file.points[a]), toBullet(file.points[b]), toBullet(file.points[c]));
 }
 
 void addTriangles(const ShapeScenario& form, btTriangleMesh& mesh) {
@@ -69,13 +63,11 @@ btCollisionShape& SceneShapes::makeForm(const ShapeScenario& form, const std::st
 }
 
 std::unique_ptr<btCollisionShape> SceneShapes::makeHull(const ShapeScenario& form,
-                                                        const std::string& key) const {
+                                                        const std::string& key) {
   std::vector<btVector3> points;
   for (const auto& [x, y, z] : form.points) points.push_back(toBullet(Vec3(x, y, z)));
-  if (points.empty())
-    for (const Vec3& point : readObj(folder_ / form.file).points) points.push_back(toBullet(point));
   btConvexHullComputer hull;
-  hull.compute(&points[0][0], sizeof(btVector3), static_cast<int>(points.size()), 0, 0);
+  hull.compute(points.data()->m_floats, sizeof(btVector3), static_cast<int>(points.size()), 0, 0);
   if (hull.faces.size() < 4)
     throw UsageError(fmt::format("{}: its points lie in a plane; a hull needs a volume", key));
   auto shape = std::make_unique<btConvexHullShape>(&hull.vertices[0][0], hull.vertices.size(),
@@ -87,10 +79,7 @@ std::unique_ptr<btCollisionShape> SceneShapes::makeHull(const ShapeScenario& for
 
 std::unique_ptr<btCollisionShape> SceneShapes::makeMesh(const ShapeScenario& form) {
   auto mesh = std::make_unique<btTriangleMesh>();
-  if (form.points.empty())
-    addTriangles(readObj(folder_ / form.file), *mesh);
-  else
-    addTriangles(form, *mesh);
+  addTriangles(form, *mesh);
   auto shape = std::make_unique<btBvhTriangleMeshShape>(mesh.get(), true);
   shape->setMargin(kMargin);
   meshes_.push_back(std::move(mesh));

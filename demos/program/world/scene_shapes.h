@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -13,20 +12,16 @@ namespace tandem::demos {
 /// Makes Bullet's shapes of a scenario's forms, and keeps them.
 class SceneShapes {
  public:
-  /// Files are relative to `folder`.
-  explicit SceneShapes(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-  /// The shape of a body, about its origin. Lives as long as this. Throws UsageError for a file
-  /// that cannot be used, or a hull without volume.
+  /// The shape of a body, about its origin. Lives as long as this. Files must have been read.
+  /// Throws UsageError for a hull without volume.
   [[nodiscard]] btCollisionShape& make(const BodyScenario& body);
 
  private:
   [[nodiscard]] btCollisionShape& makeForm(const ShapeScenario& form, const std::string& key);
-  [[nodiscard]] std::unique_ptr<btCollisionShape> makeHull(const ShapeScenario& form,
-                                                           const std::string& key) const;
+  [[nodiscard]] static std::unique_ptr<btCollisionShape> makeHull(const ShapeScenario& form,
+                                                                  const std::string& key);
   [[nodiscard]] std::unique_ptr<btCollisionShape> makeMesh(const ShapeScenario& form);
 
-  std::filesystem::path folder_;
   std::vector<std::unique_ptr<btTriangleMesh>> meshes_;  // outlive the shapes that use them
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
 };

@@ -20,7 +20,7 @@ btTransform computeStart(const BodyScenario& body, const SceneFrame& frame) {
 }  // namespace
 
 SceneWorld::SceneWorld(const Scenario& scenario, const BodyPlaces& places)
-    : frame_(makeSceneFrame(scenario)), shapes_(scenario.file.parent_path()) {
+    : frame_(makeSceneFrame(scenario)) {
   world_.setGravity(toBullet(frame_.toWorld(-scenario.gravity * Vec3::UnitZ())));
   for (const PlannedBody& plan : planBodies(scenario)) addBody(plan, scenario.friction, places);
   for (const JointScenario& joint : scenario.joints) addJoint(joint, 1.0 / scenario.host_rate);

@@ -37,7 +37,7 @@ struct PlacedBody {
 /// A Bullet world with the bodies and joints of a scenario, as a host would have them.
 class SceneWorld {
  public:
-  /// Throws UsageError for a file of a shape that cannot be used.
+  /// Throws UsageError for a hull without volume.
   explicit SceneWorld(const Scenario& scenario, const BodyPlaces& places = {});
   ~SceneWorld();
   SceneWorld(const SceneWorld&) = delete;
