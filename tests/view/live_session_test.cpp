@@ -12,7 +12,9 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/mouse_device.h"
 
+#include "replay/run_replay.h"
 #include "scenario/keys.h"
+#include "view/run_rig.h"
 
 namespace tandem::view {
 namespace {
@@ -128,6 +130,32 @@ TEST(LiveSession, StandsStillWhilePausedAndStepsWhenAsked) {
   session.setPace({});
   push(session, mouse, session.look()->object_W.x() + 0.005);
   EXPECT_EQ(session.look()->status, kTickOk);
+}
+
+TEST(LiveSession, LeavesARecordThatIsShownAgain) {
+  const test::TempRunFolder folder;
+  const demos::Scenario scenario = loadCube();
+  MouseDevice mouse = makeMouse(scenario);
+  SessionRecords records(folder.path / "run", 0);
+  LiveSession session(scenario, mouse, {}, {}, &records);
+  Impairments network;
+  network.delay = 0.02;
+  session.setNetwork(network);
+  push(session, mouse, 0.02);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "run" / "site1.json")) << "not before the end";
+  const demos::ScenePlaces places = session.end();
+  EXPECT_EQ(records.count(), 1);
+  RunReplay replay(loadRecordedRun(folder.path / "run"), std::nullopt);
+  EXPECT_EQ(replay.scenario().network.delay, 0.02);
+  const SessionLook last = replay.look(replay.duration());
+  EXPECT_GT(last.object_W.x(), 0.015);
+  // A picture is at most 1/30 s old, and the hand is as new as the last tick.
+  EXPECT_LT((last.object_W - places.bodies.at("cube").p_W).norm(), 0.01);
+  EXPECT_LT((last.hip_W - places.hands_W[0]).norm(), 2e-3);
+  const RunReplay other(loadRecordedRun(folder.path / "run"), 1);
+  EXPECT_GE(other.frames().size(), 2u);
+  session.end();
+  EXPECT_EQ(records.count(), 1) << "stored once";
 }
 
 }  // namespace

@@ -18,7 +18,9 @@
 #include "tandem/plugin/key_file.h"
 #include "tandem/plugin/udp_mesh.h"
 
+#include "replay/run_replay.h"
 #include "terminal/usage_error.h"
+#include "view/run_rig.h"
 
 namespace tandem::view {
 namespace {
@@ -54,7 +56,8 @@ class PeerSessionTest : public ::testing::Test {
     MouseSettings settings;
     settings.start_W = demos::computeStart(scenario, demos::makeSceneFrame(scenario), site - 1);
     mice_[at] = std::make_unique<MouseDevice>(settings);
-    sessions[at] = std::make_unique<PeerSession>(scenario, lines_[at], *mice_[at]);
+    sessions[at] = std::make_unique<PeerSession>(scenario, lines_[at], *mice_[at],
+                                                 records[at] ? &*records[at] : nullptr);
   }
   void startBoth() {
     start(1);
@@ -100,6 +103,7 @@ class PeerSessionTest : public ::testing::Test {
 
   demos::Scenario scenario =
       demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml", {});
+  std::array<std::optional<SessionRecords>, 2> records;
   std::array<std::unique_ptr<PeerSession>, 2> sessions;
 
  private:
@@ -117,6 +121,24 @@ TEST_F(PeerSessionTest, FollowsTheOtherUsersScheme) {
   waitFor([&] { return meetWith("kinematic_proxy", 1); }, "user 2's scheme at both");
   sessions[0]->propose(with("experiment.scheme=virtual_coupling"));
   waitFor([&] { return meetWith("virtual_coupling", 2); }, "user 1's scheme at both");
+}
+
+// Two windows record into one folder. A change of scheme ends the first record of both.
+TEST_F(PeerSessionTest, BothLeaveRecordsThatAreShownAgain) {
+  const test::TempRunFolder folder;
+  for (std::size_t at : {0, 1}) records[at].emplace(folder.path / "run", static_cast<int>(at) + 1);
+  startBoth();
+  sessions[1]->propose(with("experiment.scheme=kinematic_proxy"));
+  waitFor([&] { return meetWith("kinematic_proxy", 1); }, "user 2's scheme at both");
+  for (const auto& session : sessions) session->end();
+  for (int user : {0, 1}) {
+    const RunReplay first(loadRecordedRun(folder.path / "run"), user);
+    EXPECT_EQ(first.scenario().scheme, "remote_dynamic_proxy");
+    const RunReplay second(loadRecordedRun(folder.path / "run-2"), user);
+    EXPECT_EQ(second.scenario().scheme, "kinematic_proxy");
+    EXPECT_GE(second.frames().size(), 2u);
+  }
+  EXPECT_EQ(records[0]->count(), 2);
 }
 
 TEST_F(PeerSessionTest, FollowsGains) {

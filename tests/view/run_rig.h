@@ -17,12 +17,23 @@
 
 namespace tandem::view::test {
 
-/// A folder with a short run of the world cube, removed at the end.
+/// A folder for a run, removed at the end.
+struct TempRunFolder {
+  TempRunFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "tandem_run_XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~TempRunFolder() { std::filesystem::remove_all(path); }
+  TempRunFolder(const TempRunFolder&) = delete;
+  TempRunFolder& operator=(const TempRunFolder&) = delete;
+
+  std::filesystem::path path;
+};
+
+/// A folder with a short run of the world cube.
 class RunRig : public ::testing::Test {
  protected:
   RunRig() {
-    std::string name = (std::filesystem::temp_directory_path() / "tandem_run_XXXXXX").string();
-    folder = mkdtemp(name.data());
     const demos::Scenario scenario =
         demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml",
                             {"experiment.duration=1.5", "experiment.axis=[0,1,0]"});
@@ -31,7 +42,6 @@ class RunRig : public ::testing::Test {
     const demos::OutputFolder output(folder, "--out");
     demos::writeRun(output, demos::makeSummary(scenario, *run), *run);
   }
-  ~RunRig() override { std::filesystem::remove_all(folder); }
 
   [[nodiscard]] std::string read(const std::string& name) const {
     std::ifstream stream(folder / name, std::ios::binary);
@@ -53,7 +63,8 @@ class RunRig : public ::testing::Test {
     write(name, json.dump(2));
   }
 
-  std::filesystem::path folder;
+  TempRunFolder temporary;
+  const std::filesystem::path& folder = temporary.path;
   std::unique_ptr<demos::VirtualRun> run;
 };
 

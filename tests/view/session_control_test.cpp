@@ -11,6 +11,9 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
 
+#include "replay/run_replay.h"
+#include "view/run_rig.h"
+
 namespace tandem::view {
 namespace {
 
@@ -40,6 +43,11 @@ SessionWishes wishContact(const SessionControl& control, ContactModel model) {
 
 void waitForTicks(const SessionControl& control) {
   while (control.session().look()->loop.ticks < 10) sleepFor(1e-3);
+}
+
+/// Long enough for two pictures.
+void waitForRecord(const SessionControl& control) {
+  while (control.session().look()->time < 0.05) sleepFor(1e-3);
 }
 
 TEST(SessionControl, SwitchesContactAndKeepsThePause) {
@@ -90,6 +98,44 @@ TEST(SessionControl, EveryWorldTakesBulletsContactOrRefusesItAndComesBack) {
     EXPECT_EQ(control.session().look()->status, kTickOk);
     EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
   }
+}
+
+// Another scheme and Reset end a record, and the next one begins. A world that stands still has
+// one.
+TEST(SessionControl, ARecordForEachSession) {
+  const test::TempRunFolder folder;
+  const auto recordOf = [&](const char* name) {
+    return RunReplay(loadRecordedRun(folder.path / name), std::nullopt);
+  };
+  SessionControl control(loadWorld("rail"), std::nullopt, nullptr, folder.path / "run");
+  waitForRecord(control);
+  SessionWishes wishes = wishesOf(control);
+  wishes.scenario.scheme = "kinematic_proxy";
+  wishes.changes_sites = true;
+  control.obey(wishes);
+  EXPECT_EQ(recordOf("run").scenario().scheme, "remote_dynamic_proxy");
+  waitForRecord(control);
+  wishes = wishesOf(control);
+  wishes.restarts = true;
+  wishes.pace.is_paused = true;
+  control.obey(wishes);
+  EXPECT_EQ(recordOf("run-2").scenario().scheme, "kinematic_proxy");
+  while (control.session().look()->loop.ticks < 20) sleepFor(1e-3);
+  sleepFor(0.05);
+  wishes.restarts = false;
+  wishes.steps = 4;
+  control.obey(wishes);
+  waitForRecord(control);
+  control.end();
+  EXPECT_GE(recordOf("run-3").frames().size(), 2u);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "run-4"));
+}
+
+TEST(SessionControl, RefusesAFolderForRecordsThatIsInUse) {
+  const test::TempRunFolder folder;
+  const demos::OutputFolder other(folder.path, "--out");
+  EXPECT_THROW(SessionControl(loadWorld("cube"), std::nullopt, nullptr, folder.path),
+               demos::UsageError);
 }
 
 // Nobody is at the other end: the session waits meanwhile.

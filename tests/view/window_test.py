@@ -136,7 +136,7 @@ def meet_a_friend(tandem, worlds, display, folder):
     subprocess.run([tandem, "key", "new", key], check=True, stdout=subprocess.DEVNULL)
     ports = free_ports()
     settings = ["--set", "experiment.duration=6"]
-    view = View(tandem, display, folder, "cube", *settings, "--site", "1", "--key", key,
+    view = View(tandem, display, folder, "cube", *settings, "--site", "1", "--key", key, "--record", folder / "met",
                 "--bind", f"127.0.0.1:{ports[0]}", "--peer", f"127.0.0.1:{ports[1]}")
     view.wait_for("a picture while waiting", lambda note: note["waiting"] and note["frames"] > 5)
     friend = subprocess.Popen([tandem, "peer", "--scenario", worlds / "cube.toml", *settings, "--site", "2", "--key", key,
@@ -150,8 +150,28 @@ def meet_a_friend(tandem, worlds, display, folder):
     check(friend.wait(timeout=PATIENCE) == 0, "the friend ends with status 0")
     last = view.wait_for("that the friend has left", lambda note: note["link"] != "live")
     check(last["ticks"] > first["ticks"] + 1000, "they met for more than a second")
+    check(not (folder / "met-2" / "site1.json").exists(), "a record is stored at its end")
     display.press("Escape")
     check(view.end() == 0, "Escape ends the window with status 0")
+    for name in ("met", "met-2"):
+        check(sorted(path.name for path in (folder / name).iterdir()) == ["scene1.csv", "site1.csv", "site1.json"],
+              "a record of the own site, and nothing else")
+    refuse(tandem, display.environment, 2, "give --site 1", "--replay", folder / "met", "--site", "2")
+
+
+def record_until_a_signal(tandem, display, folder):
+    """SIGTERM in the middle of a push leaves a whole record, and SIGKILL none."""
+    for name, is_kind in (("killed", False), ("ended", True)):
+        view = View(tandem, display, folder, "cube", "--record", folder / name)
+        display.do("mousemove", 560, 400, "mousemove_relative", 300, 0)
+        view.wait_for("a session to record", lambda note: note["time"] > 1.0)
+        (view.process.terminate if is_kind else view.process.kill)()
+        status = view.end()
+        check((status == 0) == is_kind, f"{name}: status {status}")
+    check(not list((folder / "killed").glob("*.json")), "nothing is published by a killed window")
+    view = View(tandem, display, folder, "--replay", folder / "ended", "--seconds", "2")
+    view.wait_for("the session again", lambda note: note["time"] > 0.2)
+    check(view.end() == 0, "a replay of a session ends with status 0")
 
 
 def replay_a_run(tandem, worlds, display, folder):
@@ -221,6 +241,7 @@ def main():
                                   timeout=PATIENCE, check=True)
             check("status 0" in host.stdout, f"a host's own world in a window: {host.stdout}")
             meet_a_friend(tandem, worlds, display, folder)
+            record_until_a_signal(tandem, display, folder)
             replay_a_run(tandem, worlds, display, folder)
             subprocess.run([tandem, "run", worlds / "cube.toml", "--set", "experiment.duration=1", "--out",
                             folder / "short", "--quiet"], check=True)

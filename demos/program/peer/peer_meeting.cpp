@@ -35,6 +35,7 @@ void PeerMeeting::makeRun(const ScenePlaces* places) {
 bool PeerMeeting::live(const PeerWatch& watch) {
   for (;;) {
     const bool has_met = meetOnce(watch);
+    if (has_met) watch.after_run();
     if (!user_.may_follow && !refusal_.empty()) throw Error(refusal_);
     if (!next_) return has_met;
     goOn(watch);
@@ -70,7 +71,7 @@ bool PeerMeeting::wantsNext(const PeerWatch& watch) {
   if (takesFollowing(watch, status)) return true;
   // Who leaves between the agreement and the start has made a change, or comes again.
   const bool has_left = !is_running_ && run_->peers().start() && status.phase == PeerPhase::kLeft;
-  if (has_left && (user_.purpose == PeerPurpose::kSession || scenario_.changes > 0))
+  if (has_left && (user_.purpose != PeerPurpose::kResults || scenario_.changes > 0))
     next_ = scenario_;
   return next_.has_value();
 }

@@ -26,6 +26,7 @@ struct PeerWatch {
   std::function<void(const std::string&)> note;  ///< for the user: missing rights, changes
   std::function<void()> has_world = [] {};       ///< PeerMeeting::run() has another world
   std::function<void(double, const HapticLoop&)> after_step = {};  ///< as of PeerRun::run()
+  std::function<void()> after_run = [] {};  ///< PeerMeeting::run() is over, with its record
 };
 
 /// A site's meeting with another user: PeerRuns one after the other, with the same socket's

@@ -27,7 +27,7 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
 }  // namespace
 
 nlohmann::json makePeerSummary(const PeerRun& run) {
-  nlohmann::json j = run.record().summarise(run.loop());
+  nlohmann::json j = run.record().summarise(run.scenario(), run.loop());
   j["network"] = summariseNetwork(run);
   return j;
 }

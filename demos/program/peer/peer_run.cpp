@@ -46,11 +46,12 @@ void PeerRun::makeWorld() {
   Site& own = world_->site();
   if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
   if (purpose_ == PeerPurpose::kSession) return;
-  record_ = std::make_unique<SiteRecord>(scenario_, index_, *world_, duration());
+  record_ = std::make_unique<SiteRecord>(
+      scenario_, index_, *world_, purpose_ == PeerPurpose::kResults ? duration() : kLongestRecord);
 }
 
 double PeerRun::duration() const noexcept {
-  return purpose_ == PeerPurpose::kSession ? HUGE_VAL : scenario_.duration;
+  return purpose_ == PeerPurpose::kResults ? scenario_.duration : HUGE_VAL;
 }
 
 ScenePlaces PeerRun::places() {

@@ -26,8 +26,9 @@ struct PeerReport {
 
 /// Tells whether a PeerRun leaves something behind, and when it ends.
 enum class PeerPurpose {
-  kResults,  ///< a recording; it ends with the scenario's duration
-  kSession,  ///< nothing; it goes on until somebody stops it
+  kResults,          ///< a record; it ends with the scenario's duration
+  kSession,          ///< nothing; it goes on until somebody stops it
+  kRecordedSession,  ///< a record of at most kLongestRecord; it goes on until somebody stops it
 };
 
 /// One site of a scenario, live in real time. A haptic thread ticks at absolute moments, and
@@ -56,7 +57,7 @@ class PeerRun {
            const std::function<void(const std::string&)>& note,
            const std::function<void(double, const HapticLoop&)>& after_step = {});
 
-  /// Only with PeerPurpose::kResults.
+  /// Not with PeerPurpose::kSession.
   [[nodiscard]] const SiteRecord& record() const noexcept { return *record_; }
   [[nodiscard]] const LoopReport& loop() const noexcept { return loop_; }
   [[nodiscard]] const LivePeers& peers() const noexcept { return peers_; }

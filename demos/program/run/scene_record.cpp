@@ -48,6 +48,7 @@ void SceneRecord::add(int site, SiteWorld& world) {
 }
 
 bool SceneRecord::isDue(double time) const noexcept {
+  if (!frames_.empty() && time <= frames_.back().time) return false;
   return frames_.size() < most_ && time * kRate >= static_cast<double>(frames_.size());
 }
 

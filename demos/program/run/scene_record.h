@@ -34,7 +34,8 @@ class SceneRecord {
   /// Adds the world of site 1 or 2, which must outlive the last keep(). Before the first picture.
   void add(int site, SiteWorld& world);
 
-  /// True if it is time for the next picture at `time` [s], and there is room for it.
+  /// True if it is time for the next picture at `time` [s], and there is room for it. A world that
+  /// stands still gives no second one.
   [[nodiscard]] bool isDue(double time) const noexcept;
   /// Keeps a picture of now. Allocates. Haptic threads may run.
   void keep(double time);

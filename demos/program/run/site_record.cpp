@@ -26,11 +26,17 @@ nlohmann::json describeLoop(const LoopReport& loop) {
           {"tick_time", {{"p50", loop.tick_p50}, {"p99", loop.tick_p99}, {"max", loop.tick_max}}}};
 }
 
+/// A scenario has no hand beside a slot, where a mouse may have left it.
+Scenario putHandsIntoSlot(Scenario scenario) {
+  if (scenario.guide)
+    for (HandScenario& hand : scenario.hands) hand.start_offset.tail<2>().setZero();
+  return scenario;
+}
+
 }  // namespace
 
 SiteRecord::SiteRecord(const Scenario& scenario, int site, SiteWorld& world, double duration)
-    : scenario_(scenario),
-      site_(site),
+    : site_(site),
       world_(world),
       frame_(makeSceneFrame(scenario)),
       recording_(makeRecording(scenario, world.site(), duration)),
@@ -48,29 +54,29 @@ bool SiteRecord::hasAnything() const noexcept {
   return !recording_.ticks().empty() && !scene_.frames().empty();
 }
 
-nlohmann::json SiteRecord::summarise(const LoopReport& loop) const {
+nlohmann::json SiteRecord::summarise(const Scenario& scenario, const LoopReport& loop) const {
   nlohmann::json j;
-  j["title"] = scenario_.title;
-  j["scenario"] = describeScenario(scenario_);
+  j["title"] = scenario.title;
+  j["scenario"] = describeScenario(putHandsIntoSlot(scenario));
   j["scalar"] = sizeof(btScalar) == 8 ? "float64" : "float";
-  j[fmt::format("site{}", site_ + 1)] = summariseSite();
+  j[fmt::format("site{}", site_ + 1)] = summariseSite(scenario);
   j["loop"] = describeLoop(loop);
   j["scene"]["bodies"] = scene_.describeBodies();
   return j;
 }
 
-nlohmann::json SiteRecord::summariseSite() const {
+nlohmann::json SiteRecord::summariseSite(const Scenario& scenario) const {
   const Site& site = world_.site();
   SiteSummary summary = demos::summariseSite(site, recording_);
   summary.received_mean = computeReceivedMean();
-  const Vec3 moved_W = site.hip().p_W - computeStart(scenario_, frame_, site_);
+  const Vec3 moved_W = site.hip().p_W - computeStart(scenario, frame_, site_);
   summary.device_end = frame_.toScene(moved_W).x();
   return describeSite(summary);
 }
 
 /// Mean distance of the own copy to the other's as received [m].
 double SiteRecord::computeReceivedMean() const {
-  if (!scenario_.hasObject() || recording_.ticks().empty()) return 0.0;
+  if (recording_.objectCount() == 0 || recording_.ticks().empty()) return 0.0;
   auto next = recording_.arrivals().begin();
   const auto end = recording_.arrivals().end();
   std::uint64_t newest = 0;

@@ -11,6 +11,9 @@
 
 namespace tandem::demos {
 
+/// Of a session that ends when its user wants, this much is recorded [s]: 80 MB for each site.
+inline constexpr double kLongestRecord = 120.0;
+
 /// What a live site leaves behind: its ticks, and pictures of its world.
 class SiteRecord {
  public:
@@ -29,15 +32,14 @@ class SiteRecord {
   /// True if there was a tick and a picture.
   [[nodiscard]] bool hasAnything() const noexcept;
   /// The keys of summary.json that one site can know, and its loop.
-  [[nodiscard]] nlohmann::json summarise(const LoopReport& loop) const;
+  [[nodiscard]] nlohmann::json summarise(const Scenario& scenario, const LoopReport& loop) const;
   /// Writes siteN.csv, sceneN.csv and siteN.json. Throws Error with the file's name.
   void write(const OutputFolder& folder, const nlohmann::json& summary) const;
 
  private:
-  [[nodiscard]] nlohmann::json summariseSite() const;
+  [[nodiscard]] nlohmann::json summariseSite(const Scenario& scenario) const;
   [[nodiscard]] double computeReceivedMean() const;
 
-  Scenario scenario_;
   int site_;
   SiteWorld& world_;
   SceneFrame frame_;

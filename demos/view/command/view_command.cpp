@@ -33,6 +33,8 @@ class ViewCommand final : public Command {
                      "folder of a recorded run to show instead; --site 2: as user 2");
     arguments.repeated("--set", overrides_, "override a key, as for tandem run");
     arguments.repeated("--share", shares_, "a body of the world's file that both users move");
+    arguments.option("--record", record_,
+                     "folder for a record of what you do; after a change FOLDER-2, FOLDER-3");
     arguments.option("--size", size_, "width and height in pixels, e.g. 1280x800");
     arguments.option("--seconds", settings_.window.duration, "close after this time");
     arguments.option("--status", status_, "file of a JSON line every 0.1 s");
@@ -58,9 +60,10 @@ class ViewCommand final : public Command {
  private:
   void showReplay() {
     if (!line_.peer.empty() || !device_.device.empty() || !overrides_.empty() || !shares_.empty() ||
-        !world_.empty())
+        !world_.empty() || record_)
       throw UsageError(
-          "--replay: shows what was recorded; leave WORLD, --set, --share, --peer and --device");
+          "--replay: shows what was recorded; leave WORLD and all options but the window's and "
+          "--site");
     view::RunReplay replay(view::loadRecordedRun(*replay_), view::chooseUser(line_.site));
     const StopSignals signals;
     view::ReplayRun run(settings_.window, replay);
@@ -70,6 +73,7 @@ class ViewCommand final : public Command {
   void showSession() {
     settings_.scenario = loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_),
                                       addShares(overrides_, shares_));
+    if (record_) settings_.record = *record_;
     if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
     checkGrip(device_, settings_.scenario);
     const StopSignals signals;
@@ -94,7 +98,7 @@ class ViewCommand final : public Command {
   PeerLine line_;
   std::vector<std::string> overrides_, shares_;
   std::string world_, size_ = "1280x800";
-  std::optional<std::string> replay_, status_, screenshot_;
+  std::optional<std::string> replay_, record_, status_, screenshot_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "session/live_session.h"
 
 #include <cmath>
+#include <utility>
 
 #include "tandem/falcon/monotonic_clock.h"
 
@@ -15,8 +16,11 @@ constexpr double kTurn = 1e-3;
 }  // namespace
 
 LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
-                         const demos::BodyPlaces& places, const Pace& pace)
+                         const demos::BodyPlaces& places, const Pace& pace, SessionRecords* records)
     : pair_(scenario, &device, places),
+      records_(records),
+      record_(records ? std::make_unique<PairRecord>(scenario, pair_) : nullptr),
+      network_(scenario.network),
       scene_look_(pair_.own()),
       host_rate_(scenario.host_rate),
       may_hold_(scenario.mayGrip()),
@@ -32,6 +36,11 @@ LiveSession::~LiveSession() = default;
 bool LiveSession::hasHapticThreads(const demos::Scenario& scenario) {
   return scenario.site.contact_model == ContactModel::kIsland &&
          scenario.site.injection == Injection::kHandoff;
+}
+
+void LiveSession::setNetwork(const Impairments& network) {
+  pair_.network().change(network);
+  network_ = network;
 }
 
 void LiveSession::setPace(const Pace& pace) {
@@ -57,6 +66,7 @@ bool LiveSession::goesOn() const {
 
 demos::ScenePlaces LiveSession::end() {
   host_ = {};
+  if (const auto record = std::exchange(record_, nullptr)) record->store(network_, *records_);
   const auto hand_W = [](demos::SiteWorld& world) { return world.site().hip().p_W; };
   return {{hand_W(pair_.own()), hand_W(pair_.other())}, pair_.own().places()};
 }
@@ -99,6 +109,7 @@ void LiveSession::runPaced(const std::stop_token& stop) {
 
 void LiveSession::afterSteps(double time) {
   if (may_hold_) pair_.own().hold(wantsHold());
+  if (record_) record_->noteStep(time);
   if (isLookDue(readMonotonicClock())) lookAtWorlds(time);
 }
 

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "session/pace.h"
+#include "session/pair_record.h"
 #include "session/session.h"
 #include "session/site_pair.h"
 #include "world/scene_places.h"
@@ -17,9 +18,11 @@ namespace tandem::view {
 class LiveSession final : public Session {
  public:
   /// `device` must outlive this. Bodies begin at rest at `places`, or where the scenario says.
-  /// Throws as SiteWorld and HapticLoop do.
+  /// With `records`, which must outlive this, both sites are recorded. Throws as SiteWorld and
+  /// HapticLoop do.
   LiveSession(const demos::Scenario& scenario, HapticDevice& device,
-              const demos::BodyPlaces& places = {}, const Pace& pace = {});
+              const demos::BodyPlaces& places = {}, const Pace& pace = {},
+              SessionRecords* records = nullptr);
   /// Fades the forces and ends all threads.
   ~LiveSession() override;
 
@@ -27,15 +30,15 @@ class LiveSession final : public Session {
   [[nodiscard]] static bool hasHapticThreads(const demos::Scenario& scenario);
 
   /// Changes the network while hands touch.
-  void setNetwork(const Impairments& network) { pair_.network().change(network); }
+  void setNetwork(const Impairments& network);
   /// Only with a simulated device, such as the mouse: a hand of flesh does not stop. See PacedTime.
   void setPace(const Pace& pace);
   /// While paused: time goes on by one host period.
   void step() noexcept { ++steps_; }
   [[nodiscard]] std::vector<std::string> notes() const override;
   [[nodiscard]] bool goesOn() const override;
-  /// Ends the session, and tells where it was.
-  [[nodiscard]] demos::ScenePlaces end();
+  /// Ends the session, stores its record, and tells where it was. Throws as PairRecord::store().
+  demos::ScenePlaces end();
 
  private:
   void live(const std::stop_token& stop);
@@ -48,6 +51,9 @@ class LiveSession final : public Session {
   [[nodiscard]] bool needsThreads() const { return has_threads_ && pace().isRealTime(); }
 
   SitePair pair_;
+  SessionRecords* records_;             ///< null: none are wanted
+  std::unique_ptr<PairRecord> record_;  ///< null: none, or it is stored
+  Impairments network_;
   SceneLook scene_look_;
   double host_rate_;
   bool may_hold_, has_threads_;

@@ -2,13 +2,22 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "tandem/falcon/monotonic_clock.h"
+
+#include "peer/peer_output.h"
 
 namespace tandem::view {
 
 PeerSession::PeerSession(const demos::Scenario& scenario, const demos::PeerLine& line,
-                         HapticDevice& device)
-    : meeting_(scenario, line, {&device, {}, demos::PeerPurpose::kSession}) {
+                         HapticDevice& device, SessionRecords* records)
+    : site_(line.site),
+      records_(records),
+      meeting_(scenario, line,
+               {&device,
+                {},
+                records ? demos::PeerPurpose::kRecordedSession : demos::PeerPurpose::kSession}) {
   lookAtWorld(0.0, nullptr);
   thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
 }
@@ -24,6 +33,19 @@ bool PeerSession::goesOn() const {
   const std::lock_guard lock(mutex_);
   if (problem_) std::rethrow_exception(problem_);
   return !has_ended_;
+}
+
+void PeerSession::end() {
+  thread_ = {};
+  (void)goesOn();
+}
+
+void PeerSession::storeRecord() {
+  const demos::PeerRun& run = meeting_.run();
+  if (!run.record().hasAnything()) return;
+  records_->store([&](const demos::OutputFolder& folder) {
+    demos::writePeerRun(folder, site_, demos::makePeerSummary(run), run);
+  });
 }
 
 void PeerSession::live(const std::stop_token& stop) {
@@ -42,6 +64,7 @@ void PeerSession::live(const std::stop_token& stop) {
     meeting_.run().world().hold(wantsHold());
     if (isLookDue(readMonotonicClock())) lookAtWorld(time, &loop);
   };
+  if (records_) watch.after_run = [&] { storeRecord(); };
   try {
     meeting_.live(watch);
   } catch (...) {

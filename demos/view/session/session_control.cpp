@@ -1,7 +1,10 @@
 #include "session/session_control.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "scenario/keys.h"
 #include "terminal/usage_error.h"
@@ -21,9 +24,11 @@ std::string nameContact(const demos::Scenario& scenario) {
 
 SessionControl::SessionControl(const demos::Scenario& scenario,
                                const std::optional<demos::PeerLine>& line,
-                               demos::LiveDevice* device)
+                               demos::LiveDevice* device,
+                               const std::optional<std::filesystem::path>& record)
     : scenario_(scenario), line_(line), device_(device) {
   if (!line_) checkHand(scenario_);
+  if (record) records_.emplace(*record, line_ ? line_->site : 0);
   start({});
 }
 
@@ -43,6 +48,13 @@ void SessionControl::obey(const SessionWishes& wishes) {
   } catch (const demos::UsageError& error) {
     refusal_ = error.what();
   }
+}
+
+void SessionControl::end() {
+  if (both_) both_->end();
+  if (friend_) friend_->end();
+  if (records_ && records_->count() == 0)
+    fmt::print(stderr, "tandem: note: nothing is recorded: the session has not begun\n");
 }
 
 /// Own changes are in `scenario_` before they are in force.
@@ -114,15 +126,16 @@ void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places
     settings.start_W = demos::computeStart(scenario, demos::makeSceneFrame(scenario), user);
     mouse_ = std::make_unique<MouseDevice>(settings);
   }
+  SessionRecords* const records = records_ ? &*records_ : nullptr;
   HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
   if (line_) {
-    auto session = std::make_unique<PeerSession>(scenario, *line_, device);
+    auto session = std::make_unique<PeerSession>(scenario, *line_, device, records);
     friend_ = session.get();
     session_ = std::move(session);
     return;
   }
   auto session = std::make_unique<LiveSession>(
-      scenario, device, places ? places->bodies : demos::BodyPlaces{}, pace_);
+      scenario, device, places ? places->bodies : demos::BodyPlaces{}, pace_, records);
   both_ = session.get();
   session_ = std::move(session);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,10 +30,11 @@ struct SessionWishes {
 class SessionControl {
  public:
   /// `line` leads to a friend's site; none: both sites are here. `device` is the user's, and must
-  /// outlive this; null: a mouse. Throws UsageError if the device cannot feel the scenario, and as
-  /// the sessions do.
+  /// outlive this; null: a mouse. With `record`, a folder, each session is recorded. Throws
+  /// UsageError if the device cannot feel the scenario, and as SessionRecords and sessions do.
   SessionControl(const demos::Scenario& scenario, const std::optional<demos::PeerLine>& line,
-                 demos::LiveDevice* device);
+                 demos::LiveDevice* device,
+                 const std::optional<std::filesystem::path>& record = std::nullopt);
 
   [[nodiscard]] Session& session() noexcept { return *session_; }
   [[nodiscard]] const Session& session() const noexcept { return *session_; }
@@ -46,6 +48,8 @@ class SessionControl {
 
   /// Does what can be done. Refuses the rest, with a note.
   void obey(const SessionWishes& wishes);
+  /// Ends the session and stores its record, the last one. Throws as the sessions do.
+  void end();
 
  private:
   void changeSites(const SessionWishes& wishes);
@@ -60,6 +64,7 @@ class SessionControl {
   demos::LiveDevice* device_;
   Pace pace_;
   std::string refusal_;  ///< empty: none
+  std::optional<SessionRecords> records_;
   Worker session_maker_;
   std::unique_ptr<MouseDevice> mouse_;
   std::unique_ptr<Session> session_;  // after the mouse, which outlives it

@@ -46,7 +46,7 @@ void SitePair::stop() noexcept {
   for (std::size_t site : {0, 1}) {
     if (!loops_[site]) continue;
     loops_[site]->stop();
-    const LoopReport report = loops_[site]->report();
+    const LoopReport& report = reports_[site] = loops_[site]->report();
     next_ticks_[site] += report.ticks + report.skipped;
     loops_[site].reset();
   }

@@ -40,6 +40,8 @@ class SitePair {
   void stepHosts(double time);
   /// Of user 1's haptic thread, which runs.
   [[nodiscard]] const HapticLoop& loop() const noexcept { return *loops_[0]; }
+  /// Of the last haptic thread that ended at site 0 or 1.
+  [[nodiscard]] const LoopReport& report(std::size_t site) const noexcept { return reports_[site]; }
 
   // --- In virtual time
 
@@ -61,6 +63,7 @@ class SitePair {
   double haptic_rate_, host_rate_;                ///< [Hz]
   std::array<std::uint64_t, 2> next_ticks_ = {};  ///< the sites' own, if no thread runs
   double begin_ = 0.0;
+  std::array<LoopReport, 2> reports_ = {};
   std::array<std::unique_ptr<HapticLoop>, 2> loops_;
 };
 

@@ -19,7 +19,7 @@ void standBack() { setpriority(PRIO_PROCESS, 0, 19); }
 ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
     : settings_(settings),
       device_(device),
-      control_(settings.scenario, settings.line, device),
+      control_(settings.scenario, settings.line, device, settings.record),
       hand_look_(settings.scenario.site.proxy.radius),
       eye_(chooseFirstEye(settings.scenario, userOf(settings))) {
   if (settings.window.status) status_.emplace(*settings.window.status);
@@ -31,6 +31,16 @@ ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
 }
 
 void ViewRun::run(const std::function<bool()>& stop) {
+  try {
+    showFrames(stop);
+  } catch (...) {
+    control_.end();
+    throw;
+  }
+  control_.end();
+}
+
+void ViewRun::showFrames(const std::function<bool()>& stop) {
   FramePace pace;
   const double begin = readMonotonicClock();
   for (;;) {

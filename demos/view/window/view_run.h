@@ -23,11 +23,13 @@ class ViewRun {
   /// there is no display.
   ViewRun(const ViewSettings& settings, demos::LiveDevice* device);
 
-  /// Until the user closes the window, `stop` asks to end or the time is over. Throws what ended
-  /// the session early, such as a friend with another scenario.
+  /// Until the user closes the window, `stop` asks to end or the time is over. Then stores the
+  /// record, also before it throws what ended the session early, such as a friend with another
+  /// scenario.
   void run(const std::function<bool()>& stop);
 
  private:
+  void showFrames(const std::function<bool()>& stop);
   void showFrame(double time);
 
   ViewSettings settings_;

@@ -20,7 +20,8 @@ struct WindowSettings {
 struct ViewSettings {
   WindowSettings window;
   demos::Scenario scenario;
-  std::optional<demos::PeerLine> line;  ///< to the other site; none: both are here
+  std::optional<demos::PeerLine> line;          ///< to the other site; none: both are here
+  std::optional<std::filesystem::path> record;  ///< folder for a record of each session
 };
 
 /// 0 for user 1, 1 for user 2.
