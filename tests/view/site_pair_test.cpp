@@ -40,6 +40,21 @@ TEST(SitePair, OneStepIsOneHostPeriod) {
   }
 }
 
+// In the world plank both scripted hands hold an end from 0.5 s on. A mouse's button was overruled,
+// and its hand took hold and let go with each host step.
+TEST(SitePair, AUsersOwnGripOverrulesTheScenarios) {
+  SitePair pair(demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "plank.toml", {}),
+                nullptr);
+  int held = 0;
+  while (pair.time() < 1.0) {
+    pair.tick();
+    pair.own().hold(false);
+    held += pair.own().site().grip().has_value();
+  }
+  EXPECT_EQ(held, 0);
+  EXPECT_TRUE(pair.other().site().grip()) << "user 2's hand is the scenario's";
+}
+
 // User 1 pushes the cube from 0.5 s on. Threads take over and give back; the push goes on.
 TEST(SitePair, GoesOnWithThreadsAndWithoutThem) {
   const demos::Scenario scenario = loadCube(6.0);

@@ -104,7 +104,7 @@ void SiteWorld::stepHostUntil(double now) {
   while (static_cast<double>(host_steps_ + 1) / host_rate_ <= now + 1e-9) {
     world().stepSimulation(static_cast<btScalar>(1.0 / host_rate_), 0);
     ++host_steps_;
-    if (!grips_.empty()) hold(isGripTime(static_cast<double>(host_steps_) / host_rate_));
+    if (!grips_.empty()) holdOrRelease(isGripTime(static_cast<double>(host_steps_) / host_rate_));
   }
 }
 
@@ -115,6 +115,11 @@ bool SiteWorld::isGripTime(double time) const noexcept {
 }
 
 void SiteWorld::hold(bool wants) {
+  grips_.clear();
+  holdOrRelease(wants);
+}
+
+void SiteWorld::holdOrRelease(bool wants) {
   if (!wants && holds_) site_->release();
   if (!wants) holds_ = false;
   if (!wants || holds_ || !may_grip_) return;

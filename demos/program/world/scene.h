@@ -42,11 +42,13 @@ class SiteWorld {
   /// Runs the host steps that end by `now` [s]. All ticks that start inside them must be done. The
   /// hand holds the object in the times of the scenario.
   void stepHostUntil(double now);
-  /// The user wants to hold the object, or not: the hand takes hold once it touches it.
+  /// The user wants to hold the object, or not: the hand takes hold once it touches it. From the
+  /// first call on the times of the scenario do not count.
   void hold(bool wants);
 
  private:
   [[nodiscard]] bool isGripTime(double time) const noexcept;
+  void holdOrRelease(bool wants);
   void build(const Scenario& scenario, int index, Link& link, HapticDevice& device);
   void share(const PlacedBody& placed);
   [[nodiscard]] std::optional<ObjectId> findInReach() const;
