@@ -12,6 +12,9 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/mouse_device.h"
 
+#include "device/gamepad_driver.h"
+#include "device/user_axes.h"
+#include "devices/fake_event_port.h"
 #include "replay/run_replay.h"
 #include "scenario/keys.h"
 #include "view/run_rig.h"
@@ -68,12 +71,38 @@ TEST(LiveSession, IsFeltAndGoesOnFromWhereItWas) {
     EXPECT_LT((start_W - places.hands_W[static_cast<std::size_t>(user)]).norm(), 1e-12);
   }
   MouseDevice again = makeMouse(scenario);
-  const LiveSession next(scenario, again, places.bodies);
+  const LiveSession next(scenario, again, {.places = places.bodies});
   // Before the first tick, or not long after.
   const auto look = next.look();
   EXPECT_LT((look->object_W - places.bodies.at("cube").p_W).norm(), 2e-3);
   EXPECT_LT((look->hip_W - places.hands_W[0]).norm(), 1e-2);
   EXPECT_GT(look->object_W.x(), 0.019);
+}
+
+// User 2's gamepad holds an end of the plank by its button, and lifts it with its stick.
+TEST(LiveSession, ASecondDeviceIsUser2sHand) {
+  const demos::Scenario scenario =
+      demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "plank.toml", {});
+  const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
+  const Vec3 start_W = demos::computeStart(scenario, frame, 1);
+  tandem::test::FakeEventDevice pad;
+  tandem::test::FakeEventDevice::makePad(pad);
+  demos::LiveDevice second({demos::DeviceSpec::Kind::kGamepad, ""},
+                           demos::makeGamepadDriver(pad.opener(), {}), {},
+                           {demos::computeUserAxes(frame.q_WS, 0), start_W});
+  second.holdUntilTicked(start_W);
+  MouseDevice mouse = makeMouse(scenario);
+  LiveSession session(scenario, mouse, {.second = &second});
+  pad.tell(EV_KEY, BTN_SOUTH, 1);
+  const double from = session.look()->object_W.z();
+  for (int i = 0; session.look()->object_W.z() < from + 0.01; ++i) {
+    if (i == 100) pad.tell(EV_ABS, ABS_RY, -32768);
+    sleepFor(0.01);
+    ASSERT_LT(i, 3000) << "the plank is not lifted";
+  }
+  EXPECT_EQ(session.look()->status, kTickOk);
+  const demos::ScenePlaces places = session.end();
+  EXPECT_GT(places.hands_W[1].z(), start_W.z() + 0.01);
 }
 
 TEST(LiveSession, TakesAnotherNetworkAndRefusesABadOne) {
@@ -103,7 +132,7 @@ TEST(LiveSession, BulletsOwnContactGoesOnFromWhereTandemsWas) {
     native.host_rate = 240.0;
     demos::startHandsAt(places, native);
     MouseDevice again = makeMouse(native);
-    LiveSession next(native, again, places.bodies);
+    LiveSession next(native, again, {.places = places.bodies});
     EXPECT_LT((next.look()->object_W - places.bodies.at("cube").p_W).norm(), 2e-3);
     const double from = next.look()->object_W.x();
     push(next, again, from + 0.01);
@@ -137,7 +166,7 @@ TEST(LiveSession, LeavesARecordThatIsShownAgain) {
   const demos::Scenario scenario = loadCube();
   MouseDevice mouse = makeMouse(scenario);
   SessionRecords records(folder.path / "run", 0);
-  LiveSession session(scenario, mouse, {}, {}, &records);
+  LiveSession session(scenario, mouse, {.records = &records});
   Impairments network;
   network.delay = 0.02;
   session.setNetwork(network);

@@ -20,7 +20,7 @@ class PacedTimeTest : public ::testing::Test {
   static constexpr double kBegin = 5000.0;  // [s]
   demos::Scenario scenario =
       demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml", {});
-  SitePair pair{scenario, nullptr};
+  SitePair pair{scenario};
 
  private:
   int turns_ = 0;

@@ -11,6 +11,7 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
 
+#include "peer/users_device.h"
 #include "replay/run_replay.h"
 #include "view/run_rig.h"
 
@@ -51,7 +52,7 @@ void waitForRecord(const SessionControl& control) {
 }
 
 TEST(SessionControl, SwitchesContactAndKeepsThePause) {
-  SessionControl control(loadWorld("cube"), std::nullopt, nullptr);
+  SessionControl control(loadWorld("cube"), std::nullopt, {});
   waitForTicks(control);
   SessionWishes wishes = wishesOf(control);
   wishes.pace.is_paused = true;
@@ -66,7 +67,7 @@ TEST(SessionControl, SwitchesContactAndKeepsThePause) {
 }
 
 TEST(SessionControl, RefusesWhatBulletCannotDoAndGoesOn) {
-  SessionControl control(loadWorld("touch"), std::nullopt, nullptr);
+  SessionControl control(loadWorld("touch"), std::nullopt, {});
   control.obey(wishContact(control, ContactModel::kNativeSoft));
   SessionWishes wishes = wishesOf(control);
   wishes.scenario.scheme = "kinematic_proxy";
@@ -86,7 +87,7 @@ TEST(SessionControl, EveryWorldTakesBulletsContactOrRefusesItAndComesBack) {
     if (entry.path().extension() != ".toml") continue;
     const std::string world = entry.path().stem();
     SCOPED_TRACE(world);
-    SessionControl control(loadWorld(world), std::nullopt, nullptr);
+    SessionControl control(loadWorld(world), std::nullopt, {});
     waitForTicks(control);
     for (const ContactModel model : {ContactModel::kNativeSoft, ContactModel::kIsland}) {
       control.obey(wishContact(control, model));
@@ -100,6 +101,25 @@ TEST(SessionControl, EveryWorldTakesBulletsContactOrRefusesItAndComesBack) {
   }
 }
 
+TEST(SessionControl, DoesNotStopASecondUsersHand) {
+  const demos::Scenario scenario = loadWorld("cube");
+  demos::DeviceOptions options;
+  options.device = "simulated";
+  bool is_ended = false;
+  const auto second = demos::openSecondDevice(
+      options, scenario, true, [](double) { return false; }, is_ended);
+  ASSERT_FALSE(is_ended);
+  SessionControl control(scenario, std::nullopt, {nullptr, second.get()});
+  SessionWishes wishes = wishesOf(control);
+  wishes.pace.is_paused = true;
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, "a real hand does not stop"));
+  EXPECT_FALSE(control.pace().is_paused);
+  control.obey(wishContact(control, ContactModel::kNativeSoft));
+  EXPECT_TRUE(hasNote(control, "no haptic rate for a device"));
+  EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
+}
+
 // Another scheme and Reset end a record, and the next one begins. A world that stands still has
 // one.
 TEST(SessionControl, ARecordForEachSession) {
@@ -107,7 +127,7 @@ TEST(SessionControl, ARecordForEachSession) {
   const auto recordOf = [&](const char* name) {
     return RunReplay(loadRecordedRun(folder.path / name), std::nullopt);
   };
-  SessionControl control(loadWorld("rail"), std::nullopt, nullptr, folder.path / "run");
+  SessionControl control(loadWorld("rail"), std::nullopt, {}, folder.path / "run");
   waitForRecord(control);
   SessionWishes wishes = wishesOf(control);
   wishes.scenario.scheme = "kinematic_proxy";
@@ -134,8 +154,7 @@ TEST(SessionControl, ARecordForEachSession) {
 TEST(SessionControl, RefusesAFolderForRecordsThatIsInUse) {
   const test::TempRunFolder folder;
   const demos::OutputFolder other(folder.path, "--out");
-  EXPECT_THROW(SessionControl(loadWorld("cube"), std::nullopt, nullptr, folder.path),
-               demos::UsageError);
+  EXPECT_THROW(SessionControl(loadWorld("cube"), std::nullopt, {}, folder.path), demos::UsageError);
 }
 
 // Nobody is at the other end: the session waits meanwhile.
@@ -148,7 +167,7 @@ TEST(SessionControl, DoesNotStopAFriendsTime) {
   line.bind = "127.0.0.1:0";
   line.peer = "127.0.0.1:9";
   line.key = key;
-  SessionControl control(loadWorld("cube"), line, nullptr);
+  SessionControl control(loadWorld("cube"), line, {});
   std::filesystem::remove(key);
   SessionWishes wishes = wishesOf(control);
   wishes.pace.is_paused = true;
@@ -161,7 +180,7 @@ TEST(SessionControl, DoesNotStopAFriendsTime) {
 }
 
 TEST(SessionControl, ABodyThatFlewApartBeginsAnew) {
-  SessionControl control(loadWorld("cube"), std::nullopt, nullptr);
+  SessionControl control(loadWorld("cube"), std::nullopt, {});
   control.obey(wishContact(control, ContactModel::kPointToPoint));
   for (int i = 0; control.session().look()->status == kTickOk; ++i) {
     ASSERT_LT(i, 3000) << "point joints do not diverge any more: use another way to fly apart";

@@ -23,7 +23,7 @@ TEST(SitePair, TicksInVirtualTimeAsTheVirtualRunToTheBit) {
   const demos::Scenario scenario = loadCube(2.0);
   demos::VirtualRun run(scenario);
   run.run();
-  SitePair pair(scenario, nullptr);
+  SitePair pair(scenario);
   while (pair.nextTick() < 2000) pair.tick();
   EXPECT_EQ(pair.own().site().stateHash(), run.world(0).site().stateHash());
   EXPECT_EQ(pair.other().site().stateHash(), run.world(1).site().stateHash());
@@ -31,7 +31,7 @@ TEST(SitePair, TicksInVirtualTimeAsTheVirtualRunToTheBit) {
 
 TEST(SitePair, OneStepIsOneHostPeriod) {
   const demos::Scenario scenario = loadCube(2.0);
-  SitePair pair(scenario, nullptr);
+  SitePair pair(scenario);
   for (std::uint64_t step = 1; step <= 180; ++step) {
     pair.tickOneHostStep();
     EXPECT_EQ(pair.own().site().counters().host_steps, step);
@@ -43,8 +43,7 @@ TEST(SitePair, OneStepIsOneHostPeriod) {
 // In the world plank both scripted hands hold an end from 0.5 s on. A mouse's button was overruled,
 // and its hand took hold and let go with each host step.
 TEST(SitePair, AUsersOwnGripOverrulesTheScenarios) {
-  SitePair pair(demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "plank.toml", {}),
-                nullptr);
+  SitePair pair(demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "plank.toml", {}));
   int held = 0;
   while (pair.time() < 1.0) {
     pair.tick();
@@ -58,7 +57,7 @@ TEST(SitePair, AUsersOwnGripOverrulesTheScenarios) {
 // User 1 pushes the cube from 0.5 s on. Threads take over and give back; the push goes on.
 TEST(SitePair, GoesOnWithThreadsAndWithoutThem) {
   const demos::Scenario scenario = loadCube(6.0);
-  SitePair pair(scenario, nullptr);
+  SitePair pair(scenario);
   while (pair.time() < 1.2) pair.tick();
   const double force = pair.own().site().force().norm();
   const Vec3 hip_W = pair.own().site().hip().p_W;

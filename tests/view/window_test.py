@@ -250,6 +250,11 @@ def main():
             bad.write_text("[object]\nmass = -1\n")
             refuse(tandem, display.environment, 2, "object.mass", bad)
             refuse(tandem, display.environment, 2, "worlds: ", "nowhere")
+            refuse(tandem, display.environment, 2, "--second lever: no such device", "crate", "--second", "lever")
+            refuse(tandem, display.environment, 2, "is user 1's device", "crate", "--device", "falcon",
+                   "--second", "falcon")
+            refuse(tandem, display.environment, 2, "user 2 is at another machine", "crate", "--second", "simulated",
+                   "--site", "1", "--bind", ":0", "--peer", "127.0.0.1:9", "--key", folder / "key")
             refuse(tandem, display.environment, 2, "belong together", "crate", "--site", "1")
             refuse(tandem, display.environment, 2, "--size", "crate", "--size", "7x7")
             refuse(tandem, display.environment, 1, "--status", "crate", "--status", folder / "no" / "file")

@@ -16,15 +16,15 @@ constexpr const char* kAllowed =
     "falcon, falcon:SERIAL, falcon@/dev/ttyUSB0, falcon@ft260, emulated, simulated, "
     "spacemouse[:PATH], hid[:PATH], gamepad[:PATH]; tandem device list says what is plugged in";
 
-[[noreturn]] void refuse(const std::string& text) {
-  throw UsageError(fmt::format("--device {}: no such device; allowed: {}", text, kAllowed));
+[[noreturn]] void refuse(const char* option, const std::string& text) {
+  throw UsageError(fmt::format("{} {}: no such device; allowed: {}", option, text, kAllowed));
 }
 
 bool isPath(std::string_view place) { return place.size() > 1 && place.front() == '/'; }
 
 }  // namespace
 
-DeviceSpec parseDeviceSpec(const std::string& text) {
+DeviceSpec parseDeviceSpec(const std::string& text, const char* option) {
   const std::size_t end = std::min(text.find_first_of(":@"), text.size());
   const std::string name = text.substr(0, end);
   if (end == text.size()) {
@@ -34,7 +34,7 @@ DeviceSpec parseDeviceSpec(const std::string& text) {
     if (name == "spacemouse") return {Kind::kSpaceMouse, ""};
     if (name == "hid") return {Kind::kRawHid, ""};
     if (name == "gamepad") return {Kind::kGamepad, ""};
-    refuse(text);
+    refuse(option, text);
   }
   const std::string place = text.substr(end + 1);
   if (text[end] == '@') {
@@ -46,7 +46,7 @@ DeviceSpec parseDeviceSpec(const std::string& text) {
     if (name == "hid" && isPath(place)) return {Kind::kRawHid, place};
     if (name == "gamepad" && isPath(place)) return {Kind::kGamepad, place};
   }
-  refuse(text);
+  refuse(option, text);
 }
 
 std::string toText(const DeviceSpec& spec) {

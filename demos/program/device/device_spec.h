@@ -22,8 +22,8 @@ struct DeviceSpec {
 
 /// Reads "falcon", "falcon:SERIAL", "falcon@/dev/ttyUSB0", "falcon@ft260", "emulated", "simulated",
 /// "spacemouse[:PATH]", "hid[:PATH]" or "gamepad[:PATH]". Throws UsageError with the allowed
-/// values.
-[[nodiscard]] DeviceSpec parseDeviceSpec(const std::string& text);
+/// values, naming the `option`.
+[[nodiscard]] DeviceSpec parseDeviceSpec(const std::string& text, const char* option = "--device");
 
 /// The spelling of `spec`; inverse of parseDeviceSpec().
 [[nodiscard]] std::string toText(const DeviceSpec& spec);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "device/device_options.h"
+#include "device/device_spec.h"
 #include "device/get_ready.h"
 #include "device/open_device.h"
 #include "device/user_axes.h"
@@ -10,6 +11,32 @@
 #include "world/scene.h"
 
 namespace tandem::demos {
+namespace {
+
+/// Users of one machine, who look at one picture, have the axes of one site.
+std::unique_ptr<LiveDevice> openFor(int user, int axes_site, const DeviceOptions& options,
+                                    const Scenario& scenario, bool is_quiet, const Pause& pause,
+                                    bool& is_ended) {
+  const SceneFrame frame = makeSceneFrame(scenario);
+  const Vec3 start_W = computeStart(scenario, frame, user);
+  auto device =
+      openDevice(options, {computeUserAxes(frame.q_WS, axes_site), start_W}, UserWish::kReach);
+  GetReadySettings settings;
+  settings.is_quiet = is_quiet;
+  is_ended = !getReady(*device, settings, pause);
+  // The hand may move freely until both sites run.
+  device->holdUntilTicked(start_W);
+  return device;
+}
+
+bool hasFalconsButtons(const DeviceOptions& options) {
+  using Kind = DeviceSpec::Kind;
+  const Kind kind = parseDeviceSpec(options.device).kind;
+  return kind == Kind::kFalconUsb || kind == Kind::kFalconTty || kind == Kind::kFalconFt260 ||
+         kind == Kind::kEmulated;
+}
+
+}  // namespace
 
 void checkGrip(const DeviceOptions& options, const Scenario& scenario) {
   if (!options.grip) return;
@@ -25,15 +52,13 @@ std::unique_ptr<LiveDevice> openUsersDevice(const DeviceOptions& options, const 
     checkDeviceOptions(options);
     return nullptr;
   }
-  const SceneFrame frame = makeSceneFrame(scenario);
-  const Vec3 start_W = computeStart(scenario, frame, site);
-  auto device = openDevice(options, {computeUserAxes(frame.q_WS, site), start_W}, UserWish::kReach);
-  GetReadySettings settings;
-  settings.is_quiet = is_quiet;
-  is_ended = !getReady(*device, settings, pause);
-  // The hand may move freely until both sites run.
-  device->holdUntilTicked(start_W);
-  return device;
+  return openFor(site, site, options, scenario, is_quiet, pause, is_ended);
+}
+
+std::unique_ptr<LiveDevice> openSecondDevice(DeviceOptions options, const Scenario& scenario,
+                                             bool is_quiet, const Pause& pause, bool& is_ended) {
+  if (!options.grip && hasFalconsButtons(options)) options.grip = "centre";
+  return openFor(1, 0, options, scenario, is_quiet, pause, is_ended);
 }
 
 }  // namespace tandem::demos

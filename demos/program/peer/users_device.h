@@ -19,4 +19,10 @@ void checkGrip(const DeviceOptions& options, const Scenario& scenario);
                                                           bool is_quiet, const Pause& pause,
                                                           bool& is_ended);
 
+/// Opens the device of user 2 at the machine of user 1, as openUsersDevice() does. Both look at one
+/// picture, so "away" is the same for both. Without --grip the centre button of a Falcon is one.
+[[nodiscard]] std::unique_ptr<LiveDevice> openSecondDevice(DeviceOptions options,
+                                                           const Scenario& scenario, bool is_quiet,
+                                                           const Pause& pause, bool& is_ended);
+
 }  // namespace tandem::demos

@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "command/user_option.h"
 #include "command/world_argument.h"
 #include "device/device_options.h"
+#include "device/device_spec.h"
 #include "import/file_scenario.h"
 #include "peer/peer_line.h"
 #include "peer/users_device.h"
@@ -41,6 +43,8 @@ class ViewCommand final : public Command {
     arguments.option("--screenshot", screenshot_, "PNG file of the last frame");
     declarePeerLine(arguments, line_, {});
     declareDeviceOptions(arguments, device_);
+    arguments.option("--second", second_,
+                     "user 2's device at this machine: as --device, with its firmware and limits");
   }
 
   ExitStatus run() override {
@@ -60,7 +64,7 @@ class ViewCommand final : public Command {
  private:
   void showReplay() {
     if (!line_.peer.empty() || !device_.device.empty() || !overrides_.empty() || !shares_.empty() ||
-        !world_.empty() || record_)
+        !world_.empty() || record_ || second_)
       throw UsageError(
           "--replay: shows what was recorded; leave WORLD and all options but the window's and "
           "--site");
@@ -76,14 +80,43 @@ class ViewCommand final : public Command {
     if (record_) settings_.record = *record_;
     if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
     checkGrip(device_, settings_.scenario);
+    checkSecond();
     const StopSignals signals;
     bool is_ended = false;
     const auto pause = [&](double seconds) { return signals.isAskedWithin(seconds); };
     const auto device = openUsersDevice(device_, settings_.scenario, view::userOf(settings_), false,
                                         pause, is_ended);
     if (is_ended) return;
-    view::ViewRun run(settings_, device.get());
+    std::unique_ptr<LiveDevice> second;
+    if (second_)
+      second = openSecondDevice(makeSecondOptions(), settings_.scenario, false, pause, is_ended);
+    if (is_ended) return;
+    view::ViewRun run(settings_, {device.get(), second.get()});
     run.run([&] { return signals.isAskedWithin(0.0); });
+  }
+
+  /// Before any device moves.
+  void checkSecond() const {
+    if (!second_) return;
+    if (settings_.line)
+      throw UsageError("--second: user 2 is at another machine; leave --second or --site");
+    using Kind = DeviceSpec::Kind;
+    const Kind kind = parseDeviceSpec(*second_, "--second").kind;
+    const bool is_made = kind == Kind::kEmulated || kind == Kind::kSimulated;
+    if (*second_ == device_.device && !is_made)
+      throw UsageError("--second " + *second_ +
+                       ": is user 1's device; name each by its serial number or path, which "
+                       "tandem device list says");
+  }
+
+  /// Buttons and the workspace's place are those of user 1's device alone.
+  [[nodiscard]] DeviceOptions makeSecondOptions() const {
+    DeviceOptions options = device_;
+    options.device = *second_;
+    options.clutch.reset();
+    options.grip.reset();
+    options.offset.clear();
+    return options;
   }
 
   [[nodiscard]] const PeerLine& completeLine() const {
@@ -98,7 +131,7 @@ class ViewCommand final : public Command {
   PeerLine line_;
   std::vector<std::string> overrides_, shares_;
   std::string world_, size_ = "1280x800";
-  std::optional<std::string> replay_, record_, status_, screenshot_;
+  std::optional<std::string> replay_, record_, second_, status_, screenshot_;
 };
 
 }  // namespace

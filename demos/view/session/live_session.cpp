@@ -16,16 +16,17 @@ constexpr double kTurn = 1e-3;
 }  // namespace
 
 LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
-                         const demos::BodyPlaces& places, const Pace& pace, SessionRecords* records)
-    : pair_(scenario, &device, places),
-      records_(records),
-      record_(records ? std::make_unique<PairRecord>(scenario, pair_) : nullptr),
+                         const LiveStart& start)
+    : pair_(scenario, {&device, start.second}, start.places),
+      second_(start.second),
+      records_(start.records),
+      record_(records_ ? std::make_unique<PairRecord>(scenario, pair_) : nullptr),
       network_(scenario.network),
       scene_look_(pair_.own()),
       host_rate_(scenario.host_rate),
       may_hold_(scenario.mayGrip()),
       has_threads_(hasHapticThreads(scenario)),
-      pace_(pace) {
+      pace_(start.pace) {
   lookAtWorlds(0.0);
   if (needsThreads()) startThreads();
   host_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
@@ -109,6 +110,7 @@ void LiveSession::runPaced(const std::stop_token& stop) {
 
 void LiveSession::afterSteps(double time) {
   if (may_hold_) pair_.own().hold(wantsHold());
+  if (may_hold_ && second_) pair_.other().hold(second_->isGripPressed());
   if (record_) record_->noteStep(time);
   if (isLookDue(readMonotonicClock())) lookAtWorlds(time);
 }

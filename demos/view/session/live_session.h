@@ -3,6 +3,7 @@
 #include <exception>
 #include <thread>
 
+#include "device/live_device.h"
 #include "session/pace.h"
 #include "session/pair_record.h"
 #include "session/session.h"
@@ -11,18 +12,22 @@
 
 namespace tandem::view {
 
-/// Both sites of a scenario in one process. User 1 is at the device, user 2 moves as the scenario
-/// says. A thread steps the worlds. In real time each site has a haptic thread at the scenario's
-/// rate. At another pace, and with Bullet's own contact, which has no haptic rate, the sites tick
-/// in the thread that steps the worlds.
+/// How a LiveSession begins. What it points to must outlive the session.
+struct LiveStart {
+  demos::BodyPlaces places = {};        ///< of bodies at rest; empty: where the scenario says
+  Pace pace = {};                       ///< see LiveSession::setPace()
+  SessionRecords* records = nullptr;    ///< for a record of both sites; null: none
+  demos::LiveDevice* second = nullptr;  ///< user 2's, in real time only; null: simulated
+};
+
+/// Both sites of a scenario in one process. User 1 is at the device, user 2 at the second one, or
+/// moves as the scenario says. A thread steps the worlds. In real time each site has a haptic
+/// thread at the scenario's rate. At another pace, and with Bullet's own contact, which has no
+/// haptic rate, the sites tick in the thread that steps the worlds.
 class LiveSession final : public Session {
  public:
-  /// `device` must outlive this. Bodies begin at rest at `places`, or where the scenario says.
-  /// With `records`, which must outlive this, both sites are recorded. Throws as SiteWorld and
-  /// HapticLoop do.
-  LiveSession(const demos::Scenario& scenario, HapticDevice& device,
-              const demos::BodyPlaces& places = {}, const Pace& pace = {},
-              SessionRecords* records = nullptr);
+  /// `device` must outlive this. Throws as SiteWorld and HapticLoop do.
+  LiveSession(const demos::Scenario& scenario, HapticDevice& device, const LiveStart& start = {});
   /// Fades the forces and ends all threads.
   ~LiveSession() override;
 
@@ -51,6 +56,7 @@ class LiveSession final : public Session {
   [[nodiscard]] bool needsThreads() const { return has_threads_ && pace().isRealTime(); }
 
   SitePair pair_;
+  demos::LiveDevice* second_;           ///< null: user 2 is simulated
   SessionRecords* records_;             ///< null: none are wanted
   std::unique_ptr<PairRecord> record_;  ///< null: none, or it is stored
   Impairments network_;

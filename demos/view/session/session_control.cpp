@@ -24,9 +24,9 @@ std::string nameContact(const demos::Scenario& scenario) {
 
 SessionControl::SessionControl(const demos::Scenario& scenario,
                                const std::optional<demos::PeerLine>& line,
-                               demos::LiveDevice* device,
+                               const UsersDevices& devices,
                                const std::optional<std::filesystem::path>& record)
-    : scenario_(scenario), line_(line), device_(device) {
+    : scenario_(scenario), line_(line), devices_(devices) {
   if (!line_) checkHand(scenario_);
   if (record) records_.emplace(*record, line_ ? line_->site : 0);
   start({});
@@ -68,8 +68,9 @@ void SessionControl::followFriend() {
 void SessionControl::changePace(const SessionWishes& wishes) {
   if (!both_)
     throw demos::UsageError("time goes on: your friend's hand does not stop with your window");
-  if (device_)
-    throw demos::UsageError("time goes on: a real hand does not stop; leave out --device");
+  if (devices_.own || devices_.second)
+    throw demos::UsageError(
+        "time goes on: a real hand does not stop; leave out --device and --second");
   refusal_.clear();
   pace_ = wishes.pace;
   both_->setPace(pace_);
@@ -104,7 +105,7 @@ void SessionControl::checkHand(const demos::Scenario& scenario) const {
   if (line_)
     throw demos::UsageError(nameContact(scenario) +
                             ": a friend meets you by Tandem's own contact only; stay with island");
-  if (device_)
+  if (devices_.own || devices_.second)
     throw demos::UsageError(nameContact(scenario) +
                             ": Bullet has no haptic rate for a device; take island, or the mouse");
 }
@@ -121,21 +122,22 @@ void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places
   const int user = line_ ? line_->site - 1 : 0;
   session_.reset();
   both_ = nullptr;
-  if (!device_) {
+  if (!devices_.own) {
     MouseSettings settings;
     settings.start_W = demos::computeStart(scenario, demos::makeSceneFrame(scenario), user);
     mouse_ = std::make_unique<MouseDevice>(settings);
   }
   SessionRecords* const records = records_ ? &*records_ : nullptr;
-  HapticDevice& device = device_ ? static_cast<HapticDevice&>(*device_) : *mouse_;
+  HapticDevice& device = devices_.own ? static_cast<HapticDevice&>(*devices_.own) : *mouse_;
   if (line_) {
     auto session = std::make_unique<PeerSession>(scenario, *line_, device, records);
     friend_ = session.get();
     session_ = std::move(session);
     return;
   }
-  auto session = std::make_unique<LiveSession>(
-      scenario, device, places ? places->bodies : demos::BodyPlaces{}, pace_, records);
+  LiveStart start{.pace = pace_, .records = records, .second = devices_.second};
+  if (places) start.places = places->bodies;
+  auto session = std::make_unique<LiveSession>(scenario, device, start);
   both_ = session.get();
   session_ = std::move(session);
 }

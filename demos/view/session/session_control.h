@@ -25,15 +25,21 @@ struct SessionWishes {
   bool changes_network = false;  ///< Scenario::network alone has changed
 };
 
+/// Devices at this machine, which must outlive the session.
+struct UsersDevices {
+  demos::LiveDevice* own = nullptr;     ///< null: a mouse
+  demos::LiveDevice* second = nullptr;  ///< user 2's, if both sites are here; null: simulated
+};
+
 /// The session behind a window, as its user changes it. Other sites need another session, which
 /// goes on from where hands and bodies are. For the thread of the window.
 class SessionControl {
  public:
-  /// `line` leads to a friend's site; none: both sites are here. `device` is the user's, and must
-  /// outlive this; null: a mouse. With `record`, a folder, each session is recorded. Throws
-  /// UsageError if the device cannot feel the scenario, and as SessionRecords and sessions do.
+  /// `line` leads to a friend's site; none: both sites are here. With `record`, a folder, each
+  /// session is recorded. Throws UsageError if a device cannot feel the scenario, and as
+  /// SessionRecords and sessions do.
   SessionControl(const demos::Scenario& scenario, const std::optional<demos::PeerLine>& line,
-                 demos::LiveDevice* device,
+                 const UsersDevices& devices,
                  const std::optional<std::filesystem::path>& record = std::nullopt);
 
   [[nodiscard]] Session& session() noexcept { return *session_; }
@@ -61,7 +67,7 @@ class SessionControl {
 
   demos::Scenario scenario_;
   std::optional<demos::PeerLine> line_;
-  demos::LiveDevice* device_;
+  UsersDevices devices_;
   Pace pace_;
   std::string refusal_;  ///< empty: none
   std::optional<SessionRecords> records_;

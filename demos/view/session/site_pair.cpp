@@ -13,19 +13,19 @@ constexpr double kGetReady = 0.02;
 /// Rounding of times [s].
 constexpr double kSameTime = 1e-9;
 
-demos::SiteWorld makeOwn(const demos::Scenario& scenario, Link& link, HapticDevice* device,
-                         const demos::BodyPlaces& places) {
-  return device ? demos::SiteWorld(scenario, 0, link, *device, places)
-                : demos::SiteWorld(scenario, 0, link, places);
+demos::SiteWorld makeWorld(const demos::Scenario& scenario, int site, Link& link,
+                           HapticDevice* device, const demos::BodyPlaces& places) {
+  return device ? demos::SiteWorld(scenario, site, link, *device, places)
+                : demos::SiteWorld(scenario, site, link, places);
 }
 
 }  // namespace
 
-SitePair::SitePair(const demos::Scenario& scenario, HapticDevice* device,
+SitePair::SitePair(const demos::Scenario& scenario, const std::array<HapticDevice*, 2>& devices,
                    const demos::BodyPlaces& places)
     : network_(scenario.network),
-      own_(makeOwn(scenario, network_.end(0), device, places)),
-      other_(scenario, 1, network_.end(1), places),
+      own_(makeWorld(scenario, 0, network_.end(0), devices[0], places)),
+      other_(makeWorld(scenario, 1, network_.end(1), devices[1], places)),
       haptic_rate_(scenario.site.haptic_rate),
       host_rate_(scenario.host_rate) {}
 

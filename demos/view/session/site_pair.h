@@ -17,10 +17,11 @@ namespace tandem::view {
 /// besides network() and report().
 class SitePair {
  public:
-  /// User 1 is at `device`, which must outlive this; null: simulated, as user 2 always is. Bodies
-  /// begin at rest at `places`, or where the scenario says. Throws as SiteWorld does.
-  SitePair(const demos::Scenario& scenario, HapticDevice* device,
-           const demos::BodyPlaces& places = {});
+  /// The users are at `devices`, which must outlive this; null: simulated. Bodies begin at rest at
+  /// `places`, or where the scenario says. Throws as SiteWorld does.
+  explicit SitePair(const demos::Scenario& scenario,
+                    const std::array<HapticDevice*, 2>& devices = {},
+                    const demos::BodyPlaces& places = {});
 
   [[nodiscard]] demos::SiteWorld& own() noexcept { return own_; }
   [[nodiscard]] demos::SiteWorld& other() noexcept { return other_; }

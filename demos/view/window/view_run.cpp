@@ -16,10 +16,10 @@ void standBack() { setpriority(PRIO_PROCESS, 0, 19); }
 
 }  // namespace
 
-ViewRun::ViewRun(const ViewSettings& settings, demos::LiveDevice* device)
+ViewRun::ViewRun(const ViewSettings& settings, const UsersDevices& devices)
     : settings_(settings),
-      device_(device),
-      control_(settings.scenario, settings.line, device, settings.record),
+      device_(devices.own),
+      control_(settings.scenario, settings.line, devices, settings.record),
       hand_look_(settings.scenario.site.proxy.radius),
       eye_(chooseFirstEye(settings.scenario, userOf(settings))) {
   if (settings.window.status) status_.emplace(*settings.window.status);

@@ -19,9 +19,8 @@ namespace tandem::view {
 /// window's low priority, and haptic threads are not kept waiting.
 class ViewRun {
  public:
-  /// `device` is the user's, and must outlive this; null: the mouse in the window. Throws Error if
-  /// there is no display.
-  ViewRun(const ViewSettings& settings, demos::LiveDevice* device);
+  /// Throws Error if there is no display, and as SessionControl does.
+  ViewRun(const ViewSettings& settings, const UsersDevices& devices);
 
   /// Until the user closes the window, `stop` asks to end or the time is over. Then stores the
   /// record, also before it throws what ended the session early, such as a friend with another
@@ -33,7 +32,7 @@ class ViewRun {
   void showFrame(double time);
 
   ViewSettings settings_;
-  demos::LiveDevice* device_;
+  demos::LiveDevice* device_;  ///< null: the mouse
   SessionControl control_;
   HandLook hand_look_;
   std::unique_ptr<GlWindow> window_;
