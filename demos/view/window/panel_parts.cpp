@@ -6,12 +6,12 @@
 namespace tandem::view {
 namespace {
 
-constexpr float kWidth = 330.0F;  // [pixel]
+constexpr float kWidth = 330.0F, kMargin = 10.0F;  // [pixel]
 
 }  // namespace
 
 void beginPanel(const demos::Scenario& scenario) {
-  ImGui::SetNextWindowPos({10.0F, 10.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kMargin, kMargin}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kWidth, 0.0F});
   ImGui::Begin("Tandem", nullptr, ImGuiWindowFlags_NoResize);
   ImGui::TextWrapped("%s", scenario.title.c_str());
@@ -32,7 +32,11 @@ bool askForPicture() {
 void showHelp(bool& is_shown, std::span<const HelpLine> help) {
   if (ImGui::Button("Help") || ImGui::IsKeyPressed(GLFW_KEY_F1, false)) is_shown = !is_shown;
   if (!is_shown) return;
+  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
+  ImGui::SetNextWindowPos({right, kMargin}, ImGuiCond_Always, {1.0F, 0.0F});
+  ImGui::Begin("Help", &is_shown, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
   for (const HelpLine& line : help) describe(line.input, line.meaning);
+  ImGui::End();
 }
 
 }  // namespace tandem::view

@@ -23,7 +23,7 @@ struct HelpLine {
   const char* meaning;
 };
 
-/// A button for the help, and its key; the help itself while `is_shown`.
+/// A button for the help, and its key; the help itself at the upper right while `is_shown`.
 void showHelp(bool& is_shown, std::span<const HelpLine> help);
 
 }  // namespace tandem::view
