@@ -117,6 +117,10 @@ TEST(SessionControl, DoesNotStopASecondUsersHand) {
   EXPECT_FALSE(control.pace().is_paused);
   control.obey(wishContact(control, ContactModel::kNativeSoft));
   EXPECT_TRUE(hasNote(control, "no haptic rate for a device"));
+  wishes = wishesOf(control);
+  wishes.world = "rail";
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, "rail: a device has its place"));
   EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
 }
 
@@ -176,6 +180,10 @@ TEST(SessionControl, DoesNotStopAFriendsTime) {
   EXPECT_FALSE(control.pace().is_paused);
   control.obey(wishContact(control, ContactModel::kNativeSoft));
   EXPECT_TRUE(hasNote(control, "by Tandem's own contact only"));
+  wishes = wishesOf(control);
+  wishes.world = "rail";
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, "rail: your friend is in this world"));
   EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
 }
 

@@ -96,6 +96,8 @@ def push_and_switch(tandem, display, folder):
     view.wait_for("another scheme", lambda note: note["scheme"] != "remote_dynamic_proxy" and note["time"] > 0.2)
     pause_and_step(view, display)
     switch_contact(view, display)
+    display.press("Next")
+    view.wait_for("another world", lambda note: note["world"] == "door" and note["time"] > 0.2 and note["status"] == 0)
     display.press("Escape")
     check(view.end() == 0, "Escape ends the window with status 0")
     check((folder / "last.png").read_bytes()[:4] == b"\x89PNG", "a screenshot")

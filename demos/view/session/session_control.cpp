@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scenario/keys.h"
+#include "session/own_worlds.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::view {
@@ -41,6 +42,7 @@ std::vector<std::string> SessionControl::notes() const {
 void SessionControl::obey(const SessionWishes& wishes) {
   try {
     if (wishes.pace != pace_ || wishes.steps > 0) changePace(wishes);
+    if (!wishes.world.empty()) return changeWorld(wishes.world);
     if (wishes.restarts || wishes.changes_sites) return changeSites(wishes);
     scenario_ = wishes.scenario;
     if (both_ && wishes.changes_network) both_->setNetwork(scenario_.network);
@@ -75,6 +77,21 @@ void SessionControl::changePace(const SessionWishes& wishes) {
   pace_ = wishes.pace;
   both_->setPace(pace_);
   for (int step = 0; step < wishes.steps; ++step) both_->step();
+}
+
+/// With its own gains and network. A device stays where its first world put it.
+void SessionControl::changeWorld(const std::string& name) {
+  if (line_)
+    throw demos::UsageError(name + ": your friend is in this world; start both in another one");
+  if (devices_.own || devices_.second)
+    throw demos::UsageError(name + ": a device has its place in this world; start tandem view " +
+                            name);
+  const auto file = findOwnWorld(name);
+  if (!file) throw demos::UsageError(name + ": there is no such world");
+  SessionWishes wishes;
+  wishes.scenario = demos::loadScenario(*file, {});
+  wishes.restarts = true;
+  changeSites(wishes);
 }
 
 /// Sites that cannot be made leave those of before.

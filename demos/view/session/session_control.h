@@ -23,6 +23,7 @@ struct SessionWishes {
   bool restarts = false;         ///< the world is to begin anew
   bool changes_sites = false;    ///< scheme, contact or gains have changed; the world goes on
   bool changes_network = false;  ///< Scenario::network alone has changed
+  std::string world;             ///< one of Tandem's own to go to; empty: stay
 };
 
 /// Devices at this machine, which must outlive the session.
@@ -59,6 +60,7 @@ class SessionControl {
 
  private:
   void changeSites(const SessionWishes& wishes);
+  void changeWorld(const std::string& name);
   void changePace(const SessionWishes& wishes);
   void followFriend();
   void checkHand(const demos::Scenario& scenario) const;

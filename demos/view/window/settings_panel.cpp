@@ -1,6 +1,9 @@
 #include "window/settings_panel.h"
 
+#include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -8,6 +11,7 @@
 #include "tandem/coordination/scheme.h"
 
 #include "scenario/keys.h"
+#include "session/own_worlds.h"
 
 namespace tandem::view {
 namespace {
@@ -59,6 +63,21 @@ bool chooseScheme(std::string& chosen) {
   return choose("scheme", names, GLFW_KEY_1, chosen, [](const std::string& name) { return name; });
 }
 
+/// A list, and Page Up and Page Down for the neighbours in it.
+void chooseWorld(const std::string& now, SessionWishes& wishes) {
+  static const std::vector<std::string> worlds = listWorlds();
+  const auto at = std::ranges::find(worlds, now);
+  if (ImGui::IsKeyPressed(GLFW_KEY_PAGE_UP, false) && at != worlds.begin() && at != worlds.end())
+    wishes.world = *(at - 1);
+  if (ImGui::IsKeyPressed(GLFW_KEY_PAGE_DOWN, false) && at != worlds.end() &&
+      at + 1 != worlds.end())
+    wishes.world = *(at + 1);
+  if (!ImGui::BeginCombo("world", now.c_str())) return;
+  for (const std::string& world : worlds)
+    if (ImGui::Selectable(world.c_str(), world == now) && world != now) wishes.world = world;
+  ImGui::EndCombo();
+}
+
 void showPace(SessionWishes& wishes) {
   Pace& pace = wishes.pace;
   if (ImGui::Button(pace.is_paused ? "Go on" : "Pause") ||
@@ -91,6 +110,7 @@ void showGains(SiteSettings& site, SessionWishes& wishes) {
 
 void showSettings(const SessionControl& control, SessionWishes& wishes) {
   demos::Scenario& scenario = wishes.scenario;
+  chooseWorld(scenario.file.stem(), wishes);
   wishes.changes_sites |= chooseScheme(scenario.scheme);
   wishes.changes_sites |= choose("contact", kContacts, GLFW_KEY_F2, scenario.site.contact_model,
                                  [](ContactModel model) { return demos::nameOf(model); });

@@ -28,6 +28,7 @@ void StatusFile::note(const demos::Scenario& scenario, const Pace& pace, const S
   if (time < next_) return;
   next_ = time + kPeriod;
   const nlohmann::json line = {{"time", look.time},
+                               {"world", scenario.file.stem().string()},
                                {"scheme", scenario.scheme},
                                {"contact", demos::nameOf(scenario.site.contact_model)},
                                {"paused", pace.is_paused},

@@ -11,7 +11,7 @@
 namespace tandem::view {
 
 /// A file with one JSON object a line, every 0.1 s, for programs that drive the window: time,
-/// scheme, contact, paused, speed, force, hip, object, apart, status, skipped, frames.
+/// world, scheme, contact, paused, speed, force, hip, object, apart, status, skipped, frames.
 class StatusFile {
  public:
   /// Throws Error if the file cannot be written.

@@ -20,6 +20,7 @@ ViewRun::ViewRun(const ViewSettings& settings, const UsersDevices& devices)
     : settings_(settings),
       device_(devices.own),
       control_(settings.scenario, settings.line, devices, settings.record),
+      seen_(settings.scenario.file),
       hand_look_(settings.scenario.site.proxy.radius),
       eye_(chooseFirstEye(settings.scenario, userOf(settings))) {
   if (settings.window.status) status_.emplace(*settings.window.status);
@@ -73,6 +74,15 @@ void ViewRun::showFrame(double time) {
   ++frames_;
   if (status_) status_->note(control_.scenario(), control_.pace(), *look, time, frames_);
   control_.obey(wishes.session);
+  if (control_.scenario().file != seen_) showWorld();
+}
+
+/// The hand and the eye belong to a world.
+void ViewRun::showWorld() {
+  const demos::Scenario& scenario = control_.scenario();
+  seen_ = scenario.file;
+  hand_look_ = HandLook(scenario.site.proxy.radius);
+  eye_ = chooseFirstEye(scenario, userOf(settings_));
 }
 
 }  // namespace tandem::view

@@ -30,10 +30,12 @@ class ViewRun {
  private:
   void showFrames(const std::function<bool()>& stop);
   void showFrame(double time);
+  void showWorld();
 
   ViewSettings settings_;
   demos::LiveDevice* device_;  ///< null: the mouse
   SessionControl control_;
+  std::filesystem::path seen_;  ///< file of the world that is shown
   HandLook hand_look_;
   std::unique_ptr<GlWindow> window_;
   std::unique_ptr<GlScene> scene_;
