@@ -91,8 +91,15 @@ SceneLook::SceneLook(demos::SiteWorld& world) : world_(world), world_look_(nameB
 
 DrawList SceneLook::look(const WorldDetails& details) {
   DrawList list = world_look_.look(world_.world(), details);
+  // A body without a name is the hand in Bullet's own contact. Hands are drawn on their own.
+  std::erase_if(list.solids, [&](const Solid& solid) { return !hasName(solid.name); });
   for (Solid& solid : list.solids) solid.has_grid |= solid.name == kFloor;
   return list;
+}
+
+bool SceneLook::hasName(const std::string& name) const {
+  return std::ranges::any_of(world_.bodies(),
+                             [&](const demos::SceneBody& body) { return body.name == name; });
 }
 
 std::shared_ptr<const ShapeMesh> makeBall(double radius) {

@@ -35,6 +35,8 @@ class SceneLook {
   [[nodiscard]] DrawList look(const WorldDetails& details = {});
 
  private:
+  [[nodiscard]] bool hasName(const std::string& name) const;
+
   demos::SiteWorld& world_;
   WorldLook world_look_;
 };
