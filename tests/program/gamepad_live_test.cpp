@@ -69,6 +69,7 @@ TEST_F(GamepadLive, FullRumbleIsTheForceThatTheUserAllows) {
 
 TEST_F(GamepadLive, TheSouthButtonHoldsThingsUnlessAnotherIsGiven) {
   open({});
+  EXPECT_TRUE(device_->hasGrip());
   pad_.tell(EV_KEY, BTN_SOUTH, 1);
   EXPECT_TRUE(readUntil([&](const DeviceSample&) { return device_->isGripPressed(); }));
   EXPECT_EQ(device_->report().buttons, kSouthButton);

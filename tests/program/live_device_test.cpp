@@ -70,6 +70,7 @@ TEST_F(LiveDeviceTest, PlacesAndScalesTheHand) {
   options.offset = {0.1, 0.0, 0.0};
   hold(Vec3::Zero());
   open(options);
+  EXPECT_FALSE(device_->hasGrip());
   EXPECT_TRUE(readUntilAt(kCentre_W + Vec3(0.1, 0, 0)));
   EXPECT_LT(device_->distanceFromMiddle(), 1e-4);
   hold(Vec3(0.0, 0.01, -0.02));  // up, and away from the user

@@ -32,6 +32,8 @@ class DeviceSwitch {
 
   /// True while it is pressed; buttons are those of `driver`. Wait-free, for any thread.
   [[nodiscard]] bool isPressed(const Driver& driver) const noexcept;
+  /// False without a text.
+  [[nodiscard]] bool isThere() const noexcept { return button_ != 0 || pedal_; }
 
  private:
   std::uint8_t button_ = 0;

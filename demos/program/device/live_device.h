@@ -45,6 +45,8 @@ class LiveDevice final : public HapticDevice {
 
   /// True if the clutch was in at the last read.
   [[nodiscard]] bool isEngaged() const noexcept { return mapped_->isEngaged(); }
+  /// True if the user has something to grip with: --grip, or what a driver's devices usually have.
+  [[nodiscard]] bool hasGrip() const noexcept { return grip_.isThere(); }
   /// True while the user wants to hold something. For any thread.
   [[nodiscard]] bool isGripPressed() const noexcept { return grip_.isPressed(driver_); }
   [[nodiscard]] const DeviceSpec& spec() const noexcept { return spec_; }

@@ -91,7 +91,7 @@ void runPeer(const PeerOptions& options) {
                                       options.quiet, pause, is_ended);
   if (is_ended) return;
   PeerUser user{device.get(), {}, PeerPurpose::kResults, !folder};
-  if (options.device.grip) user.wants_grip = [&] { return device->isGripPressed(); };
+  if (device && device->hasGrip()) user.wants_grip = [&] { return device->isGripPressed(); };
   PeerMeeting meeting(scenario, options.line, std::move(user));
   if (!options.quiet)
     fmt::print("site {} on {}\n", options.line.site, toString(meeting.run().peers().bound()));

@@ -1,6 +1,7 @@
 #include "window/panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <GLFW/glfw3.h>
@@ -87,7 +88,7 @@ void Panel::showState(const SessionControl& control, const SessionLook& look) {
   describe("time", text);
   if (control.scenario().hasObject()) {
     std::snprintf(text, sizeof text, "%.2f mm", 1e3 * look.apart);
-    describe("copies apart", text);
+    describe("copies apart", std::isfinite(look.apart) ? text : "one flew apart");
   }
   describe("link",
            look.is_waiting ? "waiting for the other site" : std::string(nameOf(look.link)).c_str());
