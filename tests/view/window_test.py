@@ -237,6 +237,11 @@ def main():
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             push_and_switch(tandem, display, folder)
+            view = View(tandem, display, folder, "crate", "--watch")
+            first = view.wait_for("a world to watch", lambda note: note["frames"] > 0)
+            view.wait_for("a hand that moves by itself", lambda note: abs(note["hip"][0] - first["hip"][0]) > 0.02)
+            display.press("Escape")
+            check(view.end() == 0, "Escape ends watching with status 0")
             view = View(tandem, display, folder, "touch", "--seconds", "2")
             check(view.end() == 0, "--seconds ends the window with status 0")
             host = subprocess.run([with_window, "2"], env=display.environment, capture_output=True, text=True,
@@ -257,6 +262,7 @@ def main():
                    "--second", "falcon")
             refuse(tandem, display.environment, 2, "user 2 is at another machine", "crate", "--second", "simulated",
                    "--site", "1", "--bind", ":0", "--peer", "127.0.0.1:9", "--key", folder / "key")
+            refuse(tandem, display.environment, 2, "--watch", "crate", "--watch", "--device", "emulated")
             refuse(tandem, display.environment, 2, "belong together", "crate", "--site", "1")
             refuse(tandem, display.environment, 2, "--size", "crate", "--size", "7x7")
             refuse(tandem, display.environment, 1, "--status", "crate", "--status", folder / "no" / "file")

@@ -43,6 +43,7 @@ class ViewCommand final : public Command {
     arguments.option("--screenshot", screenshot_, "PNG file of the last frame");
     declarePeerLine(arguments, line_, {});
     declareDeviceOptions(arguments, device_);
+    arguments.flag("--watch", watches_, "without a hand: your user moves as the scenario says");
     arguments.option("--second", second_,
                      "user 2's device at this machine: as --device, with its firmware and limits");
   }
@@ -79,6 +80,7 @@ class ViewCommand final : public Command {
                                       addShares(overrides_, shares_));
     if (record_) settings_.record = *record_;
     if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
+    if (watches_) leaveHand();
     checkGrip(device_, settings_.scenario);
     checkSecond();
     const StopSignals signals;
@@ -93,6 +95,12 @@ class ViewCommand final : public Command {
     if (is_ended) return;
     view::ViewRun run(settings_, {device.get(), second.get()});
     run.run([&] { return signals.isAskedWithin(0.0); });
+  }
+
+  void leaveHand() {
+    if (!device_.device.empty())
+      throw UsageError("--watch: nobody has a hand then; leave --device or --watch");
+    device_.device = "simulated";
   }
 
   /// Before any device moves.
@@ -131,6 +139,7 @@ class ViewCommand final : public Command {
   PeerLine line_;
   std::vector<std::string> overrides_, shares_;
   std::string world_, size_ = "1280x800";
+  bool watches_ = false;
   std::optional<std::string> replay_, record_, second_, status_, screenshot_;
 };
 
