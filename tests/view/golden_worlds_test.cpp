@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kGolden = fs::path(__FILE__).parent_path() / "golden";
+const fs::path kGolden = fs::path(TANDEM_WORLDS) / "../../tests/view/golden";
 constexpr double kTolerance = 2e-4;  // of places [m] and turns
 
 std::vector<std::string> listWorlds() {

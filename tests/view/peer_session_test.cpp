@@ -102,7 +102,8 @@ class PeerSessionTest : public ::testing::Test {
   }
 
   demos::Scenario scenario =
-      demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml", {});
+      demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml",
+                          {"experiment.duration=120"});  // a site of the command line stays
   std::array<std::optional<SessionRecords>, 2> records;
   std::array<std::unique_ptr<PeerSession>, 2> sessions;
 

@@ -1,3 +1,4 @@
+#include <BulletFileLoader/btBulletFile.h>
 #include <BulletWorldImporter/btBulletWorldImporter.h>
 
 #include "tandem/bullet_bridge/convert.h"
@@ -18,6 +19,13 @@ namespace {
 struct Importer : btBulletWorldImporter {
   ~Importer() override { deleteAllData(); }
 };
+
+/// Bullet's own way from memory leaks its file where reading throws. The reader writes into
+/// `bytes`.
+bool load(Importer& importer, std::vector<char>& bytes) {
+  bParse::btBulletFile file(bytes.data(), static_cast<int>(bytes.size()));
+  return importer.loadFileFromMemory(&file);
+}
 
 BodyScenario makeBody(const btRigidBody& body, const std::string& name) {
   BodyScenario made;
@@ -60,10 +68,10 @@ ImportedWorld convert(Importer& file, double host_step) {
 ImportedWorld importBullet(const std::filesystem::path& file, double host_step) {
   const std::vector<char> bytes = readBulletFile(file);
   const auto import = [&] {
-    std::vector<char> own = bytes;  // the reader writes into its input
+    std::vector<char> own = bytes;
     Importer importer;
     try {
-      if (!importer.loadFileFromMemory(own.data(), static_cast<int>(own.size())))
+      if (!load(importer, own))
         throw UsageError("Bullet cannot read this file; export it with Bullet 3");
       return convert(importer, host_step);
     } catch (const UsageError& error) {
