@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "import/import_file.h"
 #include "import/imported_world.h"
 #include "scenario/body_checks.h"
 #include "terminal/usage_error.h"
@@ -15,27 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBodies = 500;
-constexpr std::uintmax_t kLargest = 64u << 20;  // of a file [byte]
-
 std::string endingOf(const fs::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
 }
 
-void checkFile(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error))
-    throw UsageError(file.string() + ": there is no such file; its path is from the scenario");
-  if (fs::file_size(file, error) > kLargest)
-    throw UsageError(file.string() + ": is larger than 64 MiB; simplify its meshes");
-}
-
 ImportedWorld read(const fs::path& file, double host_step) {
   if (!isWorldFile(file))
     throw UsageError(file.string() + ": must end in .urdf, .xml (MJCF) or .bullet");
-  checkFile(file);
+  checkImportFile(file);
   return endingOf(file) == ".bullet" ? importBullet(file, host_step) : importMujoco(file);
 }
 

@@ -5,7 +5,7 @@
 namespace tandem::demos {
 namespace {
 
-/// Of a mass point at `p` about the origin.
+/// Gives the inertia of a mass point at `p` about the origin.
 Mat3 computePointInertia(double mass, const Vec3& p) {
   return mass * (p.squaredNorm() * Mat3::Identity() - p * p.transpose());
 }

@@ -1,32 +1,15 @@
 #include "import/obj_file.h"
 
-#include <fstream>
-#include <sstream>
-
 #include <fmt/format.h>
 
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
+#include "import/import_file.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
-
-constexpr std::uintmax_t kLargest = 64u << 20;  // of a file [byte]
-
-std::string readFile(const std::filesystem::path& path) {
-  std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(path, error);
-  std::ifstream stream(path, std::ios::binary);
-  if (!is_file || !stream)
-    throw UsageError(path.string() + ": cannot read this OBJ file; its path is from the scenario");
-  if (std::filesystem::file_size(path) > kLargest)
-    throw UsageError(path.string() + ": is larger than 64 MiB; simplify the mesh");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -52,7 +35,7 @@ ObjFile readObj(const std::filesystem::path& path) {
   tinyobj::ObjReaderConfig config;
   config.vertex_color = false;
   tinyobj::ObjReader reader;
-  if (!reader.ParseFromString(readFile(path), "", config))
+  if (!reader.ParseFromString(readImportFile(path), "", config))
     throw UsageError(fmt::format("{}: not an OBJ file: {}", name, firstLine(reader.Error())));
   ObjFile file;
   const std::vector<double>& numbers = reader.GetAttrib().vertices;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "tandem/coordination/types.h"
 
 namespace tandem::demos {
+
+/// Most bodies of a scenario, and most joints.
+inline constexpr std::size_t kMostBodies = 500;
 
 /// Form of a body or of one of its parts, about its own origin. Lengths in m. Round forms stand
 /// along z. What the form does not need is empty.
@@ -56,7 +60,7 @@ struct JointScenario {
   double friction = 0.0;                        ///< of a hinge [N m] or slider [N]
 };
 
-/// Where a picture is seen from, in the scene's frame.
+/// A picture is seen from here, in the scene's frame.
 struct CameraScenario {
   Vec3 target = Vec3::Zero();  ///< [m]
   double distance = 0.0;       ///< [m]; 0: from behind user 1, near enough for all that is shared

@@ -22,8 +22,6 @@ using Keys = std::vector<ScenarioKey>;
 const std::vector<std::string> kContactModels = {"island", "native_rigid", "native_soft",
                                                  "spring_6dof", "point_to_point"};
 
-constexpr std::size_t kMostBodies = 500;
-
 ScenarioKey own(ScenarioKey key) {
   key.is_own = true;
   return key;

@@ -1,13 +1,11 @@
 #include "import/bullet/bullet_file.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
+#include "import/import_file.h"
 #include "terminal/usage_error.h"
 
 // clang-format off
@@ -22,14 +20,14 @@ namespace {
 
 constexpr std::size_t kHeader = 12;  // [byte]
 
-bool hasHeader(const std::vector<char>& bytes) {
-  const std::string_view text(bytes.data(), std::min(bytes.size(), kHeader));
+bool hasHeader(const std::string& bytes) {
+  const std::string_view text = std::string_view(bytes).substr(0, kHeader);
   return text.size() == kHeader && text.starts_with("BULLET") &&
          (text[6] == 'f' || text[6] == 'd') && (text[7] == '-' || text[7] == '_') && text[8] == 'v';
 }
 
 /// Follows the chunks to the one that describes the types. True if each lies in the file.
-bool hasSoundChunks(const std::vector<char>& bytes) {
+bool hasSoundChunks(const std::string& bytes) {
   const std::size_t pointer = bytes[7] == '-' ? 8 : 4;
   const std::size_t head = 4 + 4 + pointer + 4 + 4;
   for (std::size_t at = kHeader; at + head <= bytes.size();) {
@@ -45,9 +43,8 @@ bool hasSoundChunks(const std::vector<char>& bytes) {
 
 }  // namespace
 
-std::vector<char> readBulletFile(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+std::string readBulletFile(const std::filesystem::path& file) {
+  std::string bytes = readImportFile(file);
   if (!hasHeader(bytes))
     throw UsageError(file.string() + ": not a .bullet file of a little-endian machine");
   if (!hasSoundChunks(bytes))

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <string>
 
 namespace tandem::demos {
 
-/// The bytes of a .bullet file whose header and chain of chunks are sound. What chunks hold is not
-/// checked. Throws UsageError.
-[[nodiscard]] std::vector<char> readBulletFile(const std::filesystem::path& file);
+/// The bytes of a .bullet file whose header and chain of chunks are sound. The content of chunks is
+/// not checked. Throws UsageError.
+[[nodiscard]] std::string readBulletFile(const std::filesystem::path& file);
 
 }  // namespace tandem::demos

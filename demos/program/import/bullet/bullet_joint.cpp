@@ -19,25 +19,22 @@ bool nameBodies(const btRigidBody& first, const btRigidBody& second, const Bulle
   return !names.contains(&first);
 }
 
-JointScenario makeHinge(const btHingeConstraint& hinge, const BulletNames& names,
-                        double host_step) {
+JointScenario makeHinge(btHingeConstraint& hinge, const BulletNames& names, double host_step) {
   JointScenario joint;
   const btTransform frame = hinge.getRigidBodyA().getWorldTransform() * hinge.getAFrame();
   const bool is_turned = nameBodies(hinge.getRigidBodyA(), hinge.getRigidBodyB(), names, joint);
   joint.at = fromBullet(frame.getOrigin());
   joint.axis = (is_turned ? -1.0 : 1.0) * fromBullet(frame.getBasis().getColumn(2));
-  const double start =
-      const_cast<btHingeConstraint&>(hinge).getHingeAngle();  // Bullet's getter only reads
+  const double start = hinge.getHingeAngle();
   const double low = hinge.getLowerLimit() - start, high = hinge.getUpperLimit() - start;
   if (low < high && std::max(-low, high) <= 3.14) joint.limits = {low, high};
-  auto& motor = const_cast<btHingeConstraint&>(hinge);
-  if (motor.getEnableAngularMotor() && motor.getMotorTargetVelocity() == 0)
-    joint.friction = motor.getMaxMotorImpulse() / host_step;
+  if (hinge.getEnableAngularMotor() && hinge.getMotorTargetVelocity() == 0)
+    joint.friction = hinge.getMaxMotorImpulse() / host_step;
   return joint;
 }
 
 /// Bullet's slider moves its second body against the first, along x of the first one's frame.
-JointScenario makeSlider(const btSliderConstraint& slider, const BulletNames& names) {
+JointScenario makeSlider(btSliderConstraint& slider, const BulletNames& names) {
   JointScenario joint;
   joint.kind = "slider";
   const btTransform a = slider.getRigidBodyA().getWorldTransform() * slider.getFrameOffsetA();
@@ -46,12 +43,11 @@ JointScenario makeSlider(const btSliderConstraint& slider, const BulletNames& na
   const bool is_turned = nameBodies(slider.getRigidBodyB(), slider.getRigidBodyA(), names, joint);
   joint.at = fromBullet(b.getOrigin());
   joint.axis = (is_turned ? -1.0 : 1.0) * fromBullet(axis);
-  auto& reads = const_cast<btSliderConstraint&>(slider);  // Bullet's getters only read
   const double start = (b.getOrigin() - a.getOrigin()).dot(axis);
-  const double low = reads.getLowerLinLimit() - start, high = reads.getUpperLinLimit() - start;
+  const double low = slider.getLowerLinLimit() - start, high = slider.getUpperLinLimit() - start;
   if (low < high) joint.limits = {low, high};
-  if (reads.getPoweredLinMotor() && reads.getTargetLinMotorVelocity() == 0)
-    joint.friction = reads.getMaxLinMotorForce();
+  if (slider.getPoweredLinMotor() && slider.getTargetLinMotorVelocity() == 0)
+    joint.friction = slider.getMaxLinMotorForce();
   return joint;
 }
 
@@ -63,10 +59,9 @@ JointScenario makeBall(const btPoint2PointConstraint& ball, const BulletNames& n
   return joint;
 }
 
-template <typename SixDof>
-JointScenario makeWeld(const SixDof& joint6, const BulletNames& names) {
+JointScenario makeWeld(btGeneric6DofSpring2Constraint& joint6, const BulletNames& names) {
   for (int i = 0; i < 6; ++i)
-    if (!const_cast<SixDof&>(joint6).isLimited(i))
+    if (!joint6.isLimited(i))
       throw UsageError("a joint of six directions is taken over only if all of them are locked");
   JointScenario joint;
   joint.kind = "weld";
@@ -78,17 +73,17 @@ JointScenario makeWeld(const SixDof& joint6, const BulletNames& names) {
 
 }  // namespace
 
-JointScenario makeJointScenario(const btTypedConstraint& constraint, const BulletNames& names,
+JointScenario makeJointScenario(btTypedConstraint& constraint, const BulletNames& names,
                                 double host_step) {
   switch (constraint.getConstraintType()) {
     case HINGE_CONSTRAINT_TYPE:
-      return makeHinge(static_cast<const btHingeConstraint&>(constraint), names, host_step);
+      return makeHinge(static_cast<btHingeConstraint&>(constraint), names, host_step);
     case SLIDER_CONSTRAINT_TYPE:
-      return makeSlider(static_cast<const btSliderConstraint&>(constraint), names);
+      return makeSlider(static_cast<btSliderConstraint&>(constraint), names);
     case POINT2POINT_CONSTRAINT_TYPE:
       return makeBall(static_cast<const btPoint2PointConstraint&>(constraint), names);
     case D6_SPRING_2_CONSTRAINT_TYPE:
-      return makeWeld(static_cast<const btGeneric6DofSpring2Constraint&>(constraint), names);
+      return makeWeld(static_cast<btGeneric6DofSpring2Constraint&>(constraint), names);
     default:
       throw UsageError(
           "a joint of this kind is not taken over; use hinge, slider, point to point or fixed");

@@ -14,8 +14,8 @@ using BulletNames = std::map<const btRigidBody*, std::string>;
 
 /// A constraint as a joint of a scenario: hinge, slider, point to point, and what locks all six
 /// directions. A motor that holds still is friction: its impulse in each `host_step` [s]. Throws
-/// UsageError for other kinds.
-[[nodiscard]] JointScenario makeJointScenario(const btTypedConstraint& constraint,
+/// UsageError for other kinds. Bullet's getters are not const; the constraint stays as it is.
+[[nodiscard]] JointScenario makeJointScenario(btTypedConstraint& constraint,
                                               const BulletNames& names, double host_step);
 
 }  // namespace tandem::demos

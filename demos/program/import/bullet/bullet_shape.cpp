@@ -4,14 +4,12 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "import/import_parts.h"
 #include "terminal/usage_error.h"
 #include "world/rotation.h"
 
 namespace tandem::demos {
 namespace {
-
-constexpr double kGround = 2.0;     // width of the box that stands for a plane [m]
-constexpr double kThickness = 0.1;  // [m]
 
 /// A form with its place in the body.
 using Part = PartScenario;
@@ -78,9 +76,9 @@ Part makeMesh(const btConcaveShape& mesh) {
 
 /// A box whose top lies in the plane, about its origin.
 Part makePlane(const btStaticPlaneShape& plane) {
-  Part part = makeBox(Vec3(kGround, kGround, kThickness));
+  Part part = makeBox(Vec3(kGroundWidth, kGroundWidth, kGroundThickness));
   const Vec3 normal = fromBullet(plane.getPlaneNormal()).normalized();
-  part.position = (plane.getPlaneConstant() - 0.5 * kThickness) * normal;
+  part.position = (plane.getPlaneConstant() - 0.5 * kGroundThickness) * normal;
   part.rotation =
       makeRotationVector(Quat::FromTwoVectors(Vec3::UnitZ(), normal).toRotationMatrix());
   return part;
@@ -135,11 +133,7 @@ void addParts(const btCollisionShape& shape, const btTransform& X_BS, BodyScenar
 
 void takeShape(const btCollisionShape& shape, BodyScenario& body) {
   addParts(shape, btTransform::getIdentity(), body);
-  if (body.parts.size() != 1) return;
-  const PartScenario only = body.parts[0];
-  if (only.position.norm() > 1e-9 || only.rotation.norm() > 1e-9) return;
-  body.shape = only.shape;
-  body.parts.clear();
+  joinOnlyPart(body);
 }
 
 }  // namespace tandem::demos

@@ -22,7 +22,7 @@ struct Importer : btBulletWorldImporter {
 
 /// Bullet's own way from memory leaks its file where reading throws. The reader writes into
 /// `bytes`.
-bool load(Importer& importer, std::vector<char>& bytes) {
+bool load(Importer& importer, std::string& bytes) {
   bParse::btBulletFile file(bytes.data(), static_cast<int>(bytes.size()));
   return importer.loadFileFromMemory(&file);
 }
@@ -66,9 +66,9 @@ ImportedWorld convert(Importer& file, double host_step) {
 }  // namespace
 
 ImportedWorld importBullet(const std::filesystem::path& file, double host_step) {
-  const std::vector<char> bytes = readBulletFile(file);
+  const std::string bytes = readBulletFile(file);
   const auto import = [&] {
-    std::vector<char> own = bytes;
+    std::string own = bytes;
     Importer importer;
     try {
       if (!load(importer, own))

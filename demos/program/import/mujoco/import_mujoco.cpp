@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "import/body_names.h"
+#include "import/import_file.h"
+#include "import/import_parts.h"
 #include "import/imported_world.h"
 #include "import/mass_sum.h"
 #include "import/mujoco/mujoco_model.h"
@@ -101,17 +103,13 @@ class Importer {
     body.parts.push_back(part);
   }
 
-  /// One form at the body's own place needs no parts; a body without a form is a dot.
+  /// A body without a form is a dot.
   static void simplify(BodyScenario& body) {
     if (body.parts.empty()) {
       body.shape.kind = "sphere";
       body.shape.radius = kDot;
-    } else if (const PartScenario& only = body.parts[0]; body.parts.size() == 1 &&
-                                                         only.position.norm() < 1e-9 &&
-                                                         only.rotation.norm() < 1e-9) {
-      body.shape = ShapeScenario(only.shape);
-      body.parts.clear();
     }
+    joinOnlyPart(body);
   }
 
   void addJoint(int number) {
@@ -152,9 +150,10 @@ class Importer {
 }  // namespace
 
 ImportedWorld importMujoco(const std::filesystem::path& file) {
+  const std::string text = readImportFile(file);
   const auto import = [&] {
     try {
-      const MujocoModel world = loadMujoco(file);
+      const MujocoModel world = loadMujoco(file, text);
       return Importer(world).import();
     } catch (const UsageError& error) {
       throw UsageError(file.string() + ": " + error.what());

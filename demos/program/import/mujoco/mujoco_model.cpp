@@ -3,21 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
-
-std::string readAll(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw UsageError("cannot read this file; may you?");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// Files in memory that MuJoCo finds before those of the disk. It is large.
 class MemoryFile {
@@ -64,11 +54,10 @@ void refuse(const char* text) { throw UsageError(std::string("MuJoCo: ") + text)
 
 }  // namespace
 
-MujocoModel loadMujoco(const std::filesystem::path& file) {
+MujocoModel loadMujoco(const std::filesystem::path& file, const std::string& text) {
   // MuJoCo's own handlers write a file, and end the program.
   mju_user_warning = &ignoreWarning;
   mju_user_error = &refuse;
-  const std::string text = readAll(file);
   if (text.empty()) throw UsageError("is empty; export it again");
   std::string error;
   // Visual parts give colours, but often are in formats that MuJoCo does not know.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include <mujoco/mujoco.h>
 
@@ -18,8 +19,9 @@ struct MujocoModel {
   std::unique_ptr<mjData, FreeMujoco> start;
 };
 
-/// Reads URDF or MJCF with the files that it names. Links of URDF keep their names, and their
-/// colours where their visual parts can be read. Throws UsageError with MuJoCo's own line.
-[[nodiscard]] MujocoModel loadMujoco(const std::filesystem::path& file);
+/// Compiles URDF or MJCF, with the files that it names; `text` is what `file` holds. Links of URDF
+/// keep their names, and their colours where their visual parts can be read. Throws UsageError with
+/// MuJoCo's own line.
+[[nodiscard]] MujocoModel loadMujoco(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace tandem::demos

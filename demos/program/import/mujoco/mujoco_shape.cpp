@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "import/import_parts.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
@@ -13,9 +14,7 @@ namespace {
 
 using Points = std::vector<std::array<double, 3>>;
 
-constexpr double kGround = 2.0;     // width of a plane without a size [m]
-constexpr double kThickness = 0.1;  // of the box that stands for a plane [m]
-constexpr int kRings = 8;           // of the hull of an ellipsoid
+constexpr int kRings = 8;  // of the hull of an ellipsoid
 
 Points sampleEllipsoid(const mjtNum* radii) {
   Points points;
@@ -90,14 +89,15 @@ MujocoPose poseOfGeom(const MujocoModel& world, int geom) {
   const mjtNum* position = world.start->geom_xpos + 3 * geom;
   const mjtNum* rows = world.start->geom_xmat + 9 * geom;
   MujocoPose pose{Vec3(position), Mat3(Eigen::Map<const RowMajor>(rows))};
-  if (world.model->geom_type[geom] == mjGEOM_PLANE) pose.p_W -= 0.5 * kThickness * pose.R_W.col(2);
+  if (world.model->geom_type[geom] == mjGEOM_PLANE)
+    pose.p_W -= 0.5 * kGroundThickness * pose.R_W.col(2);
   return pose;
 }
 
 ShapeScenario makeShape(const MujocoModel& world, int geom, bool moves) {
   const mjModel& model = *world.model;
   const mjtNum* size = model.geom_size + 3 * geom;
-  const auto widthOf = [](mjtNum half) { return half > 0.0 ? 2.0 * half : kGround; };
+  const auto widthOf = [](mjtNum half) { return half > 0.0 ? 2.0 * half : kGroundWidth; };
   switch (model.geom_type[geom]) {
     case mjGEOM_SPHERE:
       return makeRound("sphere", size);
@@ -108,7 +108,7 @@ ShapeScenario makeShape(const MujocoModel& world, int geom, bool moves) {
     case mjGEOM_BOX:
       return makeBox(2.0 * Vec3(size));
     case mjGEOM_PLANE:
-      return makeBox(Vec3(widthOf(size[0]), widthOf(size[1]), kThickness));
+      return makeBox(Vec3(widthOf(size[0]), widthOf(size[1]), kGroundThickness));
     case mjGEOM_MESH:
       return makeMesh(model, model.geom_dataid[geom], moves);
     case mjGEOM_ELLIPSOID: {
