@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kMostChanges = 999'999'999;
 
-/// What a change may change, as table and name.
+/// The keys that a change may set, as table and name.
 constexpr std::array<std::array<const char*, 2>, 5> kKeys = {{{"experiment", "scheme"},
                                                               {"contact", "stiffness"},
                                                               {"contact", "damping"},

@@ -27,10 +27,10 @@ struct ChangedScenario {
 /// The item by which a site tells the other its newest change; empty without one.
 [[nodiscard]] std::optional<ConfigurationItem> describeChange(const ChangedScenario& own);
 
-/// What `site` (1 or 2) goes on with, after the other has told a difference: the newer change; of
-/// two with one number that of site 1. Empty if the own one counts, or if sites differ in something
-/// else. The other's text is not trusted: throws UsageError unless a scenario file could have all
-/// of its values.
+/// Chooses the scenario that `site` (1 or 2) goes on with, after the other has told a difference:
+/// the newer change wins, and of two with one number that of site 1. Empty if the own one counts,
+/// or if sites differ in something else. The other's text is not trusted: throws UsageError unless
+/// a scenario file could have all of its values.
 [[nodiscard]] std::optional<ChangedScenario> followChange(
     const ChangedScenario& own, int site, const ConfigurationDifference& difference);
 

@@ -69,7 +69,7 @@ bool PeerMeeting::wantsNext(const PeerWatch& watch) {
   next_look_ = now + kLookPeriod;
   const PeerStatus status = run_->peerStatus();
   if (takesFollowing(watch, status)) return true;
-  // Who leaves between the agreement and the start has made a change, or comes again.
+  // A site that leaves between the agreement and the start has made a change, or comes again.
   const bool has_left = !is_running_ && run_->peers().start() && status.phase == PeerPhase::kLeft;
   if (has_left && (user_.purpose != PeerPurpose::kResults || scenario_.changes > 0))
     next_ = scenario_;

@@ -11,7 +11,7 @@
 
 namespace tandem::demos {
 
-/// Who is at a site, and what for.
+/// The user of a site, and the purpose of being there.
 struct PeerUser {
   HapticDevice* device = nullptr;    ///< must outlive the meeting; null: simulated
   std::function<bool()> wants_grip;  ///< empty: the scenario says when
@@ -19,7 +19,7 @@ struct PeerUser {
   bool may_follow = true;  ///< false: a change by the other user ends the meeting with an Error
 };
 
-/// What a meeting tells, in the thread of PeerMeeting::live(). `stop` asks to end.
+/// A meeting calls these in the thread of PeerMeeting::live(). `stop` asks to end.
 struct PeerWatch {
   std::function<bool()> stop;
   std::function<void(const PeerReport&)> report;
@@ -48,7 +48,7 @@ class PeerMeeting {
   /// The user wants another scheme or other gains. Throws UsageError for another wish; then nothing
   /// changes. If the other site does not follow, what was before is back after 5 s.
   void propose(const Scenario& wanted);
-  /// What is in force, and by how many changes.
+  /// The scenario in force, and the number of changes that led to it.
   [[nodiscard]] ChangedScenario scenario() const;
 
  private:

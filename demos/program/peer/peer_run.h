@@ -65,7 +65,7 @@ class PeerRun {
   [[nodiscard]] double duration() const noexcept;
   [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
   [[nodiscard]] PeerStatus peerStatus() const;
-  /// Where hands and bodies are. For the thread of run(), or after it.
+  /// The places of hands and bodies now. For the thread of run(), or after it.
   [[nodiscard]] ScenePlaces places();
 
  private:

@@ -11,10 +11,10 @@
 
 namespace tandem::demos {
 
-/// Of a session that ends when its user wants, this much is recorded [s]: 80 MB for each site.
+/// A session that ends when its user wants is recorded for this long [s]: 80 MB for each site.
 inline constexpr double kLongestRecord = 120.0;
 
-/// What a live site leaves behind: its ticks, and pictures of its world.
+/// A live site leaves this behind: its ticks, and pictures of its world.
 class SiteRecord {
  public:
   /// Records `world`, of site 0 or 1, for the first `duration` seconds of its ticks; what comes

@@ -11,7 +11,7 @@ namespace {
 
 using Refuse = std::function<void(const std::string&)>;
 
-/// What a form needs. A hull or mesh needs points or a file.
+/// A form needs these. A hull or mesh needs points or a file.
 struct ShapeNeeds {
   bool size = false, radius = false, height = false, file = false;
 };

@@ -34,7 +34,7 @@ class SiteWorld {
   /// Valid only if the device is simulated.
   [[nodiscard]] SimulatedDevice& device() noexcept { return *simulated_; }
   [[nodiscard]] const std::vector<SceneBody>& bodies() const noexcept { return scene_bodies_; }
-  /// Where all bodies are now that may move, for another world of the same scenario.
+  /// The places of all bodies that may move, for another world of the same scenario.
   [[nodiscard]] BodyPlaces places() const;
   /// Pose of a scene body now, in W.
   [[nodiscard]] RigidState pose(const SceneBody& body) const;

@@ -6,7 +6,7 @@
 
 namespace tandem::demos {
 
-/// Where hands and bodies are, for another session that goes on from there.
+/// Hands and bodies are here; another session goes on from there.
 struct ScenePlaces {
   std::array<Vec3, 2> hands_W = {Vec3::Zero(), Vec3::Zero()};  ///< of both users [m]
   BodyPlaces bodies;                                           ///< as one site has them

@@ -11,7 +11,7 @@
 namespace tandem::demos {
 namespace {
 
-/// Where the scenario has a body at first, in W.
+/// The scenario has a body here at first, in W.
 btTransform computeStart(const BodyScenario& body, const SceneFrame& frame) {
   const Quat q_WB = frame.q_WS * makeRotation(body.rotation);
   return btTransform(toBullet(q_WB), toBullet(frame.toWorld(body.position)));

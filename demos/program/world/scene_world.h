@@ -63,7 +63,7 @@ class SceneWorld {
   std::vector<PlacedBody> placed_;
 };
 
-/// What a picture needs to know of a body.
+/// A picture needs to know this of a body.
 [[nodiscard]] SceneBody describeBody(const PlacedBody& placed);
 
 }  // namespace tandem::demos
