@@ -68,6 +68,7 @@ TEST(WorldKeys, NameTheLine) {
   expectRefused(kHead + kBall + "masss = 1\n", "own.toml:9: body.ball.masss = 1", "no such key");
   expectRefused(kHead + "[[body]]\nsize = [1, 1, 0]\n", "own.toml:5: body.1.size", "above 0");
   expectRefused(kHead + "[[joint]]\nlimits = [1, 1]\n", "own.toml:5: joint.1.limits", "below");
+  expectRefused(kHead + "[[bodies]]\nmass = 1\n", "own.toml:4: bodies", "allowed: body, ");
   expectRefused(kHead + "[body]\nmass = 1\n", "own.toml:4: body", "[[body]]");
 }
 

@@ -34,11 +34,12 @@ void applyKey(Scenario& scenario, const Place& place, const toml::node& node) {
     std::vector<std::string> near;
     for (const auto& [name, unused] : allKeys())
       if (!table.empty() && name.rfind(table, 0) == 0) near.push_back(name);
-    std::vector<std::string> tables = {"title"};
-    for (const auto& [name, unused] : allKeys())
-      if (const auto dot = name.find('.'); dot != std::string::npos)
-        if (const std::string t = name.substr(0, dot) + ".*"; tables.back() != t)
-          tables.push_back(t);
+    std::vector<std::string> tables;
+    for (const auto& [name, unused] : allKeys()) {
+      const auto dot = name.find('.');
+      const std::string top = dot == std::string::npos ? name : name.substr(0, dot) + ".*";
+      if (tables.empty() || tables.back() != top) tables.push_back(top);
+    }
     refuseKey(place, node, near.empty() ? tables : near);
   }
   key->second->read(scenario, place, node);
