@@ -1,9 +1,7 @@
 #include "gamepad/gamepad_stream.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <utility>
 
 #include "tandem/coordination/types.h"
@@ -30,18 +28,11 @@ GamepadSettings checked(const GamepadSettings& settings) {
 }  // namespace
 
 GamepadStream::GamepadStream(EventOpener open, const GamepadSettings& settings)
-    : open_(std::move(open)), settings_(checked(settings)) {
+    : open_(std::move(open)),
+      settings_(checked(settings)),
+      thread_("gamepad", settings_.first_retry, settings_.longest_retry) {
   connect();
-  thread_ = std::thread([this] { run(); });
-}
-
-GamepadStream::~GamepadStream() {
-  {
-    const std::lock_guard held(mutex_);
-    is_ending_ = true;
-  }
-  ends_.notify_all();
-  thread_.join();
+  thread_.start({[this] { exchangeUntilGone(); }, [this] { disconnect(); }, [this] { connect(); }});
 }
 
 void GamepadStream::setForce(const Vec3& f_D) noexcept {
@@ -49,70 +40,26 @@ void GamepadStream::setForce(const Vec3& f_D) noexcept {
 }
 
 GamepadCounters GamepadStream::counters() const noexcept {
-  return {reports_, dropped_, uploads_, refused_, losses_};
-}
-
-std::string GamepadStream::name() const {
-  const std::lock_guard held(mutex_);
-  return name_;
-}
-
-std::string GamepadStream::trouble() const {
-  const std::lock_guard held(mutex_);
-  return trouble_;
+  return {reports_, dropped_, uploads_, refused_, thread_.losses()};
 }
 
 void GamepadStream::connect() {
   line_ = std::make_unique<GamepadLine>(open_());
-  {
-    const std::lock_guard held(mutex_);
-    name_ = line_->name();
-    trouble_.clear();
-  }
+  thread_.setName(line_->name());
   publish();
-}
-
-bool GamepadStream::reconnect() noexcept {
-  std::string trouble = "the gamepad's opener threw what is no std::exception";
-  try {
-    connect();
-    return true;
-  } catch (const std::exception& error) {
-    trouble = error.what();
-  } catch (...) {  // this thread survives whatever the caller's function throws
-  }
-  const std::lock_guard held(mutex_);
-  trouble_ = trouble;
-  return false;
 }
 
 /// Tells the loss first: a device that hangs may take its time to stop.
 void GamepadStream::disconnect() noexcept {
-  {
-    const std::lock_guard held(mutex_);
-    trouble_ = name_ + " is gone; plug it in again";
-  }
+  thread_.setTrouble(name() + " is gone; plug it in again");
   const std::unique_ptr<GamepadLine> gone = std::move(line_);
   publish();
-}
-
-void GamepadStream::run() noexcept {
-  for (;;) {
-    exchangeUntilGone();
-    if (!is_ending_) ++losses_;
-    disconnect();
-    double wait = settings_.first_retry;
-    do {
-      if (!sleep(wait)) return;
-      wait = std::min(2.0 * wait, settings_.longest_retry);
-    } while (!reconnect());
-  }
 }
 
 /// A device that sends without end does not keep the force from being rendered.
 void GamepadStream::exchangeUntilGone() noexcept {
   double next = readMonotonicClock();
-  while (!is_ending_) {
+  while (!thread_.isEnding()) {
     const double now = readMonotonicClock();
     if (now >= next) {
       render(now);
@@ -147,12 +94,6 @@ void GamepadStream::publish() noexcept {
   if (line_) news.feel = line_->feel();
   news.time = readMonotonicClock();
   news_.write(news);
-}
-
-bool GamepadStream::sleep(double time) noexcept {
-  std::unique_lock held(mutex_);
-  ends_.wait_for(held, std::chrono::duration<double>(time), [this] { return is_ending_.load(); });
-  return !is_ending_;
 }
 
 }  // namespace tandem

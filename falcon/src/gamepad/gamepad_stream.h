@@ -2,15 +2,14 @@
 
 #include <array>
 #include <atomic>
-#include <condition_variable>
+#include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 
 #include "tandem/falcon/gamepad_device.h"
 
 #include "gamepad/gamepad_line.h"
+#include "guard/device_thread.h"
 #include "guard/latest_value.h"
 
 #pragma GCC visibility push(default)
@@ -18,7 +17,7 @@ namespace tandem {
 
 /// A thread that reads a gamepad's events and renders a force on it 100 times a second. It opens
 /// the device again by itself after it was unplugged. Uploads may take milliseconds, so the haptic
-/// thread must not wait for them.
+/// thread must not wait for them. Its destructor stops the effect and joins the thread.
 class GamepadStream {
  public:
   /// State on its way from the thread to the haptic thread.
@@ -32,8 +31,6 @@ class GamepadStream {
   /// Opens the device. Throws what `open` throws, and tandem::Error for a device without sticks.
   /// Throws std::invalid_argument for settings out of range.
   GamepadStream(EventOpener open, const GamepadSettings& settings);
-  /// Stops the effect and joins the thread.
-  ~GamepadStream();
   GamepadStream(const GamepadStream&) = delete;
   GamepadStream& operator=(const GamepadStream&) = delete;
 
@@ -43,8 +40,8 @@ class GamepadStream {
 
   // For any thread; the texts take a lock.
   [[nodiscard]] GamepadCounters counters() const noexcept;
-  [[nodiscard]] std::string name() const;
-  [[nodiscard]] std::string trouble() const;
+  [[nodiscard]] std::string name() const { return thread_.name(); }
+  [[nodiscard]] std::string trouble() const { return thread_.trouble(); }
 
  private:
   /// A force on its way to the thread.
@@ -54,15 +51,11 @@ class GamepadStream {
   };
 
   void connect();
-  [[nodiscard]] bool reconnect() noexcept;
   void disconnect() noexcept;
-  void run() noexcept;
   void exchangeUntilGone() noexcept;
   [[nodiscard]] bool listen(double wait) noexcept;
   void render(double now) noexcept;
   void publish() noexcept;
-  /// Sleeps for `time` [s]. Returns false if the stream ends meanwhile.
-  [[nodiscard]] bool sleep(double time) noexcept;
 
   EventOpener open_;
   GamepadSettings settings_;
@@ -70,13 +63,8 @@ class GamepadStream {
 
   LatestValue<News> news_;
   LatestValue<Order> order_;
-  std::atomic<bool> is_ending_{false};
-  std::atomic<std::uint64_t> reports_{0}, dropped_{0}, uploads_{0}, refused_{0}, losses_{0};
-
-  mutable std::mutex mutex_;  ///< guards the texts, and is_ending_ for the condition variable
-  std::condition_variable ends_;
-  std::string name_, trouble_;
-  std::thread thread_;
+  std::atomic<std::uint64_t> reports_{0}, dropped_{0}, uploads_{0}, refused_{0};
+  DeviceThread thread_;  ///< last, because the thread uses the members above
 };
 
 }  // namespace tandem

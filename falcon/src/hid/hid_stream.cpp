@@ -1,9 +1,6 @@
 #include "hid/hid_stream.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <utility>
 
 #include "tandem/coordination/types.h"
@@ -12,7 +9,7 @@
 #include "guard/settings_check.h"
 
 //   constructor     reader's thread                                          writer's thread
-//   connect() ----> readUntilGone() ---> disconnect() ---> wait, reconnect()
+//   connect() ----> readUntilGone() ---> disconnect() ---> wait, connect()
 //       |               ^                     |                   |
 //       |               +---------------------|-------------------+
 //       +-----------------------------------------------------------------> writeUntilGone()
@@ -53,49 +50,30 @@ HidStreamSettings withoutWriting(HidStreamSettings settings) noexcept {
 }
 
 HidStream::HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings)
-    : open_(std::move(open)), client_(client), settings_(checked(settings)) {
+    : open_(std::move(open)),
+      client_(client),
+      settings_(checked(settings)),
+      reader_("HID device", settings_.first_retry, settings_.longest_retry) {
   connect();
   try {
-    reader_ = std::thread([this] { run(); });
+    reader_.start({[this] { readUntilGone(); }, [this] { disconnect(); }, [this] { connect(); }});
   } catch (...) {
-    is_ending_ = true;
+    reader_.end();
     disconnect();
     throw;
   }
 }
 
-HidStream::~HidStream() {
-  {
-    const std::lock_guard held(mutex_);
-    is_ending_ = true;
-  }
-  ends_.notify_all();
-  reader_.join();
-}
-
 HidStreamCounters HidStream::counters() const noexcept {
-  return {reports_, refused_, written_, write_misses_, losses_};
-}
-
-std::string HidStream::name() const {
-  const std::lock_guard held(mutex_);
-  return name_;
-}
-
-std::string HidStream::trouble() const {
-  const std::lock_guard held(mutex_);
-  return trouble_;
+  return {reports_, refused_, written_, write_misses_, reader_.losses()};
 }
 
 void HidStream::connect() {
-  port_ = open_();
-  if (!port_) throw Error("the HID device's opener gave no port");
+  std::unique_ptr<HidPort> port = open_();
+  if (!port) throw Error("the HID device's opener gave no port");
   is_gone_ = false;
-  {
-    const std::lock_guard held(mutex_);
-    name_ = port_->name();
-    trouble_.clear();
-  }
+  reader_.setName(port->name());
+  port_ = std::move(port);
   client_.setConnected(true);
   startWriter();
   is_connected_ = true;
@@ -107,23 +85,9 @@ void HidStream::startWriter() {
     writer_ = std::thread([this] { writeUntilGone(); });
   } catch (...) {
     client_.setConnected(false);
+    port_.reset();
     throw;
   }
-}
-
-bool HidStream::reconnect() noexcept {
-  std::string trouble = "the HID device's opener threw what is no std::exception";
-  try {
-    connect();
-    return true;
-  } catch (const std::exception& error) {
-    trouble = error.what();
-  } catch (...) {  // this thread survives whatever the caller's function throws
-  }
-  port_.reset();
-  const std::lock_guard held(mutex_);
-  trouble_ = trouble;
-  return false;
 }
 
 void HidStream::disconnect() noexcept {
@@ -134,23 +98,9 @@ void HidStream::disconnect() noexcept {
   port_.reset();
 }
 
-/// Each connect() is followed by one disconnect(), also if the stream ends in between.
-void HidStream::run() noexcept {
-  for (;;) {
-    readUntilGone();
-    if (!is_ending_) ++losses_;
-    disconnect();
-    double wait = settings_.first_retry;
-    do {
-      if (!sleep(wait)) return;
-      wait = std::min(2.0 * wait, settings_.longest_retry);
-    } while (!reconnect());
-  }
-}
-
 void HidStream::readUntilGone() noexcept {
   HidReport report;
-  while (!is_ending_ && !is_gone_) {
+  while (!reader_.isEnding() && !is_gone_) {
     const std::ptrdiff_t size = port_->read(report.bytes.data(), report.bytes.size(), kReadWait);
     if (size < 0) return;
     if (size == 0) continue;
@@ -164,7 +114,7 @@ void HidStream::readUntilGone() noexcept {
 void HidStream::writeUntilGone() noexcept {
   const double period = settings_.write_period;
   double next = readMonotonicClock();
-  while (!is_ending_ && !is_gone_) {
+  while (!reader_.isEnding() && !is_gone_) {
     send(client_.giveReport(readMonotonicClock()));
     next += period;
     const double now = readMonotonicClock();
@@ -192,12 +142,6 @@ void HidStream::send(const HidReport& report) noexcept {
     ++written_;
   else
     is_gone_ = true;
-}
-
-bool HidStream::sleep(double time) noexcept {
-  std::unique_lock held(mutex_);
-  ends_.wait_for(held, std::chrono::duration<double>(time), [this] { return is_ending_.load(); });
-  return !is_ending_;
 }
 
 }  // namespace tandem

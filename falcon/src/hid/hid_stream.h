@@ -1,14 +1,14 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 
 #include "tandem/falcon/hid_port.h"
+
+#include "guard/device_thread.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
@@ -43,14 +43,13 @@ class HidClient {
 
 /// Carries reports between a HID device and its client, with one thread for reading and one for
 /// writing. A write to a HID device takes 0.3 ms, at times 14 ms, so the haptic thread must not
-/// wait for it. Reopens the device by itself after it was unplugged.
+/// wait for it. Reopens the device by itself after it was unplugged. Its destructor sends the last
+/// reports and joins both threads.
 class HidStream {
  public:
   /// Opens the device. Throws what `open` throws, and tandem::Error if it returns no port. Throws
   /// std::invalid_argument for settings out of range. The client must outlive the stream.
   HidStream(HidOpener open, HidClient& client, const HidStreamSettings& settings = {});
-  /// Sends the last reports and joins both threads.
-  ~HidStream();
   HidStream(const HidStream&) = delete;
   HidStream& operator=(const HidStream&) = delete;
 
@@ -60,34 +59,27 @@ class HidStream {
 
   /// Name of the device, and why it could not be reopened ("" if it could). Not for the haptic
   /// thread.
-  [[nodiscard]] std::string name() const;
-  [[nodiscard]] std::string trouble() const;
+  [[nodiscard]] std::string name() const { return reader_.name(); }
+  [[nodiscard]] std::string trouble() const { return reader_.trouble(); }
 
  private:
   void connect();
   void startWriter();
-  [[nodiscard]] bool reconnect() noexcept;
   void disconnect() noexcept;
-  void run() noexcept;
   void readUntilGone() noexcept;
   void writeUntilGone() noexcept;
   void sayLastWords() noexcept;
   void send(const HidReport& report) noexcept;
-  /// Sleeps for `time` [s]. Returns false if the stream ends meanwhile.
-  [[nodiscard]] bool sleep(double time) noexcept;
 
   HidOpener open_;
   HidClient& client_;
   HidStreamSettings settings_;
 
   std::unique_ptr<HidPort> port_;
-  std::atomic<bool> is_connected_{false}, is_gone_{false}, is_ending_{false};
-  std::atomic<std::uint64_t> reports_{0}, refused_{0}, written_{0}, write_misses_{0}, losses_{0};
-
-  mutable std::mutex mutex_;  ///< guards the texts, and is_ending_ for the condition variable
-  std::condition_variable ends_;
-  std::string name_, trouble_;
-  std::thread reader_, writer_;
+  std::atomic<bool> is_connected_{false}, is_gone_{false};
+  std::atomic<std::uint64_t> reports_{0}, refused_{0}, written_{0}, write_misses_{0};
+  std::thread writer_;
+  DeviceThread reader_;  ///< last, because the thread uses the members above
 };
 
 }  // namespace tandem
