@@ -15,30 +15,16 @@
 #include "tandem/falcon/event_port.h"
 
 #include "gamepad/event_bits.h"
+#include "guard/open_file.h"
 
 namespace tandem {
 namespace {
 
 using falcon_detail::EventBits;
+using falcon_detail::OpenFile;
 using falcon_detail::toPrintable;
 
 constexpr std::uint16_t kEffectLength_ms = 1000;  // it stops by itself if the program hangs
-
-/// An open file that closes itself.
-class File {
- public:
-  explicit File(const std::string& path)
-      : number_(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)) {}
-  ~File() {
-    if (number_ >= 0) ::close(number_);
-  }
-  File(File&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  File& operator=(File&&) = delete;
-  [[nodiscard]] int number() const noexcept { return number_; }
-
- private:
-  int number_;
-};
 
 ff_effect toKernel(int id, const FeelEffect& effect) noexcept {
   ff_effect kernels{};
@@ -58,7 +44,7 @@ ff_effect toKernel(int id, const FeelEffect& effect) noexcept {
 
 class EvdevPort final : public EventPort {
  public:
-  EvdevPort(File file, std::string name, Feel feel)
+  EvdevPort(OpenFile file, std::string name, Feel feel)
       : file_(std::move(file)), name_(std::move(name)), feel_(feel) {
     if (feel_ != Feel::kNothing) (void)send(FF_GAIN, 0xFFFF);
   }
@@ -114,13 +100,13 @@ class EvdevPort final : public EventPort {
     return ::write(file_.number(), &event, sizeof event) == sizeof event;
   }
 
-  File file_;
+  OpenFile file_;
   std::string name_;
   Feel feel_;
 };
 
-File openFile(const std::string& path) {
-  File file(path);
+OpenFile openFile(const std::string& path) {
+  OpenFile file(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
   const int reason = errno;
   if (file.number() >= 0) return file;
   if (reason == EACCES || reason == EPERM)
@@ -128,14 +114,14 @@ File openFile(const std::string& path) {
   throw Error(path + " cannot be opened (" + std::strerror(reason) + "); see tandem device list");
 }
 
-std::string readName(const File& file) {
+std::string readName(const OpenFile& file) {
   std::array<char, 128> text{};
   if (::ioctl(file.number(), EVIOCGNAME(text.size() - 1), text.data()) < 0) return "input device";
   return toPrintable(text.data());
 }
 
 std::unique_ptr<EventPort> openNode(const std::string& path) {
-  File file = openFile(path);
+  OpenFile file = openFile(path);
   EventBits kinds, effects;
   if (::ioctl(file.number(), EVIOCGBIT(0, sizeof kinds.bytes), kinds.bytes.data()) < 0)
     throw Error(path + " is no input device; give the path of one, such as /dev/input/event5");

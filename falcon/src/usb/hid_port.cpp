@@ -7,10 +7,10 @@
 #include <fcntl.h>
 #include <linux/hidraw.h>
 #include <sys/ioctl.h>
-#include <unistd.h>
 
 #include "tandem/coordination/types.h"
 
+#include "guard/open_file.h"
 #include "hid_library.h"
 
 // hidapi 0.13 replaces the text of a handle's last error in every call without a lock. Two threads
@@ -68,25 +68,10 @@ class HidapiPort final : public HidPort {
   std::string name_;
 };
 
-/// An open file that closes itself.
-class File {
- public:
-  explicit File(const std::string& path) : number_(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {}
-  ~File() {
-    if (number_ >= 0) ::close(number_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  [[nodiscard]] int number() const noexcept { return number_; }
-
- private:
-  int number_;
-};
-
 /// Throws unless the path is a hidraw node: hid_open_path() of hidapi 0.13 uses freed memory for
 /// other files.
 void requireHidraw(const HidAddress& address) {
-  const File file(address.path);
+  const falcon_detail::OpenFile file(::open(address.path.c_str(), O_RDWR | O_CLOEXEC));
   const int reason = errno;
   if (file.number() < 0 && (reason == EACCES || reason == EPERM))
     throw Error("HID " + toText(address) + " may not be opened" + kRule);
