@@ -28,4 +28,16 @@ struct DeviceReport {
 /// Report of a Falcon.
 [[nodiscard]] DeviceReport describe(const FalconStatus& status);
 
+/// Report of a device that is ready while it is plugged in, without its counters.
+template <typename Status>
+[[nodiscard]] DeviceReport describePlugged(const Status& status) {
+  DeviceReport report;
+  report.state = status.is_connected ? "ready" : "unplugged";
+  report.trouble = status.trouble;
+  report.is_ready = status.is_connected;
+  report.readings = status.counters.reports;
+  report.buttons = static_cast<std::uint8_t>(status.state.buttons);
+  return report;
+}
+
 }  // namespace tandem::demos

@@ -119,12 +119,7 @@ Driver makeSimulated(UserWish wish) {
 /// The report that all HID devices share.
 template <typename Status>
 DeviceReport describeHid(const Status& status) {
-  DeviceReport report;
-  report.state = status.is_connected ? "ready" : "unplugged";
-  report.trouble = status.trouble;
-  report.is_ready = status.is_connected;
-  report.readings = status.counters.reports;
-  report.buttons = static_cast<std::uint8_t>(status.state.buttons);
+  DeviceReport report = describePlugged(status);
   report.counters = {{"reports", status.counters.reports},
                      {"refused", status.counters.refused},
                      {"written", status.counters.written},

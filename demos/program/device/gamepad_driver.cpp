@@ -20,12 +20,7 @@ const char* nameOf(Feel feel) {
 }
 
 DeviceReport describe(const GamepadStatus& status) {
-  DeviceReport report;
-  report.state = status.is_connected ? "ready" : "unplugged";
-  report.trouble = status.trouble;
-  report.is_ready = status.is_connected;
-  report.readings = status.counters.reports;
-  report.buttons = static_cast<std::uint8_t>(status.state.buttons);
+  DeviceReport report = describePlugged(status);
   report.counters = {{"reports", status.counters.reports},
                      {"dropped", status.counters.dropped},
                      {"uploads", status.counters.uploads},
