@@ -1,6 +1,5 @@
 #include "gamepad/gamepad_hand.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "guard/force_limit.h"
@@ -46,40 +45,31 @@ GamepadHand::GamepadHand(const GamepadSettings& settings)
       motion_(makeMotion(settings)),
       mouse_(makeMouse(settings)),
       longest_stretch_(kHandShare * settings.max_force / MouseSettings().stiffness),
+      time_(kLongestStep),
       handle_{settings.start_W, Vec3::Zero()} {
   settings_.q_WD.normalize();
 }
 
 DeviceSample GamepadHand::advance(double now, const GamepadState& state, bool is_held) noexcept {
-  takeTime(now);
-  (void)mouse_.moveTo(moveTarget(state, is_held), time_);
-  const DeviceSample sample = mouse_.read(time_);
+  const double step = time_.pass(now);
+  (void)mouse_.moveTo(moveTarget(state, is_held, step), time_.sum());
+  const DeviceSample sample = mouse_.read(time_.sum());
   handle_ = sample.hip;
   keepTargetNear(handle_.p_W, is_held);
   return {sample.hip, sample.valid, {}, state.buttons};
 }
 
 DeviceSample GamepadHand::stand(double now) noexcept {
-  takeTime(now);
+  time_.pass(now);
   motion_.stop();
   handle_.v_W.setZero();
   return {handle_, false, {}, 0};
 }
 
-/// Time before the first call, backwards and beyond the longest step does not pass.
-void GamepadHand::takeTime(double now) noexcept {
-  step_ = 0.0;
-  if (!std::isfinite(now)) return;
-  if (was_told_) step_ = std::clamp(now - told_, 0.0, kLongestStep);
-  time_ += step_;
-  told_ = now;
-  was_told_ = true;
-}
-
-Vec3 GamepadHand::moveTarget(const GamepadState& state, bool is_held) noexcept {
+Vec3 GamepadHand::moveTarget(const GamepadState& state, bool is_held, double step) noexcept {
   const auto [right, up, back] = state.sticks;
   motion_.setDisplacement(is_held ? Vec3(0.0, up, 0.0) : Vec3(right, up, back));
-  motion_.advance(step_);
+  motion_.advance(step);
   if (!is_held) return motion_.point().p_W;
   const Vec3 raised_W = motion_.point().p_W - settings_.start_W;
   const Vec3 place_W = settings_.q_WD * Vec3(right, 0.0, back);

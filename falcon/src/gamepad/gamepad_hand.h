@@ -3,6 +3,7 @@
 #include "tandem/falcon/gamepad_device.h"
 #include "tandem/falcon/mouse_device.h"
 
+#include "guard/passed_time.h"
 #include "hid/rate_control.h"
 
 // clang-format off
@@ -32,18 +33,14 @@ class GamepadHand {
   void write(const Vec3& f_W) noexcept { mouse_.write(f_W); }
 
  private:
-  void takeTime(double now) noexcept;
-  [[nodiscard]] Vec3 moveTarget(const GamepadState& state, bool is_held) noexcept;
+  [[nodiscard]] Vec3 moveTarget(const GamepadState& state, bool is_held, double step) noexcept;
   void keepTargetNear(const Vec3& handle_W, bool is_held) noexcept;
 
   GamepadSettings settings_;
   RateControl motion_;
   MouseDevice mouse_;
-  double longest_stretch_;  ///< beyond it the hand pulls no more [m]
-  double told_ = 0.0;       ///< time of the last call [s]
-  double step_ = 0.0;       ///< time that passed for the hand with that call [s]
-  double time_ = 0.0;       ///< sum of these, the mouse's clock [s]
-  bool was_told_ = false;
+  double longest_stretch_;          ///< beyond it the hand pulls no more [m]
+  falcon_detail::PassedTime time_;  ///< the mouse's clock
   PointState handle_;
 };
 

@@ -10,6 +10,7 @@
 #include "coordination/src/island/virtual_coupler.h"
 #include "guard/force_limit.h"
 #include "guard/latest_value.h"
+#include "guard/passed_time.h"
 #include "guard/settings_check.h"
 #include "simulated/cursor_glide.h"
 
@@ -150,8 +151,8 @@ class MouseDevice::Handle {
 
   [[nodiscard]] DeviceSample read(double now) noexcept {
     takeTarget();
-    takeTime(now);
-    const DeviceSample sample = device_.read(time_);
+    time_.pass(now);
+    const DeviceSample sample = device_.read(time_.sum());
     publish();
     return sample;
   }
@@ -167,22 +168,13 @@ class MouseDevice::Handle {
   void takeTarget() noexcept {
     if (!exchange_.target.isNew()) return;
     const Target& target = exchange_.target.read();
-    cursor_.glideTo(toVec3(target.p_W), time_, target.glide);
-  }
-
-  /// Time before the first read, backwards and beyond the longest step does not pass.
-  void takeTime(double now) noexcept {
-    if (!std::isfinite(now)) return;
-    const double interval = was_read_ ? now - last_read_ : 0.0;
-    time_ += std::clamp(interval, 0.0, kLongestStep);
-    last_read_ = now;
-    was_read_ = true;
+    cursor_.glideTo(toVec3(target.p_W), time_.sum(), target.glide);
   }
 
   void publish() noexcept {
     const PointState& handle = device_.handle();
-    exchange_.view.write({toTriple(handle.p_W), toTriple(cursor_.at(time_).p_W), toTriple(force_W_),
-                          hand_.isAtLimit(time_, handle)});
+    exchange_.view.write({toTriple(handle.p_W), toTriple(cursor_.at(time_.sum()).p_W),
+                          toTriple(force_W_), hand_.isAtLimit(time_.sum(), handle)});
   }
 
   Exchange& exchange_;
@@ -191,9 +183,7 @@ class MouseDevice::Handle {
   MouseHand hand_;  ///< equal to the device's own; both look at the cursor
   SimulatedDevice device_;
   Vec3 force_W_ = Vec3::Zero();
-  double time_ = 0.0;       ///< that passed for the handle [s]
-  double last_read_ = 0.0;  ///< on the site's clock [s]
-  bool was_read_ = false;
+  falcon_detail::PassedTime time_{kLongestStep};  ///< that passes for the handle
 };
 
 MouseDevice::MouseDevice(const MouseSettings& settings)
