@@ -115,11 +115,11 @@ TEST_F(EvdevTest, AForceHasALevelOfPositiveSignAndADirection) {
 }
 
 TEST_F(EvdevTest, RefusalsSayWhatToDo) {
-  node_.error = EACCES;
+  node_.refuseToOpen(EACCES);
   EXPECT_EQ(refusal(), node_.path() +
                            " may not be opened; join the group input (sudo usermod -aG input "
                            "$USER), or install the udev rule of Tandem");
-  node_.error = ENODEV;
+  node_.refuseToOpen(ENODEV);
   EXPECT_EQ(refusal(), node_.path() + " cannot be opened (No such device); see tandem device list");
 }
 

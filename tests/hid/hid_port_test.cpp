@@ -142,7 +142,7 @@ TEST_F(HidPortTest, IsNamedByWhatIsKnown) {
 }
 
 TEST_F(HidPortTest, WithoutRightsTheRemedyIsTheRule) {
-  node_.setForbidden(true);
+  node_.refuseToOpen(EACCES);
   EXPECT_EQ(
       refusalOf(node_.address()),
       "HID (/dev/hidraw-port) may not be opened; install the udev rule of Tandem and plug the "

@@ -4,31 +4,13 @@
 #include <cerrno>
 #include <cstring>
 
-#include <fcntl.h>
-#include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "tandem/coordination/types.h"
 
 namespace tandem::test {
 namespace {
-
-struct Nodes {
-  std::mutex mutex;
-  std::vector<UserEvdev*> all;
-};
-
-Nodes& nodes() {
-  static Nodes nodes;
-  return nodes;
-}
-
-int failAs(int reason) {
-  errno = reason;
-  return -1;
-}
 
 void setBit(std::vector<std::uint8_t>& bits, int code) {
   const auto place = static_cast<std::size_t>(code) / 8;
@@ -44,31 +26,8 @@ int give(const void* from, std::size_t has, void* to, std::size_t room) {
 
 }  // namespace
 
-UserEvdev::UserEvdev(const std::string& name) : path_("/dev/input/tandem-" + name) {
-  int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) != 0)
-    throw Error("no socket for an input device in user space");
-  ours_ = ends[0];
-  theirs_ = ends[1];
-  const std::lock_guard held(nodes().mutex);
-  nodes().all.push_back(this);
-}
-
-UserEvdev::~UserEvdev() {
-  {
-    const std::lock_guard held(nodes().mutex);
-    std::erase(nodes().all, this);
-  }
-  unplug();
-}
-
-void UserEvdev::unplug() {
-  const std::lock_guard held(mutex_);
-  if (ours_ >= 0) ::close(ours_);
-  if (theirs_ >= 0) ::close(theirs_);
-  ours_ = theirs_ = -1;
-  files_.clear();
-}
+UserEvdev::UserEvdev(const std::string& name)
+    : UserNode("/dev/input/tandem-" + name, SOCK_NONBLOCK) {}
 
 void UserEvdev::press(int key) {
   const std::lock_guard held(mutex_);
@@ -89,8 +48,7 @@ void UserEvdev::send(std::uint16_t type, std::uint16_t code, std::int32_t value)
 }
 
 std::optional<input_event> UserEvdev::receive(double wait) {
-  pollfd socket{ours_, POLLIN, 0};
-  if (::poll(&socket, 1, static_cast<int>(wait * 1e3)) <= 0) return std::nullopt;
+  if (!waitForMessage(wait)) return std::nullopt;
   input_event event{};
   if (::recv(ours_, &event, sizeof event, 0) != sizeof event) return std::nullopt;
   return event;
@@ -99,15 +57,6 @@ std::optional<input_event> UserEvdev::receive(double wait) {
 std::map<int, ff_effect> UserEvdev::uploaded() {
   const std::lock_guard held(mutex_);
   return uploaded_;
-}
-
-int UserEvdev::openFile() {
-  const std::lock_guard held(mutex_);
-  if (theirs_ < 0) return failAs(ENOENT);
-  if (error != 0) return failAs(error);
-  const int file = ::fcntl(theirs_, F_DUPFD_CLOEXEC, 0);
-  if (file >= 0) files_.push_back(file);
-  return file;
 }
 
 int UserEvdev::giveBits(unsigned type, void* to, std::size_t size) {
@@ -120,7 +69,7 @@ int UserEvdev::giveBits(unsigned type, void* to, std::size_t size) {
 }
 
 int UserEvdev::upload(ff_effect& effect) {
-  if (effect.id >= 0 && uploaded_.count(effect.id) == 0) return failAs(EINVAL);
+  if (effect.id >= 0 && uploaded_.count(effect.id) == 0) return failWith(EINVAL);
   if (effect.id < 0) effect.id = static_cast<std::int16_t>(uploaded_.size());
   uploaded_[effect.id] = effect;
   return 0;
@@ -134,35 +83,18 @@ int UserEvdev::control(unsigned long request, void* argument) {
   if (request == EVIOCRMFF)
     return uploaded_.erase(static_cast<int>(reinterpret_cast<std::intptr_t>(argument))) > 0
                ? 0
-               : failAs(EINVAL);
+               : failWith(EINVAL);
   if (number == _IOC_NR(EVIOCGNAME(0)))
-    return give(path_.c_str(), path_.size() + 1, argument, size);
+    return give(path().c_str(), path().size() + 1, argument, size);
   if (number == _IOC_NR(EVIOCGKEY(0))) return give(keys_.data(), keys_.size(), argument, size);
   if (number >= _IOC_NR(EVIOCGABS(0)) && number <= _IOC_NR(EVIOCGABS(ABS_MAX))) {
     const auto axis = axes.find(static_cast<int>(number - _IOC_NR(EVIOCGABS(0))));
-    return axis == axes.end() ? failAs(EINVAL)
+    return axis == axes.end() ? failWith(EINVAL)
                               : give(&axis->second, sizeof axis->second, argument, size);
   }
   if (number >= _IOC_NR(EVIOCGBIT(0, 0)) && number < _IOC_NR(EVIOCGBIT(EV_MAX, 0)))
     return giveBits(number - _IOC_NR(EVIOCGBIT(0, 0)), argument, size);
-  return failAs(EINVAL);
-}
-
-UserEvdev* UserEvdev::find(const std::string& path) {
-  const std::lock_guard held(nodes().mutex);
-  for (UserEvdev* node : nodes().all)
-    if (node->path_ == path) return node;
-  return nullptr;
-}
-
-UserEvdev* UserEvdev::find(int file) {
-  const std::lock_guard held(nodes().mutex);
-  for (UserEvdev* node : nodes().all) {
-    const std::lock_guard node_held(node->mutex_);
-    if (std::find(node->files_.begin(), node->files_.end(), file) != node->files_.end())
-      return node;
-  }
-  return nullptr;
+  return failWith(EINVAL);
 }
 
 }  // namespace tandem::test
