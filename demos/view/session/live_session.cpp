@@ -19,8 +19,8 @@ LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
                          const LiveStart& start)
     : pair_(scenario, {&device, start.second}, start.places),
       second_(start.second),
-      records_(start.records),
-      record_(records_ ? std::make_unique<PairRecord>(scenario, pair_) : nullptr),
+      record_(start.records ? std::make_unique<PairRecord>(scenario, pair_, *start.records)
+                            : nullptr),
       network_(scenario.network),
       scene_look_(pair_.own()),
       host_rate_(scenario.host_rate),
@@ -67,7 +67,7 @@ bool LiveSession::goesOn() const {
 
 demos::ScenePlaces LiveSession::end() {
   host_ = {};
-  if (const auto record = std::exchange(record_, nullptr)) record->store(network_, *records_);
+  if (const auto record = std::exchange(record_, nullptr)) record->store(network_);
   const auto hand_W = [](demos::SiteWorld& world) { return world.site().hip().p_W; };
   return {{hand_W(pair_.own()), hand_W(pair_.other())}, pair_.own().places()};
 }

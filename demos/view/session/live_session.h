@@ -57,8 +57,7 @@ class LiveSession final : public Session {
 
   SitePair pair_;
   demos::LiveDevice* second_;           ///< null: user 2 is simulated
-  SessionRecords* records_;             ///< null: none are wanted
-  std::unique_ptr<PairRecord> record_;  ///< null: none, or it is stored
+  std::unique_ptr<PairRecord> record_;  ///< null: none is wanted, or it is stored
   Impairments network_;
   SceneLook scene_look_;
   double host_rate_;

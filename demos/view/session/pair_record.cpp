@@ -6,8 +6,8 @@
 
 namespace tandem::view {
 
-PairRecord::PairRecord(const demos::Scenario& scenario, SitePair& pair)
-    : scenario_(scenario), pair_(pair) {
+PairRecord::PairRecord(const demos::Scenario& scenario, SitePair& pair, SessionRecords& records)
+    : scenario_(scenario), pair_(pair), records_(records) {
   for (int site : {0, 1})
     sites_[static_cast<std::size_t>(site)] = std::make_unique<demos::SiteRecord>(
         scenario, site, site == 0 ? pair.own() : pair.other(), demos::kLongestRecord);
@@ -17,10 +17,10 @@ void PairRecord::noteStep(double time) {
   for (const auto& site : sites_) site->noteStep(time);
 }
 
-void PairRecord::store(const Impairments& network, SessionRecords& records) {
+void PairRecord::store(const Impairments& network) {
   if (!std::ranges::all_of(sites_, [](const auto& site) { return site->hasAnything(); })) return;
   scenario_.network = network;
-  records.store([&](const demos::OutputFolder& folder) { publish(folder); });
+  records_.store([&](const demos::OutputFolder& folder) { publish(folder); });
 }
 
 void PairRecord::publish(const demos::OutputFolder& folder) const {

@@ -14,8 +14,8 @@ namespace tandem::view {
 class PairRecord {
  public:
   /// Before the first tick of `pair`, which must outlive the last call, and must not tick any more
-  /// when this is deleted.
-  PairRecord(const demos::Scenario& scenario, SitePair& pair);
+  /// when this is deleted. store() fills a folder of `records`.
+  PairRecord(const demos::Scenario& scenario, SitePair& pair, SessionRecords& records);
 
   /// After host steps that end by `time` [s], in their thread: keeps pictures that are due.
   void noteStep(double time);
@@ -24,13 +24,14 @@ class PairRecord {
 
   /// Stores what was recorded over `network`, as `tandem peer --out` does for each site. Does
   /// nothing if nothing was. Throws as SessionRecords::store().
-  void store(const Impairments& network, SessionRecords& records);
+  void store(const Impairments& network);
 
  private:
   void publish(const demos::OutputFolder& folder) const;
 
   demos::Scenario scenario_;
   SitePair& pair_;
+  SessionRecords& records_;
   std::array<std::unique_ptr<demos::SiteRecord>, 2> sites_;
 };
 
