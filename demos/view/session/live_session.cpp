@@ -1,6 +1,5 @@
 #include "session/live_session.h"
 
-#include <cmath>
 #include <utility>
 
 #include "tandem/falcon/monotonic_clock.h"
@@ -23,7 +22,6 @@ LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
                             : nullptr),
       network_(scenario.network),
       scene_look_(pair_.own()),
-      host_rate_(scenario.host_rate),
       may_hold_(scenario.mayGrip()),
       has_threads_(hasHapticThreads(scenario)),
       pace_(start.pace) {
@@ -90,9 +88,8 @@ void LiveSession::startThreads() {
 
 void LiveSession::runThreads(const std::stop_token& stop) {
   if (!pair_.isLive()) startThreads();
-  const double steps_done = std::floor(pair_.time() * host_rate_ + 1e-9);
   for (int step = 1; !stop.stop_requested() && needsThreads(); ++step) {
-    const double time = (steps_done + step) / host_rate_;
+    const double time = pair_.hostStepEnd(step);
     sleepUntil(pair_.begin() + time);
     pair_.stepHosts(time);
     afterSteps(time);

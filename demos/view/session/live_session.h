@@ -60,7 +60,6 @@ class LiveSession final : public Session {
   std::unique_ptr<PairRecord> record_;  ///< null: none is wanted, or it is stored
   Impairments network_;
   SceneLook scene_look_;
-  double host_rate_;
   bool may_hold_, has_threads_;
   std::atomic<int> steps_ = 0;  ///< that the user still wants
 

@@ -67,15 +67,19 @@ std::uint64_t SitePair::nextTick() const noexcept {
 /// A site whose force took longer to fade waits for the other.
 void SitePair::tick() {
   const std::uint64_t tick = nextTick();
-  const double now = static_cast<double>(tick) / haptic_rate_;
+  const double now = time();
   network_.carry(now);
   if (next_ticks_[0] == tick) own_.site().tick(now), ++next_ticks_[0];
   if (next_ticks_[1] == tick) other_.site().tick(now), ++next_ticks_[1];
   stepHosts(time());
 }
 
+double SitePair::hostStepEnd(int step) const noexcept {
+  return (std::floor(time() * host_rate_ + kSameTime) + step) / host_rate_;
+}
+
 void SitePair::tickOneHostStep() {
-  const double end = (std::floor(time() * host_rate_ + kSameTime) + 1.0) / host_rate_;
+  const double end = hostStepEnd(1);
   while (time() < end - kSameTime) tick();
 }
 

@@ -44,6 +44,9 @@ class SitePair {
   /// Of the last haptic thread that ended at site 0 or 1.
   [[nodiscard]] const LoopReport& report(std::size_t site) const noexcept { return reports_[site]; }
 
+  /// Gives the end of the `step`-th host step after time(), from 1 on [s].
+  [[nodiscard]] double hostStepEnd(int step) const noexcept;
+
   // --- In virtual time
 
   /// Ticks both sites once, and then runs the host steps that end by time().
