@@ -52,17 +52,6 @@ Pace LiveSession::pace() const {
   return pace_;
 }
 
-std::vector<std::string> LiveSession::notes() const {
-  const std::lock_guard lock(mutex_);
-  return notes_;
-}
-
-bool LiveSession::goesOn() const {
-  const std::lock_guard lock(mutex_);
-  if (problem_) std::rethrow_exception(problem_);
-  return true;
-}
-
 demos::ScenePlaces LiveSession::end() {
   host_ = {};
   if (const auto record = std::exchange(record_, nullptr)) record->store(network_);
@@ -71,19 +60,15 @@ demos::ScenePlaces LiveSession::end() {
 }
 
 void LiveSession::live(const std::stop_token& stop) {
-  try {
+  liveToTheEnd([&] {
     while (!stop.stop_requested()) needsThreads() ? runThreads(stop) : runPaced(stop);
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    problem_ = std::current_exception();
-  }
+  });
   pair_.stop();
 }
 
 void LiveSession::startThreads() {
   pair_.start();
-  const std::lock_guard lock(mutex_);
-  notes_ = pair_.loop().notes();
+  tell(pair_.loop().notes());
 }
 
 void LiveSession::runThreads(const std::stop_token& stop) {

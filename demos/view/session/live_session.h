@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <thread>
 
 #include "device/live_device.h"
@@ -40,8 +39,6 @@ class LiveSession final : public Session {
   void setPace(const Pace& pace);
   /// While paused: time goes on by one host period.
   void step() noexcept { ++steps_; }
-  [[nodiscard]] std::vector<std::string> notes() const override;
-  [[nodiscard]] bool goesOn() const override;
   /// Ends the session, stores its record, and tells where it was. Throws as PairRecord::store().
   demos::ScenePlaces end();
 
@@ -63,10 +60,8 @@ class LiveSession final : public Session {
   bool may_hold_, has_threads_;
   std::atomic<int> steps_ = 0;  ///< that the user still wants
 
-  mutable std::mutex mutex_;  // of the three below
+  mutable std::mutex mutex_;  // of the pace
   Pace pace_;
-  std::vector<std::string> notes_;
-  std::exception_ptr problem_;
   std::jthread host_;  // the last: it ends before what it uses
 };
 

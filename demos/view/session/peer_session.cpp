@@ -24,17 +24,6 @@ PeerSession::PeerSession(const demos::Scenario& scenario, const demos::PeerLine&
 
 PeerSession::~PeerSession() = default;
 
-std::vector<std::string> PeerSession::notes() const {
-  const std::lock_guard lock(mutex_);
-  return notes_;
-}
-
-bool PeerSession::goesOn() const {
-  const std::lock_guard lock(mutex_);
-  if (problem_) std::rethrow_exception(problem_);
-  return !has_ended_;
-}
-
 void PeerSession::end() {
   thread_ = {};
   (void)goesOn();
@@ -49,12 +38,13 @@ void PeerSession::storeRecord() {
 }
 
 void PeerSession::live(const std::stop_token& stop) {
+  std::vector<std::string> notes;
   demos::PeerWatch watch;
   watch.stop = [&] { return stop.stop_requested(); };
   watch.report = [](const demos::PeerReport&) {};
   watch.note = [&](const std::string& line) {
-    const std::lock_guard lock(mutex_);
-    if (std::ranges::find(notes_, line) == notes_.end()) notes_.push_back(line);
+    if (std::ranges::find(notes, line) == notes.end()) notes.push_back(line);
+    tell(notes);
   };
   watch.has_world = [&] {
     scene_look_.reset();
@@ -65,14 +55,7 @@ void PeerSession::live(const std::stop_token& stop) {
     if (isLookDue(readMonotonicClock())) lookAtWorld(time, &loop);
   };
   if (records_) watch.after_run = [&] { storeRecord(); };
-  try {
-    meeting_.live(watch);
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    problem_ = std::current_exception();
-  }
-  const std::lock_guard lock(mutex_);
-  has_ended_ = true;
+  liveToTheEnd([&] { meeting_.live(watch); });
 }
 
 void PeerSession::lookAtWorld(double time, const HapticLoop* loop) {

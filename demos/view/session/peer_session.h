@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <optional>
 #include <thread>
 
@@ -22,8 +21,6 @@ class PeerSession final : public Session {
   /// Fades the force and leaves.
   ~PeerSession() override;
 
-  [[nodiscard]] std::vector<std::string> notes() const override;
-  [[nodiscard]] bool goesOn() const override;
   /// Leaves, and stores the record. Throws what ended the session early.
   void end();
   /// As PeerMeeting::propose().
@@ -40,12 +37,7 @@ class PeerSession final : public Session {
   SessionRecords* records_;
   demos::PeerMeeting meeting_;
   std::optional<SceneLook> scene_look_;  ///< of the run's world, once that is final
-
-  mutable std::mutex mutex_;  // of the three below
-  std::vector<std::string> notes_;
-  std::exception_ptr problem_;
-  bool has_ended_ = false;
-  std::jthread thread_;  // the last: it ends before what it uses
+  std::jthread thread_;                  // the last: it ends before what it uses
 };
 
 }  // namespace tandem::view

@@ -35,6 +35,34 @@ WorldDetails Session::details() const {
   return details_;
 }
 
+std::vector<std::string> Session::notes() const {
+  const std::lock_guard lock(mutex_);
+  return notes_;
+}
+
+void Session::tell(const std::vector<std::string>& notes) {
+  const std::lock_guard lock(mutex_);
+  notes_ = notes;
+}
+
+bool Session::goesOn() const {
+  const std::lock_guard lock(mutex_);
+  if (problem_) std::rethrow_exception(problem_);
+  return !has_ended_;
+}
+
+void Session::liveToTheEnd(const std::function<void()>& live) {
+  std::exception_ptr problem;
+  try {
+    live();
+  } catch (...) {
+    problem = std::current_exception();
+  }
+  const std::lock_guard lock(mutex_);
+  problem_ = problem;
+  has_ended_ = true;
+}
+
 bool Session::isLookDue(double time) noexcept {
   if (time < next_look_) return false;
   next_look_ = time + kLookPeriod;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -42,17 +44,21 @@ class Session {
   /// Chooses what looks show besides bodies.
   void showDetails(const WorldDetails& details);
   /// Rights that the haptic threads did not get, with the remedy.
-  [[nodiscard]] virtual std::vector<std::string> notes() const = 0;
-  /// False once the session has ended by itself. Throws what ended it early.
-  [[nodiscard]] virtual bool goesOn() const { return true; }
+  [[nodiscard]] std::vector<std::string> notes() const;
+  /// False once the session has ended. Throws what ended it early.
+  [[nodiscard]] bool goesOn() const;
 
  protected:
   Session() = default;
   void publish(std::shared_ptr<const SessionLook> look);
   [[nodiscard]] WorldDetails details() const;
   [[nodiscard]] bool wantsHold() const noexcept { return wants_hold_; }
+  /// From now on these are the notes.
+  void tell(const std::vector<std::string>& notes);
   // For the thread that steps the world:
 
+  /// Runs `live`, the whole session. What it throws is for goesOn().
+  void liveToTheEnd(const std::function<void()>& live);
   /// True if it is time for the next look at `time` [s], which is then counted as made.
   [[nodiscard]] bool isLookDue(double time) noexcept;
   /// Fills in what a site tells of itself. Gives the first object as the other site last told it.
@@ -61,8 +67,11 @@ class Session {
  private:
   std::atomic<bool> wants_hold_ = false;
   double next_look_ = 0.0;    ///< [s]
-  mutable std::mutex mutex_;  // of the two below
+  mutable std::mutex mutex_;  // of all below
   WorldDetails details_;
+  std::vector<std::string> notes_;
+  std::exception_ptr problem_;
+  bool has_ended_ = false;
   std::shared_ptr<const SessionLook> look_;  ///< shared with the window, which draws it meanwhile
 };
 
