@@ -2,11 +2,7 @@
 
 #include <sys/resource.h>
 
-#include "tandem/falcon/monotonic_clock.h"
-
 #include "session/first_eye.h"
-#include "window/frame_pace.h"
-#include "window/store_picture.h"
 
 namespace tandem::view {
 namespace {
@@ -21,19 +17,16 @@ ViewRun::ViewRun(const ViewSettings& settings, const UsersDevices& devices)
       device_(devices.own),
       control_(settings.scenario, settings.line, devices, settings.record),
       seen_(settings.scenario.file),
-      hand_look_(settings.scenario.site.proxy.radius),
-      eye_(chooseFirstEye(settings.scenario, userOf(settings))) {
-  if (settings.window.status) status_.emplace(*settings.window.status);
+      hand_look_(settings.scenario.site.proxy.radius) {
   standBack();
-  window_ = std::make_unique<GlWindow>("Tandem", settings.window.size);
-  scene_ = std::make_unique<GlScene>();
-  input_ = std::make_unique<HandInput>(window_->handle());
-  gui_ = std::make_unique<Gui>(window_->handle());
+  window_ = std::make_unique<PanelWindow>(settings.window,
+                                          chooseFirstEye(settings.scenario, userOf(settings)));
 }
 
 void ViewRun::run(const std::function<bool()>& stop) {
   try {
-    showFrames(stop);
+    window_->run([&] { return stop() || !control_.session().goesOn(); },
+                 [&](double time) { showFrame(time); });
   } catch (...) {
     control_.end();
     throw;
@@ -41,38 +34,22 @@ void ViewRun::run(const std::function<bool()>& stop) {
   control_.end();
 }
 
-void ViewRun::showFrames(const std::function<bool()>& stop) {
-  FramePace pace;
-  const double begin = readMonotonicClock();
-  for (;;) {
-    const double now = pace.wait();
-    if (stop() || !control_.session().goesOn() || !window_->isOpen()) break;
-    if (settings_.window.duration && now - begin > *settings_.window.duration) break;
-    if (!window_->size().isEmpty()) showFrame(now);
-  }
-  if (settings_.window.screenshot) storePicture(window_->size(), *settings_.window.screenshot);
-}
-
 void ViewRun::showFrame(double time) {
-  const PictureSize size = window_->size();
   Session& session = control_.session();
   MouseDevice* const mouse = control_.mouse();
   // The hand of a paused world waits for its user.
-  input_->apply(control_.pace().is_paused ? nullptr : mouse, eye_, size, time, !gui_->hasPointer());
-  session.hold(device_ ? device_->isGripPressed() : input_->wantsHold());
+  const HandInput& input = window_->takeInput(control_.pace().is_paused ? nullptr : mouse, time);
+  session.hold(device_ ? device_->isGripPressed() : input.wantsHold());
   session.showDetails(panel_.details());
   const auto look = session.look();
   DrawList list = look->list;
   hand_look_.add(list, mouse, look->hip_W, look->force_W);
-  window_->bind();
-  scene_->draw(list, eye_, size);
-  gui_->begin();
-  const PanelWishes wishes = panel_.show(control_, *look);
-  gui_->draw();
-  if (wishes.takes_picture) storePicture(size, kPictureName);
-  window_->show();
-  ++frames_;
-  if (status_) status_->note(control_.scenario(), control_.pace(), *look, time, frames_);
+  PanelWishes wishes;
+  window_->draw(list, [&] {
+    wishes = panel_.show(control_, *look);
+    return wishes.takes_picture;
+  });
+  window_->note(control_.scenario(), control_.pace(), *look, time);
   control_.obey(wishes.session);
   if (control_.scenario().file != seen_) showWorld();
 }
@@ -82,7 +59,7 @@ void ViewRun::showWorld() {
   const demos::Scenario& scenario = control_.scenario();
   seen_ = scenario.file;
   hand_look_ = HandLook(scenario.site.proxy.radius);
-  eye_ = chooseFirstEye(scenario, userOf(settings_));
+  window_->eye = chooseFirstEye(scenario, userOf(settings_));
 }
 
 }  // namespace tandem::view
