@@ -1,10 +1,11 @@
 #include "replay/recorded_run.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "replay/run_file.h"
 #include "replay/run_summary.h"
 
 namespace tandem::view {
@@ -12,43 +13,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void addSite(RecordedRun& run, int site, const fs::path& folder, RecordedScene scene) {
-  RecordedSite recorded;
-  recorded.scene = std::move(scene);
-  recorded.hand = readRecordedHand(folder / fmt::format("site{}.csv", site + 1));
-  run.duration = std::max({run.duration, recorded.scene.times.back(), recorded.hand.back().time});
-  run.sites[static_cast<std::size_t>(site)] = std::move(recorded);
-}
-
-/// Of `tandem run`, in virtual time.
-RecordedRun loadWhole(const fs::path& folder) {
-  RecordedRun run;
-  RunSummary summary = readRunSummary(folder / "summary.json");
-  run.summary = summary.file;
-  run.scenario = std::move(summary.scenario);
-  auto scenes = readRecordedScenes(folder / "scene.csv", summary.bodies);
-  for (int site : {0, 1})
-    addSite(run, site, folder, std::move(scenes[static_cast<std::size_t>(site)]));
-  return run;
-}
-
 fs::path summaryOf(const fs::path& folder, int site) {
   return folder / fmt::format("site{}.json", site + 1);
 }
 
-/// Of `tandem peer`: one site or both, each with files of its own.
-RecordedRun loadSites(const fs::path& folder) {
-  RecordedRun run;
-  std::error_code ignored;
-  for (int site : {1, 0}) {  // the first site's scenario stays
-    if (!fs::exists(summaryOf(folder, site), ignored)) continue;
-    RunSummary summary = readRunSummary(summaryOf(folder, site));
-    run.summary = summary.file;
-    run.scenario = std::move(summary.scenario);
-    auto scenes = readRecordedScenes(folder / fmt::format("scene{}.csv", site + 1), summary.bodies);
-    addSite(run, site, folder, std::move(scenes[static_cast<std::size_t>(site)]));
+/// Adds what one summary and its scene tell of some sites.
+void addSites(RecordedRun& run, const fs::path& summary_file, const fs::path& scene_file,
+              std::initializer_list<int> sites) {
+  RunSummary summary = readRunSummary(summary_file);
+  run.summary = summary_file;
+  run.scenario = std::move(summary.scenario);
+  auto scenes = readRecordedScenes(scene_file, summary.bodies);
+  for (const int site : sites) {
+    const auto at = static_cast<std::size_t>(site);
+    RecordedSite& recorded = run.sites[at].emplace();
+    recorded.scene = std::move(scenes[at]);
+    recorded.hand =
+        readRecordedHand(summary_file.parent_path() / fmt::format("site{}.csv", site + 1));
+    run.duration = std::max({run.duration, recorded.scene.times.back(), recorded.hand.back().time});
   }
-  return run;
 }
 
 }  // namespace
@@ -56,8 +39,18 @@ RecordedRun loadSites(const fs::path& folder) {
 RecordedRun loadRecordedRun(const fs::path& folder) {
   std::error_code ignored;
   const auto exists = [&](const fs::path& file) { return fs::exists(file, ignored); };
+  RecordedRun run;
   const bool has_site = exists(summaryOf(folder, 0)) || exists(summaryOf(folder, 1));
-  return has_site && !exists(folder / "summary.json") ? loadSites(folder) : loadWhole(folder);
+  if (exists(folder / "summary.json") || !has_site) {
+    // `tandem run` wrote it, in virtual time.
+    addSites(run, folder / "summary.json", folder / "scene.csv", {0, 1});
+    return run;
+  }
+  // `tandem peer` wrote it: each site has files of its own. The first site's scenario stays.
+  for (const int site : {1, 0})
+    if (exists(summaryOf(folder, site)))
+      addSites(run, summaryOf(folder, site), folder / fmt::format("scene{}.csv", site + 1), {site});
+  return run;
 }
 
 }  // namespace tandem::view

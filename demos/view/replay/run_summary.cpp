@@ -45,7 +45,6 @@ RunSummary readRunSummary(const std::filesystem::path& file) {
     return all.contains(pointer) ? all.at(pointer) : nlohmann::json();
   };
   RunSummary summary;
-  summary.file = file;
   summary.scenario = demos::readScenario(part("/scenario"), file.string());
   const nlohmann::json bodies = part("/scene/bodies");
   if (!bodies.is_array() || bodies.empty()) refuseRunFile(file, "scene.bodies: there are none");

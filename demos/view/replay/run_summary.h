@@ -10,7 +10,6 @@ namespace tandem::view {
 
 /// The parts of a run's summary that its pictures need.
 struct RunSummary {
-  std::filesystem::path file;
   demos::Scenario scenario;
   std::vector<RecordedBody> bodies;  ///< at least one
 };
