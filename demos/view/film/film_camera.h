@@ -6,7 +6,7 @@
 #include "gl/gl_scene.h"
 #include "gl/picture.h"
 #include "scenario/scenario.h"
-#include "session/session.h"
+#include "scene/draw_list.h"
 
 namespace tandem::view {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include "window/panel_parts.h"
