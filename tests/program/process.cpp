@@ -67,23 +67,6 @@ std::string scenarioPath(std::string_view name) {
   return std::string(TANDEM_SCENARIOS "/") + std::string(name);
 }
 
-TempFolder::TempFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "tandem-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder like " + name);
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string TempFolder::write(std::string_view name, std::string_view text) const {
-  const std::string path = *this / name;
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
-}
-
 std::string ownLoopback() {
   const auto process = static_cast<unsigned>(getpid());  // at most 22 bits
   const auto byte = [process](int shift) { return std::to_string(process >> shift & 0xffU); };

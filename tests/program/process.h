@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "support/temp_folder.h"
+
 namespace tandem::test {
 
 /// Result of a program.
@@ -31,25 +33,6 @@ struct Start {
 
 /// Path of a scenario that ships with the program.
 [[nodiscard]] std::string scenarioPath(std::string_view name);
-
-/// A temporary folder, removed with its contents at the end.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::string operator/(std::string_view name) const {
-    return (path_ / name).string();
-  }
-  /// Writes a file and returns its path.
-  std::string write(std::string_view name, std::string_view text) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A loopback address that no other process uses: tests may run twice at a time, with the same
 /// ports.

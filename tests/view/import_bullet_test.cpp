@@ -7,9 +7,10 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "import/imported_world.h"
-#include "import_files.h"
 #include "run/virtual_run.h"
 #include "scenario/scenario.h"
+#include "support/temp_folder.h"
+#include "view/refused_file.h"
 #include "world/scene_world.h"
 
 namespace tandem::demos {
@@ -75,7 +76,7 @@ ImportedWorld import(const std::filesystem::path& file) { return importBullet(fi
 
 TEST(ImportBullet, BodiesComeBackAsTheyWere) {
   Host host;
-  const ImportFiles files;
+  const test::TempFolder files;
   const ImportedWorld world = import(files.write("w.bullet", host.serialize()));
   ASSERT_EQ(world.bodies.size(), 3u);
   EXPECT_EQ(world.names.at("door leaf"), "door_leaf");
@@ -101,7 +102,7 @@ TEST(ImportBullet, BodiesComeBackAsTheyWere) {
 
 TEST(ImportBullet, AHingeComesBackWithLimitsAndFriction) {
   Host host;
-  const ImportFiles files;
+  const test::TempFolder files;
   const ImportedWorld world = import(files.write("w.bullet", host.serialize()));
   ASSERT_EQ(world.joints.size(), 1u);
   const JointScenario& hinge = world.joints[0];
@@ -116,7 +117,7 @@ TEST(ImportBullet, AHingeComesBackWithLimitsAndFriction) {
 // Without ties between the copies, each falls by g t^2 / 2.
 TEST(ImportBullet, RunsInPlaceOfAScenario) {
   Host host;
-  const ImportFiles files;
+  const test::TempFolder files;
   const auto file = files.write("w.bullet", host.serialize());
   VirtualRun run(loadScenario(file, {"world.share=[\"cup\"]", "experiment.duration=0.2",
                                      "coordination.stiffness=0", "coordination.damping=0"}));
@@ -132,7 +133,7 @@ TEST(ImportBullet, RunsInPlaceOfAScenario) {
 TEST(ImportBullet, BadFilesAreRefusedInALine) {
   Host host;
   const std::string whole = host.serialize();
-  const ImportFiles files;
+  const test::TempFolder files;
   expectRefused(files.write("e.bullet", ""), "not a .bullet file", import);
   expectRefused(files.write("r.bullet", std::string(5000, 'x')), "not a .bullet file", import);
   expectRefused(files.write("h.bullet", whole.substr(0, 12)), "cut off", import);
@@ -145,7 +146,7 @@ TEST(ImportBullet, DamagedBytesDoNotCrashTheProgram) {
   Host host;
   const std::string whole = host.serialize();
   std::mt19937_64 random(11);
-  const ImportFiles files;
+  const test::TempFolder files;
   int ended = 0;
   for (int i = 0; i < 60; ++i) {
     std::string bytes = whole;

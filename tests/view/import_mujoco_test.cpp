@@ -6,8 +6,9 @@
 #include <random>
 
 #include "import/imported_world.h"
-#include "import_files.h"
 #include "scenario/scenario.h"
+#include "support/temp_folder.h"
+#include "view/refused_file.h"
 #include "world/scene_world.h"
 
 namespace tandem::demos {
@@ -27,12 +28,12 @@ std::string mjcf(const std::string& bodies) {
 }
 
 void expectBad(const std::string& name, const std::string& text, const std::string& word) {
-  const ImportFiles files;
+  const test::TempFolder files;
   expectRefused(files.write(name, text), word, importMujoco);
 }
 
 TEST(ImportUrdf, GivesBodiesAndJoints) {
-  const ImportFiles files;
+  const test::TempFolder files;
   const ImportedWorld world = importMujoco(files.write("p.urdf", kPendulum));
   ASSERT_EQ(world.bodies.size(), 1u);
   const BodyScenario& bob = world.bodies[0];
@@ -72,7 +73,7 @@ double measureTwoPeriods(const Scenario& scenario) {
 
 // T = 2 pi sqrt((J + m l^2) / (m g l)), J about the centre of mass; small swings.
 TEST(ImportUrdf, APendulumHasThePeriodOfItsLength) {
-  const ImportFiles files;
+  const test::TempFolder files;
   std::string text = kPendulum;
   text.replace(text.find("0.25"), 4, "0");
   files.write("p.urdf", text);
@@ -87,7 +88,7 @@ TEST(ImportUrdf, APendulumHasThePeriodOfItsLength) {
 
 // Inertia of two balls at +-d along x: m d^2 each, beside their own 2/5 m r^2.
 TEST(ImportMjcf, WeldedBodiesAreOne) {
-  const ImportFiles files;
+  const test::TempFolder files;
   const std::string ball = R"(<geom type="sphere" size="0.1" mass="1"/>)";
   const ImportedWorld world = importMujoco(
       files.write("w.xml", mjcf(R"(<body name="a" pos="0.5 0 1"><freejoint/>)" + ball +
@@ -103,7 +104,7 @@ TEST(ImportMjcf, WeldedBodiesAreOne) {
 }
 
 TEST(ImportMjcf, HasAllFormsAndJoints) {
-  const ImportFiles files;
+  const test::TempFolder files;
   const auto body = [](const std::string& name, const std::string& joint, const std::string& geom) {
     return "<body name=\"" + name + "\">" + joint + "<geom " + geom + "/></body>";
   };
@@ -136,7 +137,7 @@ TEST(ImportMjcf, HasAllFormsAndJoints) {
 }
 
 TEST(ImportMjcf, WhatMovesIsAHullOfItsMeshAndWhatStandsIsTheMesh) {
-  const ImportFiles files;
+  const test::TempFolder files;
   files.write("t.obj",
               "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   const ImportedWorld world = importMujoco(
@@ -153,7 +154,7 @@ TEST(ImportMjcf, WhatMovesIsAHullOfItsMeshAndWhatStandsIsTheMesh) {
 }
 
 TEST(ImportMjcf, NamesAreOnesThatAScenarioTakes) {
-  const ImportFiles files;
+  const test::TempFolder files;
   const std::string ball = "<freejoint/><geom size=\"0.1\"/></body>";
   const ImportedWorld world = importMujoco(
       files.write("w.xml", mjcf("<body name=\"hand\">" + ball + "<body name=\"a b\">" + ball)));
@@ -180,7 +181,7 @@ TEST(ImportMujoco, BadFilesAreRefusedInALine) {
 // Each must end in a world or in a line.
 TEST(ImportMujoco, DamagedTextEndsInALine) {
   std::mt19937_64 random(7);
-  const ImportFiles files;
+  const test::TempFolder files;
   int refused = 0;
   for (int i = 0; i < 40; ++i) {
     std::string text = kPendulum;
@@ -195,7 +196,7 @@ TEST(ImportMujoco, DamagedTextEndsInALine) {
 }
 
 TEST(ImportWorld, SharesByName) {
-  const ImportFiles files;
+  const test::TempFolder files;
   const auto file = files.write("p.urdf", kPendulum);
   const Scenario scenario = loadScenario(file, {"world.share=[\"bob\"]"});
   EXPECT_TRUE(scenario.bodies[0].shared);
@@ -211,7 +212,7 @@ TEST(ImportWorld, SharesByName) {
 }
 
 TEST(ImportWorld, NumbersBeyondAllWorldsAreRefused) {
-  const ImportFiles files;
+  const test::TempFolder files;
   std::string text = kPendulum;
   text.replace(text.find("0 0 1\""), 6, "0 0 1e9\"");
   expectRefused(files.write("p.urdf", text), "1e6",

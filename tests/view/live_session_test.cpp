@@ -17,7 +17,7 @@
 #include "devices/fake_event_port.h"
 #include "replay/run_replay.h"
 #include "scenario/keys.h"
-#include "view/run_rig.h"
+#include "support/temp_folder.h"
 
 namespace tandem::view {
 namespace {
@@ -177,26 +177,27 @@ TEST(LiveSession, StandsStillWhilePausedAndStepsWhenAsked) {
 }
 
 TEST(LiveSession, LeavesARecordThatIsShownAgain) {
-  const test::TempRunFolder folder;
+  const tandem::test::TempFolder folder;
   const demos::Scenario scenario = loadCube();
   MouseDevice mouse = makeMouse(scenario);
-  SessionRecords records(folder.path / "run", 0);
+  SessionRecords records(folder.path() / "run", 0);
   LiveSession session(scenario, mouse, {.records = &records});
   Impairments network;
   network.delay = 0.02;
   session.setNetwork(network);
   push(session, mouse, 0.02);
-  EXPECT_FALSE(std::filesystem::exists(folder.path / "run" / "site1.json")) << "not before the end";
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "run" / "site1.json"))
+      << "not before the end";
   const demos::ScenePlaces places = session.end();
   EXPECT_EQ(records.count(), 1);
-  RunReplay replay(loadRecordedRun(folder.path / "run"), std::nullopt);
+  RunReplay replay(loadRecordedRun(folder.path() / "run"), std::nullopt);
   EXPECT_EQ(replay.scenario().network.delay, 0.02);
   const SessionLook last = replay.look(replay.duration());
   EXPECT_GT(last.object_W.x(), 0.015);
   // A picture is at most 1/30 s old, and the hand is as new as the last tick.
   EXPECT_LT((last.object_W - places.bodies.at("cube").p_W).norm(), 0.01);
   EXPECT_LT((last.hip_W - places.hands_W[0]).norm(), 2e-3);
-  const RunReplay other(loadRecordedRun(folder.path / "run"), 1);
+  const RunReplay other(loadRecordedRun(folder.path() / "run"), 1);
   EXPECT_GE(other.frames().size(), 2u);
   session.end();
   EXPECT_EQ(records.count(), 1) << "stored once";

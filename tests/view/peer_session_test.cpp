@@ -11,7 +11,6 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/falcon/mouse_device.h"
@@ -19,8 +18,8 @@
 #include "tandem/plugin/udp_mesh.h"
 
 #include "replay/run_replay.h"
+#include "support/temp_folder.h"
 #include "terminal/usage_error.h"
-#include "view/run_rig.h"
 
 namespace tandem::view {
 namespace {
@@ -48,7 +47,6 @@ class PeerSessionTest : public ::testing::Test {
   }
   ~PeerSessionTest() override {
     for (auto& session : sessions) session.reset();  // before its mouse
-    std::filesystem::remove(key_);
   }
 
   void start(int site) {
@@ -108,9 +106,8 @@ class PeerSessionTest : public ::testing::Test {
   std::array<std::unique_ptr<PeerSession>, 2> sessions;
 
  private:
-  std::string key_ = (std::filesystem::temp_directory_path() /
-                      ("tandem-peer-session-" + std::to_string(getpid()) + ".psk"))
-                         .string();
+  tandem::test::TempFolder folder_;
+  std::string key_ = folder_ / "key";
   std::array<std::string, 2> addresses_ = findAddresses();
   std::array<demos::PeerLine, 2> lines_;
   std::array<std::unique_ptr<MouseDevice>, 2> mice_;
@@ -126,16 +123,17 @@ TEST_F(PeerSessionTest, FollowsTheOtherUsersScheme) {
 
 // Two windows record into one folder. A change of scheme ends the first record of both.
 TEST_F(PeerSessionTest, BothLeaveRecordsThatAreShownAgain) {
-  const test::TempRunFolder folder;
-  for (std::size_t at : {0, 1}) records[at].emplace(folder.path / "run", static_cast<int>(at) + 1);
+  const tandem::test::TempFolder folder;
+  for (std::size_t at : {0, 1})
+    records[at].emplace(folder.path() / "run", static_cast<int>(at) + 1);
   startBoth();
   sessions[1]->propose(with("experiment.scheme=kinematic_proxy"));
   waitFor([&] { return meetWith("kinematic_proxy", 1); }, "user 2's scheme at both");
   for (const auto& session : sessions) session->end();
   for (int user : {0, 1}) {
-    const RunReplay first(loadRecordedRun(folder.path / "run"), user);
+    const RunReplay first(loadRecordedRun(folder.path() / "run"), user);
     EXPECT_EQ(first.scenario().scheme, "remote_dynamic_proxy");
-    const RunReplay second(loadRecordedRun(folder.path / "run-2"), user);
+    const RunReplay second(loadRecordedRun(folder.path() / "run-2"), user);
     EXPECT_EQ(second.scenario().scheme, "kinematic_proxy");
     EXPECT_GE(second.frames().size(), 2u);
   }

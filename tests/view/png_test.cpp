@@ -13,20 +13,12 @@
 #include <unistd.h>
 
 #include "gl/picture.h"
+#include "support/temp_folder.h"
 
 namespace tandem::view {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("tandem_picture_" + std::to_string(getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
 
 std::size_t countFiles(const fs::path& folder) {
   std::size_t count = 0;
@@ -42,11 +34,11 @@ Picture makeSmallPicture() {
 }
 
 TEST(Png, IsReadBackAsItWas) {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path / "picture.png";
+  const tandem::test::TempFolder folder;
+  const fs::path file = folder.path() / "picture.png";
   const Picture picture = makeSmallPicture();
   EXPECT_EQ(writePng(picture, file), std::nullopt);
-  EXPECT_EQ(countFiles(folder.path), 1U);
+  EXPECT_EQ(countFiles(folder.path()), 1U);
   int width = 0, height = 0, channels = 0;
   stbi_uc* const bytes = stbi_load(file.c_str(), &width, &height, &channels, 4);
   ASSERT_NE(bytes, nullptr);
@@ -57,29 +49,29 @@ TEST(Png, IsReadBackAsItWas) {
 }
 
 TEST(Png, SaysWhyItCannotBeWritten) {
-  const TemporaryFolder folder;
-  const auto no_folder = writePng(makeSmallPicture(), folder.path / "missing" / "picture.png");
+  const tandem::test::TempFolder folder;
+  const auto no_folder = writePng(makeSmallPicture(), folder.path() / "missing" / "picture.png");
   ASSERT_TRUE(no_folder);
   EXPECT_NE(no_folder->find("missing/picture.png: the picture cannot be written"),
             std::string::npos);
   EXPECT_EQ(no_folder->find('\n'), std::string::npos);
   // A folder that is not empty cannot be replaced; nothing half-written stays beside it.
-  fs::create_directories(folder.path / "taken.png" / "inside");
-  EXPECT_TRUE(writePng(makeSmallPicture(), folder.path / "taken.png"));
-  EXPECT_EQ(countFiles(folder.path), 1U);
-  EXPECT_TRUE(writePng({}, folder.path / "empty.png"));
+  fs::create_directories(folder.path() / "taken.png" / "inside");
+  EXPECT_TRUE(writePng(makeSmallPicture(), folder.path() / "taken.png"));
+  EXPECT_EQ(countFiles(folder.path()), 1U);
+  EXPECT_TRUE(writePng({}, folder.path() / "empty.png"));
 }
 
 // A full disk is noticed, and an older picture stays.
 TEST(Png, LeavesTheOlderPictureIfTheDiskIsFull) {
   ASSERT_TRUE(fs::exists("/dev/full"));
-  const TemporaryFolder folder;
-  const fs::path file = folder.path / "picture.png";
+  const tandem::test::TempFolder folder;
+  const fs::path file = folder.path() / "picture.png";
   std::ofstream(file) << "older";
-  fs::create_symlink("/dev/full", folder.path / ("picture.png.part" + std::to_string(getpid())));
+  fs::create_symlink("/dev/full", folder.path() / ("picture.png.part" + std::to_string(getpid())));
   EXPECT_TRUE(writePng(makeSmallPicture(), file));
   EXPECT_EQ(fs::file_size(file), 5U);
-  EXPECT_EQ(countFiles(folder.path), 1U);
+  EXPECT_EQ(countFiles(folder.path()), 1U);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,22 +12,10 @@
 
 #include "replay/recorded_run.h"
 #include "run/run_output.h"
+#include "support/temp_folder.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::view::test {
-
-/// A folder for a run, removed at the end.
-struct TempRunFolder {
-  TempRunFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "tandem_run_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TempRunFolder() { std::filesystem::remove_all(path); }
-  TempRunFolder(const TempRunFolder&) = delete;
-  TempRunFolder& operator=(const TempRunFolder&) = delete;
-
-  std::filesystem::path path;
-};
 
 /// A folder with a short run of the world cube.
 class RunRig : public ::testing::Test {
@@ -48,7 +35,7 @@ class RunRig : public ::testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name, std::ios::binary) << text;
+    temporary.write(name, text);
   }
   /// Replaces the first `from` of a file.
   void edit(const std::string& name, const std::string& from, const std::string& to) const {
@@ -63,8 +50,8 @@ class RunRig : public ::testing::Test {
     write(name, json.dump(2));
   }
 
-  TempRunFolder temporary;
-  const std::filesystem::path& folder = temporary.path;
+  tandem::test::TempFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   std::unique_ptr<demos::VirtualRun> run;
 };
 

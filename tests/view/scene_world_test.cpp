@@ -2,33 +2,16 @@
 
 #include "world/scene_world.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include <gtest/gtest.h>
 
 #include "import/obj_file.h"
 #include "import/shape_files.h"
+#include "support/temp_folder.h"
 #include "terminal/usage_error.h"
+#include "view/refused_file.h"
 
 namespace tandem::demos {
 namespace {
-
-/// A folder of its own for files of a test.
-class Files {
- public:
-  Files() { std::filesystem::create_directories(folder_); }
-  ~Files() { std::filesystem::remove_all(folder_); }
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-
- private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("tandem_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-};
 
 const std::string kTetrahedron =
     "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
@@ -50,7 +33,7 @@ btScalar height(const SceneWorld& scene, std::size_t body) {
 }
 
 TEST(SceneWorld, HasAllForms) {
-  const Files files;
+  const test::TempFolder files;
   Scenario s = makeWorld(
       "[[body]]\nname = \"a\"\nsize = [1, 2, 3]\nrotation = [0, 0, 1.5707963]\n"
       "[[body]]\nname = \"b\"\nshape = \"sphere\"\nradius = 0.5\n"
@@ -136,21 +119,12 @@ TEST(SceneWorld, JointsKeepTheirZeroWhereverBodiesBegin) {
 }
 
 void expectRefused(const std::string& text, const std::string& word) {
-  const Files files;
-  const auto file = files.write("x.obj", text);
-  try {
-    (void)readObj(file);
-    ADD_FAILURE() << "not refused: " << text;
-  } catch (const UsageError& error) {
-    const std::string line = error.what();
-    EXPECT_EQ(line.rfind(file.string() + ": ", 0), 0u) << line;
-    EXPECT_NE(line.find(word), std::string::npos) << line;
-    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-  }
+  const test::TempFolder files;
+  expectRefused(files.write("x.obj", text), word, readObj);
 }
 
 TEST(ObjFile, GivesTriangles) {
-  const Files files;
+  const test::TempFolder files;
   const ObjFile file = readObj(files.write("x.obj", kTetrahedron + "f 1 2 3 4\n"));
   EXPECT_EQ(file.points.size(), 4u);
   EXPECT_EQ(file.triangles.size(), 6u);

@@ -6,14 +6,14 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
 
 #include "peer/users_device.h"
 #include "replay/run_replay.h"
-#include "view/run_rig.h"
+#include "support/temp_folder.h"
+#include "terminal/usage_error.h"
 
 namespace tandem::view {
 namespace {
@@ -127,11 +127,11 @@ TEST(SessionControl, DoesNotStopASecondUsersHand) {
 // Another scheme and Reset end a record, and the next one begins. A world that stands still has
 // one.
 TEST(SessionControl, ARecordForEachSession) {
-  const test::TempRunFolder folder;
+  const tandem::test::TempFolder folder;
   const auto recordOf = [&](const char* name) {
-    return RunReplay(loadRecordedRun(folder.path / name), std::nullopt);
+    return RunReplay(loadRecordedRun(folder.path() / name), std::nullopt);
   };
-  SessionControl control(loadWorld("rail"), std::nullopt, {}, folder.path / "run");
+  SessionControl control(loadWorld("rail"), std::nullopt, {}, folder.path() / "run");
   waitForRecord(control);
   SessionWishes wishes = wishesOf(control);
   wishes.scenario.scheme = "kinematic_proxy";
@@ -152,19 +152,20 @@ TEST(SessionControl, ARecordForEachSession) {
   waitForRecord(control);
   control.end();
   EXPECT_GE(recordOf("run-3").frames().size(), 2u);
-  EXPECT_FALSE(std::filesystem::exists(folder.path / "run-4"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "run-4"));
 }
 
 TEST(SessionControl, RefusesAFolderForRecordsThatIsInUse) {
-  const test::TempRunFolder folder;
-  const demos::OutputFolder other(folder.path, "--out");
-  EXPECT_THROW(SessionControl(loadWorld("cube"), std::nullopt, {}, folder.path), demos::UsageError);
+  const tandem::test::TempFolder folder;
+  const demos::OutputFolder other(folder.path(), "--out");
+  EXPECT_THROW(SessionControl(loadWorld("cube"), std::nullopt, {}, folder.path()),
+               demos::UsageError);
 }
 
 // Nobody is at the other end: the session waits meanwhile.
 TEST(SessionControl, DoesNotStopAFriendsTime) {
-  const std::filesystem::path key = std::filesystem::temp_directory_path() /
-                                    ("tandem-control-" + std::to_string(getpid()) + ".psk");
+  const tandem::test::TempFolder folder;
+  const std::string key = folder / "key";
   makeKeyFile(key);
   demos::PeerLine line;
   line.site = 1;
@@ -172,7 +173,6 @@ TEST(SessionControl, DoesNotStopAFriendsTime) {
   line.peer = "127.0.0.1:9";
   line.key = key;
   SessionControl control(loadWorld("cube"), line, {});
-  std::filesystem::remove(key);
   SessionWishes wishes = wishesOf(control);
   wishes.pace.is_paused = true;
   control.obey(wishes);
