@@ -13,6 +13,7 @@
 #include "run/virtual_run.h"
 #include "scene/draw_text.h"
 #include "session/scene_look.h"
+#include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
@@ -30,8 +31,7 @@ std::vector<std::string> listWorlds() {
 }
 
 std::string describe(const std::string& world) {
-  const demos::Scenario scenario =
-      demos::loadScenario(fs::path(TANDEM_WORLDS) / (world + ".toml"), {"experiment.duration=3"});
+  const demos::Scenario scenario = tandem::test::loadWorld(world, {"experiment.duration=3"});
   demos::VirtualRun run(scenario);
   SceneLook look(run.world(0));
   std::string text = "0 s\n" + writeDrawList(look.look());

@@ -18,13 +18,13 @@
 #include "replay/run_replay.h"
 #include "scenario/keys.h"
 #include "support/temp_folder.h"
+#include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
 
 demos::Scenario loadCube() {
-  return demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml",
-                             {"site2.hand_waypoints=[[0,0,0,0]]", "object.mass=0.4"});
+  return tandem::test::loadWorld("cube", {"site2.hand_waypoints=[[0,0,0,0]]", "object.mass=0.4"});
 }
 
 MouseDevice makeMouse(const demos::Scenario& scenario) {
@@ -81,8 +81,7 @@ TEST(LiveSession, IsFeltAndGoesOnFromWhereItWas) {
 
 // User 2's gamepad holds an end of the plank by its button, and lifts it with its stick.
 TEST(LiveSession, ASecondDeviceIsUser2sHand) {
-  const demos::Scenario scenario =
-      demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "plank.toml", {});
+  const demos::Scenario scenario = tandem::test::loadWorld("plank");
   const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
   const Vec3 start_W = demos::computeStart(scenario, frame, 1);
   tandem::test::FakeEventDevice pad;

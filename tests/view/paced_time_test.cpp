@@ -2,9 +2,9 @@
 
 #include "session/paced_time.h"
 
-#include <filesystem>
-
 #include <gtest/gtest.h>
+
+#include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
@@ -18,8 +18,7 @@ class PacedTimeTest : public ::testing::Test {
   }
 
   static constexpr double kBegin = 5000.0;  // [s]
-  demos::Scenario scenario =
-      demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml", {});
+  demos::Scenario scenario = tandem::test::loadWorld("cube");
   SitePair pair{scenario};
 
  private:

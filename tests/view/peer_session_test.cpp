@@ -20,6 +20,7 @@
 #include "replay/run_replay.h"
 #include "support/temp_folder.h"
 #include "terminal/usage_error.h"
+#include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
@@ -99,9 +100,8 @@ class PeerSessionTest : public ::testing::Test {
     return demos::changeScenario(scenario, {override_text});
   }
 
-  demos::Scenario scenario =
-      demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml",
-                          {"experiment.duration=120"});  // a site of the command line stays
+  demos::Scenario scenario = tandem::test::loadWorld(
+      "cube", {"experiment.duration=120"});  // a site of the command line stays
   std::array<std::optional<SessionRecords>, 2> records;
   std::array<std::unique_ptr<PeerSession>, 2> sessions;
 

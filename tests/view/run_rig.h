@@ -14,6 +14,7 @@
 #include "run/run_output.h"
 #include "support/temp_folder.h"
 #include "terminal/usage_error.h"
+#include "view/own_world.h"
 
 namespace tandem::view::test {
 
@@ -22,8 +23,7 @@ class RunRig : public ::testing::Test {
  protected:
   RunRig() {
     const demos::Scenario scenario =
-        demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml",
-                            {"experiment.duration=1.5", "experiment.axis=[0,1,0]"});
+        tandem::test::loadWorld("cube", {"experiment.duration=1.5", "experiment.axis=[0,1,0]"});
     run = std::make_unique<demos::VirtualRun>(scenario);
     run->run();
     const demos::OutputFolder output(folder, "--out");

@@ -3,6 +3,7 @@
 #include "session/session_control.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -14,13 +15,12 @@
 #include "replay/run_replay.h"
 #include "support/temp_folder.h"
 #include "terminal/usage_error.h"
+#include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
 
-demos::Scenario loadWorld(const std::string& name) {
-  return demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / (name + ".toml"), {});
-}
+using tandem::test::loadWorld;
 
 bool hasNote(const SessionControl& control, const std::string& text) {
   return std::ranges::any_of(control.notes(), [&](const std::string& note) {
@@ -42,8 +42,25 @@ SessionWishes wishContact(const SessionControl& control, ContactModel model) {
   return wishes;
 }
 
-void waitForTicks(const SessionControl& control) {
-  while (control.session().look()->loop.ticks < 10) sleepFor(1e-3);
+/// A pause, Bullet's own contact and another world are refused, each with its note.
+void expectRefusals(SessionControl& control, const char* pause, const char* contact,
+                    const char* world) {
+  SessionWishes wishes = wishesOf(control);
+  wishes.pace.is_paused = true;
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, pause));
+  EXPECT_FALSE(control.pace().is_paused);
+  control.obey(wishContact(control, ContactModel::kNativeSoft));
+  EXPECT_TRUE(hasNote(control, contact));
+  wishes = wishesOf(control);
+  wishes.world = "rail";
+  control.obey(wishes);
+  EXPECT_TRUE(hasNote(control, world));
+  EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
+}
+
+void waitForTicks(const SessionControl& control, std::uint64_t ticks = 10) {
+  while (control.session().look()->loop.ticks < ticks) sleepFor(1e-3);
 }
 
 /// Long enough for two pictures.
@@ -110,18 +127,8 @@ TEST(SessionControl, DoesNotStopASecondUsersHand) {
       options, scenario, true, [](double) { return false; }, is_ended);
   ASSERT_FALSE(is_ended);
   SessionControl control(scenario, std::nullopt, {nullptr, second.get()});
-  SessionWishes wishes = wishesOf(control);
-  wishes.pace.is_paused = true;
-  control.obey(wishes);
-  EXPECT_TRUE(hasNote(control, "a real hand does not stop"));
-  EXPECT_FALSE(control.pace().is_paused);
-  control.obey(wishContact(control, ContactModel::kNativeSoft));
-  EXPECT_TRUE(hasNote(control, "no haptic rate for a device"));
-  wishes = wishesOf(control);
-  wishes.world = "rail";
-  control.obey(wishes);
-  EXPECT_TRUE(hasNote(control, "rail: a device has its place"));
-  EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
+  expectRefusals(control, "a real hand does not stop", "no haptic rate for a device",
+                 "rail: a device has its place");
 }
 
 // Another scheme and Reset end a record, and the next one begins. A world that stands still has
@@ -144,7 +151,7 @@ TEST(SessionControl, ARecordForEachSession) {
   wishes.pace.is_paused = true;
   control.obey(wishes);
   EXPECT_EQ(recordOf("run-2").scenario().scheme, "kinematic_proxy");
-  while (control.session().look()->loop.ticks < 20) sleepFor(1e-3);
+  waitForTicks(control, 20);
   sleepFor(0.05);
   wishes.restarts = false;
   wishes.steps = 4;
@@ -173,18 +180,8 @@ TEST(SessionControl, DoesNotStopAFriendsTime) {
   line.peer = "127.0.0.1:9";
   line.key = key;
   SessionControl control(loadWorld("cube"), line, {});
-  SessionWishes wishes = wishesOf(control);
-  wishes.pace.is_paused = true;
-  control.obey(wishes);
-  EXPECT_TRUE(hasNote(control, "your friend's hand does not stop"));
-  EXPECT_FALSE(control.pace().is_paused);
-  control.obey(wishContact(control, ContactModel::kNativeSoft));
-  EXPECT_TRUE(hasNote(control, "by Tandem's own contact only"));
-  wishes = wishesOf(control);
-  wishes.world = "rail";
-  control.obey(wishes);
-  EXPECT_TRUE(hasNote(control, "rail: your friend is in this world"));
-  EXPECT_EQ(control.scenario().site.contact_model, ContactModel::kIsland);
+  expectRefusals(control, "your friend's hand does not stop", "by Tandem's own contact only",
+                 "rail: your friend is in this world");
 }
 
 TEST(SessionControl, ABodyThatFlewApartBeginsAnew) {

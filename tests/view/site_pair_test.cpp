@@ -3,20 +3,19 @@
 #include "session/site_pair.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "run/virtual_run.h"
+#include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
 
 demos::Scenario loadCube(double duration) {
-  return demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "cube.toml",
-                             {"experiment.duration=" + std::to_string(duration)});
+  return tandem::test::loadWorld("cube", {"experiment.duration=" + std::to_string(duration)});
 }
 
 TEST(SitePair, TicksInVirtualTimeAsTheVirtualRunToTheBit) {
@@ -43,7 +42,7 @@ TEST(SitePair, OneStepIsOneHostPeriod) {
 // In the world plank both scripted hands hold an end from 0.5 s on. A mouse's button was overruled,
 // and its hand took hold and let go with each host step.
 TEST(SitePair, AUsersOwnGripOverrulesTheScenarios) {
-  SitePair pair(demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / "plank.toml", {}));
+  SitePair pair(tandem::test::loadWorld("plank"));
   int held = 0;
   while (pair.time() < 1.0) {
     pair.tick();

@@ -14,19 +14,18 @@
 
 #include "run/virtual_run.h"
 #include "session/live_session.h"
+#include "view/own_world.h"
 
 namespace tandem::demos {
 namespace {
 
-Scenario load(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return loadScenario(std::filesystem::path(TANDEM_WORLDS) / (name + ".toml"), overrides);
-}
+using test::loadWorld;
 
 /// A world whose two sites have run to the end.
 class Ended {
  public:
   explicit Ended(const std::string& name, const std::vector<std::string>& overrides = {})
-      : run_(load(name, overrides)) {
+      : run_(loadWorld(name, overrides)) {
     run_.run();
   }
 
@@ -157,7 +156,7 @@ TEST_P(EachWorld, TellsItsStory) {
 }
 
 TEST_P(EachWorld, LivesWithAMouse) {
-  const Scenario scenario = load(GetParam());
+  const Scenario scenario = loadWorld(GetParam());
   MouseSettings settings;
   settings.start_W = computeStart(scenario, makeSceneFrame(scenario), 0);
   MouseDevice mouse(settings);
