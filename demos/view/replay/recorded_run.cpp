@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "replay/run_summary.h"
+#include "replay/recorded_summary.h"
 
 namespace tandem::view {
 namespace {
@@ -20,7 +20,7 @@ fs::path summaryOf(const fs::path& folder, int site) {
 /// Adds what one summary and its scene tell of some sites.
 void addSites(RecordedRun& run, const fs::path& summary_file, const fs::path& scene_file,
               std::initializer_list<int> sites) {
-  RunSummary summary = readRunSummary(summary_file);
+  RecordedSummary summary = readRecordedSummary(summary_file);
   run.summary = summary_file;
   run.scenario = std::move(summary.scenario);
   auto scenes = readRecordedScenes(scene_file, summary.bodies);

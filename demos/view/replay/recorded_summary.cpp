@@ -1,4 +1,4 @@
-#include "replay/run_summary.h"
+#include "replay/recorded_summary.h"
 
 #include <algorithm>
 #include <fstream>
@@ -38,13 +38,13 @@ RecordedBody readBody(const std::filesystem::path& file, const nlohmann::json& b
 
 }  // namespace
 
-RunSummary readRunSummary(const std::filesystem::path& file) {
+RecordedSummary readRecordedSummary(const std::filesystem::path& file) {
   const nlohmann::json all = parseFile(file);
   const auto part = [&](const char* key) {
     const nlohmann::json::json_pointer pointer(key);
     return all.contains(pointer) ? all.at(pointer) : nlohmann::json();
   };
-  RunSummary summary;
+  RecordedSummary summary;
   summary.scenario = demos::readScenario(part("/scenario"), file.string());
   const nlohmann::json bodies = part("/scene/bodies");
   if (!bodies.is_array() || bodies.empty()) refuseRunFile(file, "scene.bodies: there are none");
