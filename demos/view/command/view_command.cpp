@@ -86,8 +86,8 @@ class ViewCommand final : public Command {
     const StopSignals signals;
     bool is_ended = false;
     const auto pause = [&](double seconds) { return signals.isAskedWithin(seconds); };
-    const auto device = openUsersDevice(device_, settings_.scenario, view::userOf(settings_), false,
-                                        pause, is_ended);
+    const auto device = openUsersDevice(device_, settings_.scenario, view::userOf(settings_.line),
+                                        false, pause, is_ended);
     if (is_ended) return;
     std::unique_ptr<LiveDevice> second;
     if (second_)

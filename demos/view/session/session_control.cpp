@@ -136,12 +136,12 @@ void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places
   if (places) demos::startHandsAt(*places, scenario);
   if (!LiveSession::hasHapticThreads(scenario))
     scenario.host_rate = std::max(scenario.host_rate, kLeastNativeRate);
-  const int user = line_ ? line_->site - 1 : 0;
   session_.reset();
   both_ = nullptr;
   if (!devices_.own) {
     MouseSettings settings;
-    settings.start_W = demos::computeStart(scenario, demos::makeSceneFrame(scenario), user);
+    settings.start_W =
+        demos::computeStart(scenario, demos::makeSceneFrame(scenario), userOf(line_));
     mouse_ = std::make_unique<MouseDevice>(settings);
   }
   SessionRecords* const records = records_ ? &*records_ : nullptr;

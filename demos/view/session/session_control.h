@@ -32,6 +32,11 @@ struct UsersDevices {
   demos::LiveDevice* second = nullptr;  ///< user 2's, if both sites are here; null: simulated
 };
 
+/// Gives the user of this machine, 0 or 1; 0 without a `line`, when both sites are here.
+[[nodiscard]] inline int userOf(const std::optional<demos::PeerLine>& line) {
+  return line ? line->site - 1 : 0;
+}
+
 /// The session behind a window, as its user changes it. Other sites need another session, which
 /// goes on from where hands and bodies are. For the thread of the window.
 class SessionControl {

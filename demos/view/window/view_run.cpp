@@ -20,7 +20,7 @@ ViewRun::ViewRun(const ViewSettings& settings, const UsersDevices& devices)
       hand_look_(settings.scenario.site.proxy.radius) {
   standBack();
   window_ = std::make_unique<PanelWindow>(settings.window,
-                                          chooseFirstEye(settings.scenario, userOf(settings)));
+                                          chooseFirstEye(settings.scenario, userOf(settings.line)));
 }
 
 void ViewRun::run(const std::function<bool()>& stop) {
@@ -59,7 +59,7 @@ void ViewRun::showWorld() {
   const demos::Scenario& scenario = control_.scenario();
   seen_ = scenario.file;
   hand_look_ = HandLook(scenario.site.proxy.radius);
-  window_->eye = chooseFirstEye(scenario, userOf(settings_));
+  window_->eye = chooseFirstEye(scenario, userOf(settings_.line));
 }
 
 }  // namespace tandem::view

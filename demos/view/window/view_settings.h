@@ -24,9 +24,4 @@ struct ViewSettings {
   std::optional<std::filesystem::path> record;  ///< folder for a record of each session
 };
 
-/// 0 for user 1, 1 for user 2.
-[[nodiscard]] inline int userOf(const ViewSettings& settings) {
-  return settings.line ? settings.line->site - 1 : 0;
-}
-
 }  // namespace tandem::view
