@@ -8,7 +8,6 @@
 
 #include "tandem/falcon/event_port.h"
 
-#pragma GCC visibility push(default)
 namespace tandem::falcon_detail {
 
 /// The codes that a device knows, one bit for each, as the kernel gives them.
@@ -35,4 +34,3 @@ struct EventBits {
 [[nodiscard]] std::string toPrintable(std::string_view text);
 
 }  // namespace tandem::falcon_detail
-#pragma GCC visibility pop

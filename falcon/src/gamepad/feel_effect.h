@@ -3,7 +3,6 @@
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/event_port.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The effect that renders the force `f_D` [N] in the user's frame (x right, y up, z back), with
@@ -13,4 +12,3 @@ namespace tandem {
 [[nodiscard]] FeelEffect makeFeelEffect(Feel feel, const Vec3& f_D, double max_force) noexcept;
 
 }  // namespace tandem
-#pragma GCC visibility pop

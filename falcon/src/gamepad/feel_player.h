@@ -2,7 +2,6 @@
 
 #include "tandem/falcon/event_port.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Outcome of showing an effect.
@@ -40,4 +39,3 @@ class FeelPlayer {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

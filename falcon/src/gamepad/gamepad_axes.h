@@ -18,7 +18,6 @@
 ///
 /// An axis that rests at an end of its range is no stick: a trigger or a pedal. Nothing from the
 /// device is trusted: a range without extent leaves the axis out, and places are clamped.
-#pragma GCC visibility push(default)
 namespace tandem {
 
 enum class GamepadNews {
@@ -66,4 +65,3 @@ class GamepadAxes {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -14,7 +14,6 @@
 //
 // clang-format on
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// The hand of a GamepadDevice: sticks in, a pulled handle out, in the time that it is told. It
@@ -45,4 +44,3 @@ class GamepadHand {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

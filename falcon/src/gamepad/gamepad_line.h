@@ -9,7 +9,6 @@
 #include "gamepad/feel_player.h"
 #include "gamepad/gamepad_axes.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A gamepad while it is plugged in: its port, its axes and its effect. One thread uses it.
@@ -46,4 +45,3 @@ class GamepadLine {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -12,7 +12,6 @@
 #include "guard/device_thread.h"
 #include "guard/latest_value.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A thread that reads a gamepad's events and renders a force on it 100 times a second. It opens
@@ -68,4 +67,3 @@ class GamepadStream {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -8,7 +8,6 @@
 #include <string>
 #include <thread>
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A thread that uses a device and opens it again by itself after it was unplugged. It also keeps
@@ -65,4 +64,3 @@ class DeviceThread {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

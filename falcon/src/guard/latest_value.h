@@ -4,7 +4,6 @@
 #include <atomic>
 #include <type_traits>
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Passes the newest value from one thread to another. There are three slots: the writer owns one,
@@ -43,4 +42,3 @@ class LatestValue {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#pragma GCC visibility push(default)
 namespace tandem::falcon_detail {
 
 /// Time that passes for a simulated thing, by the times that it is told. Time before the first
@@ -31,4 +30,3 @@ class PassedTime {
 };
 
 }  // namespace tandem::falcon_detail
-#pragma GCC visibility pop

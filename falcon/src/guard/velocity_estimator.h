@@ -17,7 +17,6 @@
 /// All axes have the same known step. The first reading gives zero velocity. A reading that is not
 /// finite or not later than the last is skipped; add() then returns the last velocity. Fixed size,
 /// real-time safe. docs/devices.md compares them by measurement.
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A reading with its time [s].
@@ -110,4 +109,3 @@ class AdaptiveWindow {
 [[nodiscard]] AdaptiveWindow makeUsualVelocityEstimator(double step = 1.0) noexcept;
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -16,7 +16,6 @@
 ///
 /// A frame of 16 bytes is sent as F3 10 and the frame, both ways. Every byte from the device is
 /// checked. Pure and real-time safe.
-#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kMostUartBytes = 60;  ///< capacity of one report
@@ -39,4 +38,3 @@ struct UartBytes {
 [[nodiscard]] HidReport makeUartLine(std::uint32_t baud) noexcept;
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -10,7 +10,6 @@
 
 #include "guard/device_thread.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Handles the reports of a HidStream. Some devices report changes only: a SpaceMouse alternates
@@ -83,4 +82,3 @@ class HidStream {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -5,7 +5,6 @@
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/space_mouse_device.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A point and a wrist whose velocities a displacement commands:
@@ -50,4 +49,3 @@ class RateControl {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -22,7 +22,6 @@
 ///
 /// All other bytes are 0. The CRC is CRC-16/CCITT-FALSE of bytes 0 to 61. Every byte from the
 /// device is checked. Pure, real-time safe.
-#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kRawHidSize = 64;
@@ -65,4 +64,3 @@ using RawHidBytes = std::array<std::uint8_t, kRawHidSize>;
 [[nodiscard]] std::vector<std::uint8_t> makeRawHidDescriptor();
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -7,7 +7,6 @@
 
 #include "tandem/falcon/hid_port.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Layout of a SpaceMouse's reports.
@@ -47,4 +46,3 @@ class SpaceMouseEmulator {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -10,7 +10,6 @@
 #include "novint/firmware_image.h"
 #include "novint/line_step.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Reason why a Falcon did not boot.
@@ -94,4 +93,3 @@ class FalconBoot {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -10,7 +10,6 @@
 #include "novint/falcon_force_gate.h"
 #include "novint/falcon_tracker.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// A position with its number. Plain values that threads can copy.
@@ -100,4 +99,3 @@ class FalconDriver {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

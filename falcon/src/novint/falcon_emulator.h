@@ -14,7 +14,6 @@
 #include "novint/falcon_plant.h"
 #include "novint/firmware_image.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Faults to inject. Each number is how many of the next events fail: 0 none, kAlways all.
@@ -155,4 +154,3 @@ class FalconEmulator {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

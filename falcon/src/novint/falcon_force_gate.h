@@ -3,7 +3,6 @@
 #include "tandem/coordination/types.h"
 #include "tandem/falcon/falcon_settings.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Longest time from max_force to zero when the force must end, even for a lower slew limit [s].
@@ -39,4 +38,3 @@ class FalconForceGate {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -18,7 +18,6 @@
 ///
 /// A number is signed 16-bit in four bytes 'A' + nibble, the lowest nibble first. The info byte is
 /// 'A' + 0 to 127. Every byte from a device is checked. Pure and real-time safe.
-#pragma GCC visibility push(default)
 namespace tandem {
 
 inline constexpr std::size_t kFalconFrameSize = 16;
@@ -74,4 +73,3 @@ class FalconFrameReader {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

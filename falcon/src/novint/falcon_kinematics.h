@@ -11,7 +11,6 @@
 /// The Novint Falcon as a mechanism: three legs around the axis towards the user. Each leg has an
 /// arm that a motor turns and a parallelogram that carries the grip. Frame D has its origin in the
 /// base plane, x right, y up, z out of the device towards the user.
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Angles of the three arms, from the base plane towards the user [rad].
@@ -98,4 +97,3 @@ inline constexpr std::int16_t kMostMotor = 4095;
     const Vec3& torques, double motors_per_torque = kUsualMotorsPerTorque) noexcept;
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -9,7 +9,6 @@
 
 #include "novint/falcon_kinematics.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Parameters of an emulated Falcon's mechanism.
@@ -64,4 +63,3 @@ class FalconPlant {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -7,7 +7,6 @@
 #include "guard/velocity_estimator.h"
 #include "novint/falcon_kinematics.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Positions and velocities of the grip from its encoder counts. The velocities come from the
@@ -49,4 +48,3 @@ class FalconTracker {
 };
 
 }  // namespace tandem
-#pragma GCC visibility pop

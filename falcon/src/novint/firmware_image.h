@@ -12,7 +12,6 @@
 /// It is a boot table of the C28x processor, in 16-bit words, low byte first:
 ///
 ///     0x08AA | 8 reserved | entry, high and low | size, high, low, data... | ... | size 0
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Parses a boot table byte by byte. The host and the emulator share it.
@@ -56,4 +55,3 @@ inline constexpr std::size_t kMostFirmware = 256 * 1024;  ///< [bytes]; known im
                                               std::size_t count) noexcept;
 
 }  // namespace tandem
-#pragma GCC visibility pop

@@ -7,7 +7,6 @@
 
 #include "tandem/falcon/byte_transport.h"
 
-#pragma GCC visibility push(default)
 namespace tandem {
 
 /// Actions that a protocol without I/O requests for its line, in this order: set it, purge it,
@@ -32,4 +31,3 @@ struct LineStep {
 }
 
 }  // namespace tandem
-#pragma GCC visibility pop
