@@ -162,7 +162,8 @@ class Island {
   /// @{
   BodyIndex addBody(const IslandBody& body);
   CouplerIndex addCoupler(BodyIndex follower, const CouplerSettings& settings);
-  /// Unilateral contact of a sphere body with any other body: eqs (7), (8), (11), (12).
+  /// Unilateral contact of a sphere body with any other body: eqs (7), (8), (11), (12). Does
+  /// nothing for bodies of a guided island that pass each other on parallel lines.
   void addContact(BodyIndex sphere, BodyIndex other, const CouplerGains& gains);
   /// Adds room for a grip of a body that stands for a hand. It holds nothing at first. Not in a
   /// guided island.

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bad_value.h"
+#include "island/guide_lines.h"
 #include "island/island_impl.h"
 #include "tandem_assert.h"
 
@@ -108,6 +109,7 @@ void Island::addContact(BodyIndex sphere, BodyIndex other, const CouplerGains& g
   if (!std::holds_alternative<Sphere>(impl_->model.bodies[sphere].settings.shape))
     throw std::invalid_argument("smooth contact is between a sphere and another body");
   checkGains("contact", gains);
+  if (impl_->model.settings.guide && !canMeet(impl_->model, sphere, other)) return;
   impl_->model.contacts.push_back({sphere, other, gains});
   impl_->prepared = false;
 }

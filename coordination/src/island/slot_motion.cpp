@@ -4,6 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "island/guide_lines.h"
 
 namespace tandem {
 namespace {
@@ -44,7 +47,8 @@ SlotMotion::SlotMotion(const IslandModel& model)
       const double p = place(b);
       return b != pair.sphere && b != pair.other &&
              p > std::min(sphere, other) + kPlacementRounding &&
-             p < std::max(sphere, other) - kPlacementRounding;
+             p < std::max(sphere, other) - kPlacementRounding && canMeet(model, b, pair.sphere) &&
+             canMeet(model, b, pair.other);
     };
     bool blocked = false;
     for (BodyIndex b = 0; b < static_cast<BodyIndex>(origins_.size()); ++b)
@@ -67,7 +71,10 @@ SlotMotion::SlotMotion(const IslandModel& model)
                                 " contacts, at most " + std::to_string(kMaxContacts) +
                                 " are possible; leave the guide off or share fewer objects");
 
-  // One map per mode: springs and dampers of all couplers and of the contacts that push.
+  // One map per mode: springs and dampers of all couplers and of the contacts that push. The mode
+  // in which all push has the highest frequency.
+  has_maps_ = contacts_.size() <= kMaxMappedContacts;
+  const unsigned all = (1u << contacts_.size()) - 1u;
   const auto n = static_cast<Eigen::Index>(movers_.size());
   Eigen::VectorXd mass(n);
   Eigen::MatrixXd base_damping = Eigen::MatrixXd::Zero(n, n), base_stiffness = base_damping;
@@ -83,7 +90,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
     base_damping(i, i) += coupler.settings.linear.damping;
   }
   double max_frequency = 0.0;
-  for (unsigned mode = 0; n > 0 && mode < (1u << contacts_.size()); ++mode) {
+  for (unsigned mode = has_maps_ ? 0u : all; n > 0 && mode <= all; ++mode) {
     Eigen::MatrixXd damping = base_damping, stiffness = base_stiffness;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       if (!(mode >> c & 1u)) continue;
@@ -98,8 +105,9 @@ SlotMotion::SlotMotion(const IslandModel& model)
       couple(stiffness, contact.gains.stiffness);
       couple(damping, contact.gains.damping);
     }
-    maps_.emplace_back(period_, mass, damping, stiffness);
-    max_frequency = std::max(max_frequency, maps_.back().maxFrequency());
+    LinearMap map(period_, mass, damping, stiffness);
+    max_frequency = std::max(max_frequency, map.maxFrequency());
+    if (has_maps_) maps_.push_back(std::move(map));
   }
   // A contact lasts about half an oscillation; check several times in each.
   while (coarsest_level_ < 16 && std::ldexp(period_, -coarsest_level_) * max_frequency > 0.5)
@@ -117,10 +125,10 @@ SlotMotion::SlotMotion(const IslandModel& model)
 }
 
 void SlotMotion::refit(const IslandModel& model) noexcept {
-  is_altered_ = false;
-  for (const ModelCoupler& coupler : model.couplers) is_altered_ |= coupler.share != 1.0;
+  uses_series_ = !has_maps_;
+  for (const ModelCoupler& coupler : model.couplers) uses_series_ |= coupler.share != 1.0;
   for (const ModelBody& body : model.bodies)
-    is_altered_ |= body.is_ghost || body.contact_share != 1.0 || body.extra_damping != 0.0;
+    uses_series_ |= body.is_ghost || body.contact_share != 1.0 || body.extra_damping != 0.0;
   for (Contact& contact : contacts_) {
     const bool meets =
         !model.bodies[contact.sphere].is_ghost && !model.bodies[contact.other].is_ghost;
@@ -240,7 +248,7 @@ void SlotMotion::gather(const IslandModel& model) noexcept {
 }
 
 void SlotMotion::computeInputs(const IslandModel& model, unsigned mode) noexcept {
-  if (is_altered_) tieSeries(model, mode);
+  if (uses_series_) tieSeries(model, mode);
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     u_[i] = axis_.dot(model.bodies[movers_[i]].f_external_W);
     w_[i] = 0.0;
@@ -290,7 +298,7 @@ bool SlotMotion::hidesTouch(unsigned mode, double h) const noexcept {
 
 SlotMotion::Step SlotMotion::tryStep(unsigned& mode, int level, bool may_change) noexcept {
   const double h = std::ldexp(period_, -level);
-  if (is_altered_)
+  if (uses_series_)
     series_.step(h, state_.data(), u_.data(), w_.data(), next_.data());
   else
     maps_[mode].step(level, state_.data(), u_.data(), w_.data(), next_.data());

@@ -8,17 +8,20 @@
 
 namespace tandem {
 
-/// Motion of a guided island: everything is on one line and linear between events, therefore exact.
+/// Motion of a guided island: everything moves along one direction, linear between events, and
+/// therefore exact.
 ///
 /// Coordinates are displacements along the guide from the positions at set-up. A contact's side is
 /// fixed at set-up, because bodies keep their order. The set of contacts that push is the island's
 /// mode; each mode has one LinearMap. A step that changes the mode is halved until the event is
-/// located within T/2^31. While a share is below 1, or a body is a ghost or has extra damping, a
-/// LinearSeries replaces the maps.
+/// located within T/2^31. A LinearSeries replaces the maps while a share is below 1, or a body is a
+/// ghost or has extra damping, and where there are too many modes for maps.
 class SlotMotion {
  public:
-  /// Most contacts of a guided island; n contacts make 2^n maps.
-  static constexpr int kMaxContacts = 4;
+  /// Most contacts of a guided island: bits of a mode.
+  static constexpr int kMaxContacts = 31;
+  /// With more, there are no maps; n contacts make 2^n.
+  static constexpr int kMaxMappedContacts = 4;
 
   /// Allocates. Throws std::invalid_argument beyond kMaxContacts.
   explicit SlotMotion(const IslandModel& model);
@@ -78,9 +81,10 @@ class SlotMotion {
   std::vector<BodyIndex> movers_;  ///< per degree of freedom: its body
   std::vector<Contact> contacts_;
   std::vector<LinearMap> maps_;  ///< per mode
-  LinearSeries series_;          ///< replaces the maps while is_altered_
-  bool is_altered_ = false;      ///< a share, ghost or extra damping is in effect
-  int coarsest_level_ = 0;       ///< steps are at most T/2^level, so no contact is missed
+  LinearSeries series_;          ///< replaces the maps while uses_series_
+  bool has_maps_ = true;
+  bool uses_series_ = false;  ///< no maps, or a share, ghost or extra damping is in effect
+  int coarsest_level_ = 0;    ///< steps are at most T/2^level, so no contact is missed
 
   // Working memory of a step.
   std::vector<double> state_, next_, u_, w_;
