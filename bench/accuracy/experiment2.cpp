@@ -29,10 +29,10 @@ Scenario makeScenario(const reference::PaperParameters& p, const Way& way, int h
   s.duration = p.sampling.duration;
   s.site.contact = {p.contact.stiffness, p.contact.damping};
   s.site.coordination = {p.coordination.stiffness, p.coordination.damping};
-  s.site.proxy.mass = s.device_mass = p.proxy_mass;
-  s.device_damping = p.device_damping;
-  s.hands[0].force = Vec3(p.hand_force_1, 0, 0);
-  s.hands[1].force = Vec3(p.hand_force_2, 0, 0);
+  s.site.proxy.mass = s.device.mass = p.proxy_mass;
+  s.device.damping = p.device_damping;
+  s.sites[0].hand.force = Vec3(p.hand_force_1, 0, 0);
+  s.sites[1].hand.force = Vec3(p.hand_force_2, 0, 0);
   s.network.delay = p.sampling.delay;
   s.site.packet_rate = p.sampling.packet_rate;
   s.site.haptic_rate = p.sampling.haptic_rate;

@@ -32,11 +32,11 @@ bool isOneLine(const std::string& text) {
 void requireChecked(const Scenario& s) {
   for (const double value :
        {s.duration, s.object_mass, s.object_size, s.site.proxy.mass, s.site.proxy.radius,
-        s.device_mass, s.site.packet_rate, s.site.haptic_rate, s.host_rate, s.inner_rate})
+        s.device.mass, s.site.packet_rate, s.site.haptic_rate, s.host_rate, s.inner_rate})
     require(isPositive(value));
   require(std::abs(s.axis.norm() - 1.0) < 1e-12);
   require(s.network.delay >= 0.0 && s.network.delay <= s.duration);
-  for (const HandScenario& hand : s.hands) require(hand.force.allFinite());
+  for (const SiteScenario& site : s.sites) require(site.hand.force.allFinite());
 }
 
 void parse(const std::string& text, const std::vector<std::string>& overrides) {

@@ -27,11 +27,11 @@ Scenario makeScenario(const reference::PaperParameters& p, const Vec3& axis) {
   s.site.coordination = {p.coordination.stiffness, p.coordination.damping};
   s.object_mass = p.object_mass;
   s.object_damping = p.object_damping;
-  s.site.proxy.mass = s.device_mass = p.proxy_mass;
+  s.site.proxy.mass = s.device.mass = p.proxy_mass;
   s.site.proxy.damping = p.proxy_damping;
-  s.device_damping = p.device_damping;
-  s.hands[0].force = Vec3(p.hand_force_1, 0, 0);
-  s.hands[1].force = Vec3(p.hand_force_2, 0, 0);
+  s.device.damping = p.device_damping;
+  s.sites[0].hand.force = Vec3(p.hand_force_1, 0, 0);
+  s.sites[1].hand.force = Vec3(p.hand_force_2, 0, 0);
   s.network.delay = p.sampling.delay;
   s.site.packet_rate = p.sampling.packet_rate;
   // The equations contain no guards, and random intermittent contact can be wild.

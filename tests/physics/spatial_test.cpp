@@ -40,10 +40,10 @@ TEST_P(Spatial, AgreesWithTheReference) {
   Scenario s;
   s.guide = false;
   s.duration = c.duration;
-  s.hands[0].force = c.force1;
-  s.hands[1].force = c.force2;
-  s.hands[0].start_offset = c.offset1;
-  s.hands[1].start_offset = c.offset2;
+  s.sites[0].hand.force = c.force1;
+  s.sites[1].hand.force = c.force2;
+  s.sites[0].hand.start_offset = c.offset1;
+  s.sites[1].hand.start_offset = c.offset2;
   VirtualRun run(s);
   run.run();
 

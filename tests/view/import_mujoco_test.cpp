@@ -202,9 +202,9 @@ TEST(ImportWorld, SharesByName) {
   EXPECT_TRUE(scenario.bodies[0].shared);
   EXPECT_EQ(scenario.gravity, 9.81);
   // Ball of 50 mm, a gap of 20 mm, and the hand's own 10 mm.
-  EXPECT_NEAR(scenario.hands[0].start_offset.x(), -0.08, 1e-3);
-  EXPECT_NEAR(scenario.hands[1].start_offset.x(), 0.08, 1e-3);
-  EXPECT_NEAR(scenario.hands[1].start_offset.z(), 0.6, 1e-3);
+  EXPECT_NEAR(scenario.sites[0].hand.start_offset.x(), -0.08, 1e-3);
+  EXPECT_NEAR(scenario.sites[1].hand.start_offset.x(), 0.08, 1e-3);
+  EXPECT_NEAR(scenario.sites[1].hand.start_offset.z(), 0.6, 1e-3);
   expectRefused(file, "there are: bob",
                 [](const auto& path) { return loadScenario(path, {"world.share=[\"base\"]"}); });
   expectRefused(file, "--share NAME; there are: bob",

@@ -62,7 +62,7 @@ void placeUsers(Scenario& scenario) {
   const Vec3 half = 0.5 * (high - low).cwiseAbs(), middle = 0.5 * (low + high);
   const double distance = half.x() + scenario.site.proxy.radius + kGap;
   for (const std::size_t i : {0, 1})
-    if (Vec3& place = scenario.hands[i].start_offset; place == Vec3::Zero())
+    if (Vec3& place = scenario.sites[i].hand.start_offset; place == Vec3::Zero())
       place = middle + (i == 0 ? -distance : distance) * Vec3::UnitX();
   if (scenario.camera.distance > 0.0) return;
   scenario.camera.target = middle;

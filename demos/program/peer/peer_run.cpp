@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "peer/answer_check.h"
+#include "scenario/site_checks.h"
 #include "terminal/usage_error.h"
 #include "world/received_object.h"
 
@@ -30,6 +31,7 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
         peers.push_back(std::move(peer));
         return peers;
       }()) {
+  requireTwoSites(scenario, "tandem peer");
   if (scenario.site.contact_model != ContactModel::kIsland ||
       scenario.site.injection != Injection::kHandoff)
     throw UsageError(

@@ -13,12 +13,13 @@
 namespace tandem::demos {
 namespace {
 
-void printSummary(const nlohmann::json& s) {
+void printSummary(const nlohmann::json& s, std::size_t sites) {
   fmt::print("{:<34}{:>12.3f} mm\n", "coherency error, mean",
              1e3 * s["coherency"]["mean_abs"].get<double>());
   fmt::print("{:<34}{:>12.3f} mm\n", "coherency error, largest",
              1e3 * s["coherency"]["max_abs"].get<double>());
-  for (const char* site : {"site1", "site2"}) {
+  for (std::size_t number = 1; number <= sites; ++number) {
+    const std::string site = fmt::format("site{}", number);
     const nlohmann::json& one = s[site];
     fmt::print("{} force, mean / largest         {:>12.3f} / {:.3f} N\n", site,
                one["force"]["mean"].get<double>(), one["force"]["max"].get<double>());
@@ -38,7 +39,7 @@ class RunCommand final : public Command {
                      {.is_required = true});
     arguments.repeated("--set", overrides_, "override a key, e.g. --set network.delay=0.1");
     arguments.repeated("--share", shares_, "a body of the world's file that both users move");
-    arguments.option("--out", folder_, "folder for site1.csv, site2.csv, scene.csv, summary.json");
+    arguments.option("--out", folder_, "folder for site1.csv ..., scene.csv, summary.json");
     arguments.flag("--json", json_, "print summary.json to stdout");
     arguments.flag("--quiet", quiet_, "print nothing but errors");
   }
@@ -54,16 +55,16 @@ class RunCommand final : public Command {
     }
     const nlohmann::json summary = makeSummary(scenario, run);
     if (folder) writeRun(*folder, summary, run);
-    print(summary);
+    print(summary, scenario.sites.size());
     return kDone;
   }
 
  private:
-  void print(const nlohmann::json& summary) const {
+  void print(const nlohmann::json& summary, std::size_t sites) const {
     if (json_) {
       writeOutput(summary.dump(2) + "\n");
     } else if (!quiet_) {
-      printSummary(summary);
+      printSummary(summary, sites);
     }
     finishOutput();
   }

@@ -16,7 +16,7 @@ struct SceneFrameRecord {
   std::vector<RigidState> poses;  ///< ordered as in SceneRecord::bodies()
 };
 
-/// A body of a picture, and its site (1 or 2).
+/// A body of a picture, and its site, from 1.
 struct PlacedSceneBody {
   int site = 1;
   SceneBody body;
@@ -31,7 +31,8 @@ class SceneRecord {
   /// Keeps pictures of the first `duration` seconds, for which it reserves memory.
   SceneRecord(const SceneFrame& frame, double duration);
 
-  /// Adds the world of site 1 or 2, which must outlive the last keep(). Before the first picture.
+  /// Adds the world of a site, from 1, which must outlive the last keep(). Before the first
+  /// picture.
   void add(int site, SiteWorld& world);
 
   /// True if it is time for the next picture at `time` [s], and there is room for it. A world that

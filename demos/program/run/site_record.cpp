@@ -29,7 +29,7 @@ nlohmann::json describeLoop(const LoopReport& loop) {
 /// A scenario has no hand beside a slot, where a mouse may have left it.
 Scenario putHandsIntoSlot(Scenario scenario) {
   if (scenario.guide)
-    for (HandScenario& hand : scenario.hands) hand.start_offset.tail<2>().setZero();
+    for (SiteScenario& site : scenario.sites) site.hand.start_offset.tail<2>().setZero();
   return scenario;
 }
 

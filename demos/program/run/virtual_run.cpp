@@ -1,17 +1,20 @@
 #include "run/virtual_run.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-
-#include "world/received_object.h"
 
 namespace tandem::demos {
 namespace {
 
-/// Largest number of packets that one site can receive in a run, with all duplicates and some room.
+/// Largest number of packets that a site can receive in a run, with all duplicates and some room.
 std::size_t countArrivals(const Scenario& scenario) {
-  return static_cast<std::size_t>(2.0 * scenario.duration * scenario.site.packet_rate) + 16;
+  const std::size_t remotes = scenario.sites.size() - 1;
+  return remotes *
+         (static_cast<std::size_t>(2.0 * scenario.duration * scenario.site.packet_rate) + 16);
+}
+
+int countProxies(const Site& site) {
+  return site.remoteCount() > 0 && site.proxyBody(0) ? site.remoteCount() : 0;
 }
 
 }  // namespace
@@ -21,20 +24,19 @@ VirtualRun::VirtualRun(const Scenario& scenario)
       frame_(makeSceneFrame(scenario)),
       tick_count_(
           static_cast<std::uint64_t>(std::llround(scenario.duration * scenario.site.haptic_rate))),
+      links_(scenario),
       scene_(frame_, scenario.duration) {
-  const double in_flight =
-      (scenario.network.delay + scenario.network.jitter) * scenario.site.packet_rate * 2.0;
-  std::tie(ends_[0], ends_[1]) =
-      makeSimulatedLinks(scenario.network, static_cast<std::size_t>(in_flight) + 64);
-  for (int s = 0; s < 2; ++s) {
-    worlds_[s] = std::make_unique<SiteWorld>(scenario, s, *ends_[s]);
-    Site& site = worlds_[s]->site();
-    recordings_[s] = std::make_unique<Recording>(tick_count_, countArrivals(scenario),
-                                                 site.objectCount(), site.proxyBody(0) ? 1 : 0);
-    site.record(recordings_[s].get());
-    scene_.add(s + 1, *worlds_[s]);
-  }
-  if (scenario.hasObject()) received_W_.fill(worlds_[0]->site().object(0).p_W);
+  for (int s = 0; s < static_cast<int>(scenario.sites.size()); ++s) addSite(s);
+  coherency_.emplace(worlds_);
+}
+
+void VirtualRun::addSite(int s) {
+  worlds_.push_back(std::make_unique<SiteWorld>(scenario_, s, links_.of(s)));
+  Site& site = worlds_.back()->site();
+  recordings_.push_back(std::make_unique<Recording>(tick_count_, countArrivals(scenario_),
+                                                    site.objectCount(), countProxies(site)));
+  site.record(recordings_.back().get());
+  scene_.add(s + 1, *worlds_.back());
 }
 
 void VirtualRun::run(const std::function<void(double)>& progress) {
@@ -57,29 +59,14 @@ void VirtualRun::run(const std::function<void(double)>& progress) {
 }
 
 void VirtualRun::tickAll(std::uint64_t tick) {
-  addCoherency();
+  coherency_->add();
   const double now = static_cast<double>(tick) / scenario_.site.haptic_rate;
   for (auto& world : worlds_) world->site().tick(now);
 }
 
-void VirtualRun::addCoherency() {
-  if (!scenario_.hasObject()) return;
-  double error = 0.0;
-  for (ObjectId id = 0; static_cast<int>(id) < worlds_[0]->site().objectCount(); ++id)
-    error = std::max(
-        error, (worlds_[0]->site().object(id).p_W - worlds_[1]->site().object(id).p_W).norm());
-  summary_.coherency_mean += error;
-  summary_.coherency_max = std::max(summary_.coherency_max, error);
-  for (std::size_t s = 0; s < 2; ++s) {
-    const Site& site = worlds_[s]->site();
-    if (const auto received = findObject(site.latest(0), 0)) received_W_[s] = received->p_W;
-    summary_.sites[s].received_mean += (site.object(0).p_W - received_W_[s]).norm();
-  }
-}
-
 void VirtualRun::checkHealth() {
-  for (int s = 0; s < 2; ++s) {
-    const std::uint32_t status = worlds_[s]->site().status();
+  for (int s = 0; s < siteCount(); ++s) {
+    const std::uint32_t status = world(s).site().status();
     const std::string site = "site " + std::to_string(s + 1) + ": ";
     if (status & kBodyMissing)
       throw Error(site + "a body was taken out of the Bullet world while it was attached");
@@ -91,19 +78,28 @@ void VirtualRun::checkHealth() {
 }
 
 void VirtualRun::summarise() {
-  const double ticks = static_cast<double>(tick_count_);
-  summary_.coherency_mean /= ticks;
-  for (int s = 0; s < 2; ++s) {
-    SiteSummary& site = summary_.sites[s];
-    const double received_mean = site.received_mean / ticks;
-    site = summariseSite(worlds_[s]->site(), *recordings_[s]);
-    site.received_mean = received_mean;
-    const Vec3 start_W = computeStart(scenario_, frame_, s);
-    const DeviceSample end = worlds_[s]->device().read(scenario_.duration);
-    site.device_end = frame_.toScene(end.hip.p_W - start_W).x();
+  coherency_->finish(static_cast<double>(tick_count_));
+  summary_.coherency_mean = coherency_->mean();
+  summary_.coherency_max = coherency_->max();
+  summary_.pairs = coherency_->pairs();
+  std::vector<const Recording*> recordings;
+  for (const auto& recording : recordings_) recordings.push_back(recording.get());
+  summary_.common_motion = computeCommonMotion(recordings, frame_.toWorld(Vec3::UnitX()));
+  summary_.state_hash = 0;
+  for (int s = siteCount() - 1; s >= 0; --s) {
+    summary_.state_hash *= 0x9e3779b97f4a7c15u;
+    summary_.state_hash ^= world(s).site().stateHash();
   }
-  summary_.state_hash =
-      worlds_[0]->site().stateHash() ^ (worlds_[1]->site().stateHash() * 0x9e3779b97f4a7c15u);
+  for (int s = 0; s < siteCount(); ++s) summariseSite(s);
+}
+
+void VirtualRun::summariseSite(int s) {
+  SiteSummary& site =
+      summary_.sites.emplace_back(demos::summariseSite(world(s).site(), recording(s)));
+  site.received_mean = coherency_->receivedMean(static_cast<std::size_t>(s));
+  const DeviceSample end = world(s).device().read(scenario_.duration);
+  site.device_end = frame_.toScene(end.hip.p_W - computeStart(scenario_, frame_, s)).x();
+  summary_.felt.push_back(computeFelt(recording(s), scenario_.site.proxy.radius));
 }
 
 }  // namespace tandem::demos

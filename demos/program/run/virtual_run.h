@@ -1,12 +1,16 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "tandem/plugin/recording.h"
 
+#include "run/coherency.h"
+#include "run/common_motion.h"
 #include "run/scene_record.h"
+#include "run/site_links.h"
 #include "scenario/scenario.h"
 #include "world/scene.h"
 #include "world/site_summary.h"
@@ -16,14 +20,17 @@ namespace tandem::demos {
 /// Results of a run: the numbers of summary.json.
 struct RunSummary {
   double coherency_mean = 0.0,
-         coherency_max = 0.0;  ///< the largest |copy at site 1 - at site 2| [m]
-  SiteSummary sites[2];
+         coherency_max = 0.0;  ///< the largest distance of copies at two sites [m]
+  std::vector<PairCoherency> pairs;
+  CommonMotion common_motion;
+  std::vector<SiteSummary> sites;
+  std::vector<FeltShares> felt;  ///< by each site's user
   std::uint64_t state_hash = 0;
   double real_time_factor = 0.0;
 };
 
-/// Two sites, two Bullet worlds and the network between, in virtual time: one thread, as fast as
-/// the machine.
+/// All sites of a scenario, a Bullet world for each and the network between, in virtual time: one
+/// thread, as fast as the machine.
 class VirtualRun {
  public:
   explicit VirtualRun(const Scenario& scenario);
@@ -33,25 +40,30 @@ class VirtualRun {
   void run(const std::function<void(double)>& progress = {});
 
   [[nodiscard]] const RunSummary& summary() const noexcept { return summary_; }
-  [[nodiscard]] const Recording& recording(int site) const noexcept { return *recordings_[site]; }
+  [[nodiscard]] int siteCount() const noexcept { return static_cast<int>(worlds_.size()); }
+  [[nodiscard]] const Recording& recording(int site) const noexcept {
+    return *recordings_[static_cast<std::size_t>(site)];
+  }
   [[nodiscard]] const SceneFrame& frame() const noexcept { return frame_; }
-  [[nodiscard]] SiteWorld& world(int site) noexcept { return *worlds_[site]; }
+  [[nodiscard]] SiteWorld& world(int site) noexcept {
+    return *worlds_[static_cast<std::size_t>(site)];
+  }
   [[nodiscard]] const SceneRecord& scene() const noexcept { return scene_; }
 
  private:
+  void addSite(int site);
   void tickAll(std::uint64_t tick);
-  void addCoherency();
   void checkHealth();
   void summarise();
+  void summariseSite(int site);
 
   Scenario scenario_;
   SceneFrame frame_;
   std::uint64_t tick_count_;
-  std::unique_ptr<SimulatedLink> ends_[2];
-  std::unique_ptr<SiteWorld> worlds_[2];
-  std::unique_ptr<Recording> recordings_[2];
-  /// First object as each site last heard of it [m].
-  std::array<Vec3, 2> received_W_ = {Vec3::Zero(), Vec3::Zero()};
+  SiteLinks links_;
+  std::vector<std::unique_ptr<SiteWorld>> worlds_;
+  std::vector<std::unique_ptr<Recording>> recordings_;
+  std::optional<Coherency> coherency_;
   SceneRecord scene_;
   RunSummary summary_;
 };

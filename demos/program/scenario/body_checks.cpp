@@ -95,6 +95,12 @@ void checkBody(const BodyScenario& body, const Refuse& refuse) {
   if (body.tool_of != 0 && !body.shared) refuse(key + ".tool_of: needs shared = true");
 }
 
+void checkTool(const Scenario& s, const BodyScenario& body, const Refuse& refuse) {
+  if (body.tool_of > static_cast<int>(s.sites.size()))
+    refuse(fmt::format("body.{}.tool_of = {}: there are {} sites", body.name, body.tool_of,
+                       s.sites.size()));
+}
+
 void checkJoint(const Scenario& s, const JointScenario& joint, std::size_t number,
                 const Refuse& refuse) {
   const std::string key = fmt::format("joint.{}", number);
@@ -134,6 +140,7 @@ void checkBodies(const Scenario& s, const Refuse& refuse) {
   std::set<std::string> names;
   for (const BodyScenario& body : s.bodies) {
     checkBody(body, refuse);
+    checkTool(s, body, refuse);
     if (!names.insert(body.name).second)
       refuse("body.name = \"" + body.name + "\": two bodies have it; name them apart");
   }

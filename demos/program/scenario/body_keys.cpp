@@ -22,7 +22,8 @@ std::string readColour(const Place& place, const toml::node& node) {
 
 int readUser(const Place& place, const toml::node& node) {
   const auto value = node.is_integer() ? node.value<int>() : std::nullopt;
-  if (!value || *value < 0 || *value > 2) refuse(place, node, "1 or 2, a user; 0: nobody's tool");
+  if (!value || *value < 0 || *value > static_cast<int>(kMostSites))
+    refuse(place, node, "1 or 2, a user, or another site's; 0: nobody's tool");
   return *value;
 }
 
@@ -136,7 +137,7 @@ std::vector<KeyOf<BodyScenario>> makeBodyKeys() {
        numberKey<B>({"damping", "of a shared body's copies", "N s/m"}, kNotNegative, &B::damping),
        flagKey<B>({"shared", "both users move it; others are each site's own"}, &B::shared),
        valueKey<B>({"tool_of", "user whose hand holds it always, by its origin", "", "shared only"},
-                   "0 (nobody), 1, 2", &readUser, &B::tool_of),
+                   "0 (nobody) to the number of sites", &readUser, &B::tool_of),
        valueKey<B>({"colour", "in pictures", "", "", "of its role"}, "`#rrggbb`", &readColour,
                    &B::colour)});
   return keys;

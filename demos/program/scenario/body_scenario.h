@@ -46,7 +46,7 @@ struct BodyScenario {
   double restitution = 0.0;
   double damping = 0.0;  ///< of a shared body's copies [N s/m]
   bool shared = false;
-  int tool_of = 0;     ///< user (1, 2) whose hand holds it always; 0: nobody's tool
+  int tool_of = 0;     ///< user (from 1) whose hand holds it always; 0: nobody's tool
   std::string colour;  ///< "#rrggbb"; empty: that of its role
 };
 

@@ -2,6 +2,7 @@
 
 #include "scenario/body_keys.h"
 #include "scenario/keys.h"
+#include "scenario/site_keys.h"
 
 namespace tandem::demos {
 namespace {
@@ -19,31 +20,30 @@ std::string show(const nlohmann::json& value) {
 }
 
 template <typename Owner>
-std::string makeRow(const KeyOf<Owner>& key, const std::string& name) {
+std::string makeRow(const KeyOf<Owner>& key) {
   const std::string value = key.otherwise.empty() ? show(key.show(Owner{})) : key.otherwise;
   const std::string unit = key.unit.empty() ? "" : " " + key.unit;
-  return fmt::format("| `{}` | {} |{} | {} | {} |\n", name, key.meaning, unit, value, key.allowed);
+  return fmt::format("| `{}` | {} |{} | {} | {} |\n", key.name, key.meaning, unit, value,
+                     key.allowed);
 }
 
 template <typename Owner>
 std::string makeTable(const std::vector<KeyOf<Owner>>& keys) {
   std::string table = kHead;
-  for (const KeyOf<Owner>& key : keys) table += makeRow(key, key.name);
+  for (const KeyOf<Owner>& key : keys) table += makeRow(key);
   return table;
 }
 
 }  // namespace
 
 std::array<std::string, 4> describeKeys() {
-  const std::string first_site = "site1.";
-  std::array<std::string, 4> tables = {kHead, makeTable(bodyKeys()), makeTable(jointKeys()), kHead};
-  for (const ScenarioKey& key : scenarioKeys()) {
-    if (key.name.starts_with(first_site)) {
-      tables[3] += makeRow(key, key.name.substr(first_site.size()));
-    } else if (!key.name.starts_with("site")) {
-      tables[0] += makeRow(key, key.name);
-    }
-  }
+  std::array<std::string, 4> tables = {kHead, makeTable(bodyKeys()), makeTable(jointKeys()),
+                                       makeTable(siteKeys())};
+  const auto is_of_one_site = [](const std::string& name) {
+    return name.starts_with("site") && name != "site";
+  };
+  for (const ScenarioKey& key : scenarioKeys())
+    if (!is_of_one_site(key.name)) tables[0] += makeRow(key);
   return tables;
 }
 

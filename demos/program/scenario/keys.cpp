@@ -10,7 +10,7 @@
 
 #include "scenario/body_keys.h"
 #include "scenario/key_kinds.h"
-#include "scenario/key_rows.h"
+#include "scenario/site_keys.h"
 #include "scenario/table_keys.h"
 
 namespace tandem::demos {
@@ -43,26 +43,6 @@ std::uint64_t readSeed(const Place& place, const toml::node& node) {
   const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
   if (!value || *value < 0) refuse(place, node, "a whole number, 0 or more");
   return static_cast<std::uint64_t>(*value);
-}
-
-std::vector<std::array<double, 4>> readWaypoints(const Place& place, const toml::node& node) {
-  const FieldRange range{-1e6, 1e6, false, "a list of [t, x, y, z] with growing t"};
-  const auto waypoints = readRows<4>(place, node, range);
-  if (waypoints.empty()) refuse(place, node, range.allowed);
-  for (std::size_t i = 1; i < waypoints.size(); ++i)
-    if (!(waypoints[i][0] > waypoints[i - 1][0])) refuse(place, node, range.allowed);
-  return waypoints;
-}
-
-std::vector<std::array<double, 2>> readGrips(const Place& place, const toml::node& node) {
-  const FieldRange range{0.0, 3600.0, false, "a list of [from, to] with growing times"};
-  const auto grips = readRows<2>(place, node, range);
-  double last = 0.0;
-  for (const auto& [from, to] : grips) {
-    if (!(from >= last && to > from)) refuse(place, node, range.allowed);
-    last = to;
-  }
-  return grips;
 }
 
 void readBoxes(std::vector<NeighbourBox>& boxes, const Place& place, const toml::node& node) {
@@ -145,9 +125,12 @@ Keys makeCouplingKeys() {
 }
 
 Keys makeBodyKeys() {
+  const auto device = [](auto member) {
+    return [member](auto& s) -> auto& { return s.device.*member; };
+  };
   return {
-      numberKey({"object.mass", "m, of the whole cube; each copy carries m/2", "kg"}, kPositive,
-                &S::object_mass),
+      numberKey({"object.mass", "m, of the whole cube; each of N copies carries m/N", "kg"},
+                kPositive, &S::object_mass),
       numberKey({"object.damping", "b, of each copy", "N s/m"}, kNotNegative, &S::object_damping),
       numberKey({"object.size", "edge of the cube", "m"}, kPositive, &S::object_size),
       siteKey("proxy.mass"),
@@ -156,14 +139,42 @@ Keys makeBodyKeys() {
       siteKey("grip.stiffness"),
       siteKey("grip.max_force"),
       siteKey("grip.lift_time"),
-      own(numberKey({"device.mass", "of the simulated device", "kg"}, kPositive, &S::device_mass)),
-      own(numberKey({"device.damping", "b_dev", "N s/m"}, kNotNegative, &S::device_damping)),
+      own(numberKey({"device.mass", "of the simulated device", "kg"}, kPositive,
+                    device(&DeviceScenario::mass))),
+      own(numberKey({"device.damping", "b_dev", "N s/m"}, kNotNegative,
+                    device(&DeviceScenario::damping))),
       own(numberKey(
           {"device.encoder_resolution", "step in which positions are read; 0: exact", "m"},
-          kNotNegative, &S::encoder_resolution)),
+          kNotNegative, device(&DeviceScenario::encoder_resolution))),
       own(numberKey({"device.max_force", "motors saturate here; 0: no limit", "N"}, kNotNegative,
-                    &S::device_max_force)),
+                    device(&DeviceScenario::max_force))),
   };
+}
+
+std::vector<std::vector<double>> readDelays(const Place& place, const toml::node& node) {
+  const FieldRange range{0.0, kMost, false,
+                         "a row for each site as sender, with a number for each as receiver"};
+  const toml::array* rows = node.as_array();
+  if (!rows) refuse(place, node, range.allowed);
+  std::vector<std::vector<double>> delays;
+  for (const toml::node& row : *rows) {
+    const toml::array* values = row.as_array();
+    if (!values || values->size() != rows->size()) refuse(place, node, range.allowed);
+    std::vector<double>& numbers = delays.emplace_back();
+    for (const toml::node& value : *values) numbers.push_back(readNumber(place, value, range));
+  }
+  return delays;
+}
+
+ScenarioKey delaysKey() {
+  ScenarioKey key =
+      own(valueKey({"network.delays", "one way, in place of `network.delay`: `[from][to]`", "s",
+                    "no `delay` of a site", "none"},
+                   "a row for each site", &readDelays, &S::delays));
+  key.show = [](const S& s) {
+    return s.delays.empty() ? nlohmann::json() : nlohmann::json(s.delays);
+  };
+  return key;
 }
 
 Keys makeNetworkKeys() {
@@ -171,6 +182,7 @@ Keys makeNetworkKeys() {
       own(numberKey(
           {"network.delay", "one way", "s", "at most `experiment.duration`"}, kNotNegative,
           [](auto& s) -> auto& { return s.network.delay; })),
+      delaysKey(),
       siteKey("network.rate", "packet_rate", kPositive, "at most `rates.haptic`"),
       own(numberKey(
           {"network.jitter", "delay is even in delay +- jitter; may reorder", "s"}, kNotNegative,
@@ -254,50 +266,10 @@ Keys makeCameraKeys() {
   return keys;
 }
 
-Keys makeHandKeys(std::size_t i) {
-  const std::string site = i == 0 ? "site1." : "site2.";
-  const auto hand = [i](auto member) {
-    return [ i, member ](auto& s) -> auto& { return s.hands[i].*member; };
-  };
-  using Hand = HandScenario;
-  Keys keys = {
-      choiceKey({site + "hand", "the kind of hand"}, {"constant", "sine", "minimum_jerk", "csv"},
-                hand(&Hand::kind)),
-      vectorKey({site + "hand_force", "the constant force, or the amplitude of the sine", "N"},
-                hand(&Hand::force)),
-      numberKey({site + "hand_frequency", "of the sine", "Hz"}, kPositive, hand(&Hand::frequency)),
-      valueKey({site + "hand_waypoints",
-                "of `minimum_jerk`: list of `[t, x, y, z]`, displacements from the start", "s, m",
-                "", "none"},
-               "growing t", &readWaypoints, hand(&Hand::waypoints)),
-      numberKey({site + "hand_stiffness", "with which that hand holds the device", "N/m"},
-                kNotNegative, hand(&Hand::stiffness)),
-      numberKey({site + "hand_damping", "of that hold", "N s/m"}, kNotNegative,
-                hand(&Hand::damping)),
-      textKey(
-          {site + "hand_file",
-           "of `csv`: `t,force_x,force_y,force_z`, forces of at most 1e6; path from the scenario",
-           "s, N", "", "none"},
-          hand(&Hand::file)),
-      vectorKey(
-          {site + "start_offset",
-           "of the device, from \"just in contact on the axis\"; in a `world`: from the origin",
-           "m", "off the axis: no guide"},
-          hand(&Hand::start_offset)),
-      valueKey({site + "grips",
-                "times in which the hand holds the cube that it touches: list of `[from, to]`", "s",
-                "no guide, island, handoff", "none"},
-               "growing times", &readGrips, hand(&Hand::grips)),
-  };
-  for (ScenarioKey& key : keys) key.is_own = true;
-  return keys;
-}
-
 Keys makeKeys() {
   Keys all;
-  for (const Keys& part :
-       {makeExperimentKeys(), makeCouplingKeys(), makeBodyKeys(), makeNetworkKeys(),
-        makeWorldKeys(), makeCameraKeys(), makeHandKeys(0), makeHandKeys(1)})
+  for (const Keys& part : {makeExperimentKeys(), makeCouplingKeys(), makeBodyKeys(),
+                           makeNetworkKeys(), makeWorldKeys(), makeCameraKeys(), makeSiteKeys()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

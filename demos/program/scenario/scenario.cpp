@@ -10,6 +10,7 @@
 #include "scenario/body_checks.h"
 #include "scenario/described_scenario.h"
 #include "scenario/keys.h"
+#include "scenario/site_checks.h"
 #include "scenario/table_keys.h"
 #include "terminal/usage_error.h"
 
@@ -113,9 +114,6 @@ void checkNative(const Scenario& s, const std::function<void(const std::string&)
 /// Checks that involve several keys.
 void checkTogether(const Scenario& s, const std::string& file) {
   const auto refuse_pair = [&](const std::string& text) { throw UsageError(file + ": " + text); };
-  if (s.network.delay > s.duration)
-    refuse_pair(fmt::format("network.delay = {}: must not be longer than experiment.duration = {}",
-                            s.network.delay, s.duration));
   if (s.site.packet_rate > s.site.haptic_rate)
     refuse_pair(fmt::format("network.rate = {}: must not be above rates.haptic = {}",
                             s.site.packet_rate, s.site.haptic_rate));
@@ -135,29 +133,29 @@ void checkTogether(const Scenario& s, const std::string& file) {
   if ((s.angular_stiffness < 0.0) != (s.angular_damping < 0.0))
     refuse_pair(
         "coordination.angular_stiffness and coordination.angular_damping: give both or neither");
-  for (std::size_t i = 0; i < 2; ++i) {
-    const HandScenario& hand = s.hands[i];
-    const std::string site = i == 0 ? "site1" : "site2";
-    if (hand.kind == "minimum_jerk" && hand.waypoints.empty())
-      refuse_pair(site + ".hand = \"minimum_jerk\": needs " + site + ".hand_waypoints");
-    if (hand.kind == "csv" && hand.file.empty())
-      refuse_pair(site + ".hand = \"csv\": needs " + site + ".hand_file");
-    if (s.guide && s.kind != "playground" && hand.start_offset.tail<2>() != Eigen::Vector2d::Zero())
-      refuse_pair(site + ".start_offset: off the axis needs experiment.guide = false");
-    if (!hand.grips.empty() && !s.mayGrip()) refuse_pair(site + ".grips: " + kGripNeeds);
-  }
   if (s.guide && (s.kind == "playground" || s.isWorld()))
     refuse_pair(fmt::format("experiment.guide = true: a {} is free; set it to false", s.kind));
   if (s.guide && (s.floor || !s.boxes.empty()))
     refuse_pair(
         "world.floor, world.boxes: an enclosure's slot holds nothing else; set experiment.guide = "
         "false");
+  checkSites(s, refuse_pair);
   checkBodies(s, refuse_pair);
+}
+
+/// A file has either [[site]], or [site1] and [site2].
+void checkOneKindOfSites(const toml::table& table, const std::string& file) {
+  if (!table.contains("site")) return;
+  for (const auto& [key, node] : table)
+    if (holdsKeys(std::string(key.str())) && key.str().starts_with("site"))
+      throw UsageError(fmt::format("{}: a file has either [[site]] or [site1] and [site2]",
+                                   describePlace({file, std::string(key.str())}, node)));
 }
 
 Scenario makeScenario(const toml::table& table, const std::string& name,
                       const std::vector<std::string>& overrides) {
   Scenario scenario;
+  checkOneKindOfSites(table, name);
   applyTable(scenario, name, "", table);
   for (const std::string& override_text : overrides) applyOverride(scenario, override_text);
   checkTogether(scenario, name);
@@ -186,9 +184,11 @@ nlohmann::json describeScenario(const Scenario& scenario) {
   nlohmann::json all;
   for (const auto& [name, key] : allKeys()) {
     const auto dot = name.find('.');
+    nlohmann::json value = key->show(scenario);
+    if (value.is_null()) continue;
     nlohmann::json& place =
         dot == std::string::npos ? all[name] : all[name.substr(0, dot)][name.substr(dot + 1)];
-    place = key->show(scenario);
+    place = std::move(value);
   }
   return all;
 }

@@ -15,22 +15,9 @@
 #include "tandem/plugin/site_settings.h"
 
 #include "scenario/body_scenario.h"
+#include "scenario/site_scenario.h"
 
 namespace tandem::demos {
-
-/// Action of a simulated user's hand; vectors in the scene's own frame.
-struct HandScenario {
-  std::string kind = "constant";  ///< constant, sine, minimum_jerk, csv
-  Vec3 force = Vec3::Zero();      ///< constant force, or amplitude of the sine [N]
-  double frequency = 1.0;         ///< frequency of the sine [Hz]
-  double stiffness = 300.0;       ///< stiffness of a hand that follows waypoints [N/m]
-  double damping = 5.0;           ///< [N s/m]
-  std::vector<std::array<double, 4>> waypoints;  ///< t, and displacement from the start [s, m]
-  std::vector<std::array<double, 2>> grips;      ///< times in which the hand holds the object [s]
-  std::string file;                              ///< file of the csv hand, relative to the scenario
-  Vec3 start_offset =
-      Vec3::Zero();  ///< start of the device, relative to "just in contact on the axis" [m]
-};
 
 /// A box of a site's own world that is not shared.
 struct NeighbourBox {
@@ -56,7 +43,7 @@ struct Scenario {
   Vec3 axis = Vec3::UnitX();
   bool guide = true;
 
-  /// Numbers of both sites. The members beside it set the rest, such as scheme and guide.
+  /// Numbers of all sites. The members beside it set the rest, such as scheme and guide.
   SiteSettings site;
   double angular_stiffness = -1.0;  ///< below 0: derived from the linear gains, see SiteSettings
   double angular_damping = -1.0;
@@ -64,13 +51,13 @@ struct Scenario {
   double object_mass = 0.2;
   double object_damping = 0.0;
   double object_size = 0.04;
-  double device_mass = 0.1;
-  double device_damping = 0.5;
-  double encoder_resolution = 0.0;
-  double device_max_force = 60.0;  ///< 0: no limit
+  DeviceScenario device;  ///< of each site that has none of its own
 
-  std::array<HandScenario, 2> hands;
-  Impairments network{0.05};
+  std::vector<SiteScenario> sites = std::vector<SiteScenario>(2);
+  Impairments network{0.05};  ///< between each two sites
+  /// One-way delays [s], by the number of the sender and of the receiver; empty: by
+  /// `network.delay` and the sites' own. See computeDelay().
+  std::vector<std::vector<double>> delays;
   double host_rate = 240.0;
   double inner_rate = 4000.0;
 
@@ -113,7 +100,7 @@ struct Scenario {
 [[nodiscard]] Scenario changeScenario(const Scenario& scenario,
                                       const std::vector<std::string>& overrides);
 
-/// All keys with their values, nested as in the file.
+/// All keys that have a value, nested as in the file.
 [[nodiscard]] nlohmann::json describeScenario(const Scenario& scenario);
 
 /// The scenario that describeScenario() describes; `name` stands for its file in messages. Throws

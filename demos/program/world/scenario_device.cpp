@@ -23,7 +23,7 @@ class SceneHand final : public Hand {
 };
 
 std::unique_ptr<Hand> makeHand(const Scenario& scenario, const SceneFrame& frame, int site) {
-  const HandScenario& hand = scenario.hands[static_cast<std::size_t>(site)];
+  const HandScenario& hand = scenario.sites[static_cast<std::size_t>(site)].hand;
   if (hand.kind == "sine") return makeSineHand(frame.toWorld(hand.force), hand.frequency, 0.0);
   if (hand.kind == "csv") {
     try {
@@ -49,13 +49,15 @@ std::unique_ptr<Hand> makeHand(const Scenario& scenario, const SceneFrame& frame
 std::unique_ptr<SimulatedDevice> makeScenarioDevice(const Scenario& scenario,
                                                     const SceneFrame& frame, int site) {
   SimulatedDeviceSettings settings;
-  settings.mass = scenario.device_mass;
-  settings.damping = scenario.device_damping;
+  const DeviceScenario device =
+      scenario.sites[static_cast<std::size_t>(site)].makeDevice(scenario.device);
+  settings.mass = device.mass;
+  settings.damping = device.damping;
   settings.start_W = computeStart(scenario, frame, site);
   if (scenario.guide) settings.guide = scenario.axis;
-  settings.encoder_resolution = scenario.encoder_resolution;
-  const double max_force = scenario.device_max_force;
-  settings.max_force = max_force > 0.0 ? max_force : std::numeric_limits<double>::infinity();
+  settings.encoder_resolution = device.encoder_resolution;
+  settings.max_force =
+      device.max_force > 0.0 ? device.max_force : std::numeric_limits<double>::infinity();
   return std::make_unique<SimulatedDevice>(settings, makeHand(scenario, frame, site));
 }
 

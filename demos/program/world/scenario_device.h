@@ -8,7 +8,7 @@
 
 namespace tandem::demos {
 
-/// A user's simulated device and hand, as the scenario has them. `site` is 0 or 1. Throws
+/// A user's simulated device and hand, as the scenario has them. `site` counts from 0. Throws
 /// UsageError for a hand's file that cannot be used.
 [[nodiscard]] std::unique_ptr<SimulatedDevice> makeScenarioDevice(const Scenario& scenario,
                                                                   const SceneFrame& frame,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "tandem/bullet_bridge/convert.h"
 #include "tandem/coordination/scheme.h"
 
@@ -10,9 +12,16 @@
 namespace tandem::demos {
 namespace {
 
+/// `index` counts sites from 0.
+PeerId idOf(int index) { return PeerId{static_cast<std::uint32_t>(index) + 1}; }
+
 SiteSettings makeSettings(const Scenario& scenario, int index) {
+  const SiteScenario& own = scenario.sites[static_cast<std::size_t>(index)];
   SiteSettings settings = scenario.site;
-  settings.self = PeerId{static_cast<std::uint32_t>(index) + 1};
+  settings.self = idOf(index);
+  settings.peers = static_cast<int>(scenario.sites.size());
+  settings.contact.stiffness = own.contact_stiffness.value_or(settings.contact.stiffness);
+  settings.contact.damping = own.contact_damping.value_or(settings.contact.damping);
   settings.host_step = 1.0 / scenario.host_rate;
   if (scenario.angular_stiffness >= 0.0)
     settings.angular_coordination =
@@ -39,20 +48,22 @@ double computeDistance(const btCollisionShape& shape, const Vec3& p_B) {
 
 }  // namespace
 
-SiteWorld::SiteWorld(const Scenario& scenario, int index, Link& link, const BodyPlaces& places)
+SiteWorld::SiteWorld(const Scenario& scenario, int index, const PeerLinks& links,
+                     const BodyPlaces& places)
     : scene_(scenario, places),
       host_rate_(scenario.host_rate),
       simulated_(makeScenarioDevice(scenario, scene_.frame(), index)) {
-  build(scenario, index, link, *simulated_);
+  build(scenario, index, links, *simulated_);
 }
 
-SiteWorld::SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device,
-                     const BodyPlaces& places)
+SiteWorld::SiteWorld(const Scenario& scenario, int index, const PeerLinks& links,
+                     HapticDevice& device, const BodyPlaces& places)
     : scene_(scenario, places), host_rate_(scenario.host_rate) {
-  build(scenario, index, link, device);
+  build(scenario, index, links, device);
 }
 
-void SiteWorld::build(const Scenario& scenario, int index, Link& link, HapticDevice& device) {
+void SiteWorld::build(const Scenario& scenario, int index, const PeerLinks& links,
+                      HapticDevice& device) {
   SceneBody handle;
   handle.name = "device";
   handle.role = "device";
@@ -65,13 +76,21 @@ void SiteWorld::build(const Scenario& scenario, int index, Link& link, HapticDev
     if (placed.plan.body.shared) share(placed);
   hand_radius_ = scenario.site.proxy.radius;
   may_grip_ = scenario.mayGrip();
-  grips_ = scenario.hands[static_cast<std::size_t>(index)].grips;
-  site_->connect(PeerId{index == 0 ? 2u : 1u}, link,
-                 computeStart(scenario, scene_.frame(), 1 - index));
+  grips_ = scenario.sites[static_cast<std::size_t>(index)].hand.grips;
+  connect(scenario, index, links);
+}
 
-  if (const btRigidBody* proxy = site_->proxyBody(0)) {
+/// Connects all other users in the order of their numbers.
+void SiteWorld::connect(const Scenario& scenario, int index, const PeerLinks& links) {
+  for (int other = 0; other < static_cast<int>(scenario.sites.size()); ++other)
+    if (other != index)
+      site_->connect(idOf(other), links.to(other, index),
+                     computeStart(scenario, scene_.frame(), other));
+  for (int remote = 0; remote < site_->remoteCount(); ++remote) {
+    const btRigidBody* proxy = site_->proxyBody(remote);
+    if (!proxy) continue;
     SceneBody body;
-    body.name = "proxy";
+    body.name = remote == 0 ? "proxy" : fmt::format("proxy{}", remote + 1);
     body.role = "proxy";
     body.body = proxy;
     body.radius = scenario.site.proxy.radius;

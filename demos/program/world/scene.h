@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <btBulletDynamicsCommon.h>
@@ -16,14 +17,30 @@
 
 namespace tandem::demos {
 
+/// The links of a site to all other sites, in the order of their numbers.
+class PeerLinks {
+ public:
+  // NOLINTNEXTLINE(google-explicit-constructor): a site of two has one link
+  PeerLinks(Link& only) : links_{&only} {}
+  explicit PeerLinks(std::vector<Link*> links) : links_(std::move(links)) {}
+  /// The link of the site `own` to another one; both count from 0.
+  [[nodiscard]] Link& to(int other, int own) const {
+    return *links_.at(static_cast<std::size_t>(other < own ? other : other - 1));
+  }
+
+ private:
+  std::vector<Link*> links_;
+};
+
 /// One site's Bullet world with its bodies, device and site, as a host would have them.
 class SiteWorld {
  public:
-  /// `index` is 0 for site 1, 1 for site 2. `link` leads to the other site. The device is
+  /// `index` is 0 for site 1, 1 for site 2, and so on. Links must outlive this. The device is
   /// simulated.
-  SiteWorld(const Scenario& scenario, int index, Link& link, const BodyPlaces& places = {});
+  SiteWorld(const Scenario& scenario, int index, const PeerLinks& links,
+            const BodyPlaces& places = {});
   /// The same with any device, for instance a replayed one, which must outlive this.
-  SiteWorld(const Scenario& scenario, int index, Link& link, HapticDevice& device,
+  SiteWorld(const Scenario& scenario, int index, const PeerLinks& links, HapticDevice& device,
             const BodyPlaces& places = {});
   ~SiteWorld();
   SiteWorld(const SiteWorld&) = delete;
@@ -49,7 +66,8 @@ class SiteWorld {
  private:
   [[nodiscard]] bool isGripTime(double time) const noexcept;
   void holdOrRelease(bool wants);
-  void build(const Scenario& scenario, int index, Link& link, HapticDevice& device);
+  void build(const Scenario& scenario, int index, const PeerLinks& links, HapticDevice& device);
+  void connect(const Scenario& scenario, int index, const PeerLinks& links);
   void share(const PlacedBody& placed);
   [[nodiscard]] std::optional<ObjectId> findInReach() const;
 

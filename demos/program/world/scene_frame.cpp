@@ -1,5 +1,7 @@
 #include "world/scene_frame.h"
 
+#include "scenario/user_places.h"
+
 namespace tandem::demos {
 
 SceneFrame makeSceneFrame(const Scenario& scenario) {
@@ -11,12 +13,8 @@ SceneFrame makeSceneFrame(const Scenario& scenario) {
 }
 
 Vec3 computeStart(const Scenario& scenario, const SceneFrame& frame, int site) {
-  const Vec3& offset = scenario.hands[static_cast<std::size_t>(site)].start_offset;
-  if (scenario.isWorld()) return frame.toWorld(offset);
-  const double side = site == 0 ? -1.0 : 1.0;
-  const double distance =
-      scenario.site.proxy.radius + (scenario.hasObject() ? 0.5 * scenario.object_size : 0.0);
-  return frame.toWorld(side * distance * Vec3::UnitX() + offset);
+  const auto at = static_cast<std::size_t>(site);
+  return frame.toWorld(computeUserPlace(scenario, at) + scenario.sites[at].hand.start_offset);
 }
 
 }  // namespace tandem::demos

@@ -16,8 +16,8 @@ struct SceneFrame {
 
 [[nodiscard]] SceneFrame makeSceneFrame(const Scenario& scenario);
 
-/// Start of a user's device in W: just in contact, on the axis, plus the scenario's offset. In a
-/// world the offset is from the origin.
+/// Start of a user's device in W [m]: the user's place, see computeUserPlace(), plus the scenario's
+/// offset.
 [[nodiscard]] Vec3 computeStart(const Scenario& scenario, const SceneFrame& frame, int site);
 
 }  // namespace tandem::demos

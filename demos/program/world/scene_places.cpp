@@ -23,7 +23,7 @@ void startHandsAt(const ScenePlaces& places, Scenario& scenario) {
   for (int user : {0, 1}) {
     const auto at = static_cast<std::size_t>(user);
     const Vec3 away_W = places.hands_W[at] - computeStart(scenario, frame, user);
-    scenario.hands[at].start_offset += frame.toScene(away_W);
+    scenario.sites[at].hand.start_offset += frame.toScene(away_W);
   }
 }
 

@@ -21,7 +21,7 @@ struct SiteSummary {
 /// All values from the site and its recording, except `received_mean` and `device_end`.
 [[nodiscard]] SiteSummary summariseSite(const Site& site, const Recording& recording);
 
-/// The keys of `site1` and `site2` in summary.json.
+/// The keys of `site1` and so on in summary.json.
 [[nodiscard]] nlohmann::json describeSite(const SiteSummary& summary);
 
 }  // namespace tandem::demos

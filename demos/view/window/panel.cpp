@@ -45,7 +45,7 @@ PanelWishes Panel::show(const SessionControl& control, const SessionLook& look) 
   beginPanel(scenario);
   showSettings(control, wishes.session);
   ImGui::Separator();
-  showForce(look, scenario.device_max_force > 0.0 ? scenario.device_max_force : 10.0);
+  showForce(look, scenario.device.max_force > 0.0 ? scenario.device.max_force : 10.0);
   showState(control, look);
   ImGui::Separator();
   showButtons(control, wishes);
