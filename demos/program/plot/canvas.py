@@ -113,12 +113,15 @@ class Sheet:
         return axes
 
     def legend(self, entries, y=55):
-        """One centred row: pairs of a text and the looks of a Line2D."""
+        """Centred rows of at most eight: pairs of a text and the looks of a Line2D."""
+        rows = math.ceil(len(entries) / 8)
+        is_crowded = len(entries) > 6
         handles = [Line2D([], [], **looks) for _, looks in entries]
         self.drawing.legend(
-            handles, [text for text, _ in entries], loc="center", ncol=len(entries),
+            handles, [text for text, _ in entries], loc="center", ncol=math.ceil(len(entries) / rows),
             bbox_to_anchor=((LEFT + INNER / 2) / WIDTH, 1 - y / self.height), frameon=False,
-            handlelength=2.4, handletextpad=0.6, columnspacing=1.8, borderpad=0)
+            handlelength=1.6 if is_crowded else 2.4, handletextpad=0.6,
+            columnspacing=1.2 if is_crowded else 1.8, borderpad=0)
 
 
 def frame(axes):

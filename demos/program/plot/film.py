@@ -41,7 +41,7 @@ class Film:
         self.slowdown = max(1.0, _SHORTEST / self.length) if self.length > 0 else 1.0
         speed = f"slowed down {self.slowdown:.1f} times" if self.slowdown > 1 else \
             "at the speed of the run"
-        self.title = f"What both users saw ({scheme_label(run.scheme)})"
+        self.title = f"What {'both users' if run.sites == 2 else 'users 1 and 2'} saw ({scheme_label(run.scheme)})"
         self.caption = (
             f"What user 1 (left) and user 2 (right) saw, {speed}. The own hand is blue, the other "
             "user’s is orange, and an arrow is the force on the hand. An orange frame is the "

@@ -6,6 +6,9 @@ from html import escape
 from film import Film, can_film
 from findings import coherency_findings, contact_findings, sweep_findings
 from grouping import Grouping, text_without_scheme
+from many_figures import many_matrices, many_motion, many_overview
+from many_runs import group_many
+from many_tables import many_table
 from page import figure, page
 from paper import paper_outcome
 from run_figures import contact_motion, cooperation_motion, live_motion, spatial_motion
@@ -32,6 +35,8 @@ class Report:
             "devices. Each site simulates its own copy of the scene; states travel over a network "
             "with delay. The figures show how well the copies agree and how contact feels under "
             "each scheme.")
+        many = [run for run in runs if run.sites > 2]
+        runs = [run for run in runs if run.sites == 2]
         grouping = Grouping(runs)
         virtual = [run for run in runs if not run.is_live]
         self._add_glance(grouping)
@@ -39,6 +44,7 @@ class Report:
         self._add_contact(grouping.groups[CONTACT])
         self._add_sweeps(grouping.sweeps)
         self._add_playgrounds([run for run in virtual if run.kind == PLAYGROUND])
+        self._add_many(group_many(many))
         self._add_live([(run, _twin_of(run, virtual)) for run in runs if run.is_live])
         self._add_numbers(virtual)
 
@@ -121,6 +127,23 @@ class Report:
             self.figure(spatial_motion(run, f"{prefix}-motion"))
             if run.has_object:
                 self.figure(coherency_over_time([run], f"{prefix}-coherency-over-time"))
+
+    def _add_many(self, groups):
+        if groups:
+            self.heading(2, "More than two users")
+            self.paragraph(
+                "N sites, each with a copy of the object that is tied to all others. Drag is what "
+                "holds each user back when all move on together: the force per speed, without the "
+                "device’s own damping.")
+        for prefix, group in _with_prefixes("many", groups):
+            self.heading(3, group.title)
+            if len({run.sites for run in group.runs}) > 1 and group.has_object:
+                self.figure(many_overview(group, f"{prefix}-overview"))
+            self.blocks.append(many_table(group))
+            for number, run in enumerate(group.shown, 1):
+                self.figure(many_motion(run, f"{prefix}-motion-{number}"))
+                self.figure(many_matrices(run, f"{prefix}-pairs-{number}"))
+            self._add_scene(group.shown[-1], prefix)
 
     def _add_live(self, pairs):
         if not pairs:

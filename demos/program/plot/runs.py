@@ -29,7 +29,7 @@ _MEASURED = ["coherency.mean_abs", "coherency.max_abs", "real_time_factor",
 @dataclass
 class Body:
     """A body of a run's scene, as one site sees it. Sizes in metres."""
-    site: int
+    site: int  # from 1
     name: str
     role: str  # object, proxy, device, neighbour or obstacle
     is_static: bool
@@ -43,6 +43,15 @@ class Body:
     @property
     def is_user(self):
         return self.role in ("device", "proxy")
+
+    @property
+    def user(self):
+        """The number of the user whose device or proxy this is. Proxies of a site are numbered in
+        the order of the other users: proxy, proxy2, proxy3."""
+        if self.role == "device":
+            return self.site
+        place = int(self.name.removeprefix("proxy") or 1)
+        return place if place < self.site else place + 1
 
 
 @dataclass
@@ -59,6 +68,12 @@ class Run:
     is_live: bool = False
 
     @property
+    def sites(self):
+        """The number of sites; two at least, of which a live run may lack one."""
+        return max([2, *(int(key.split(".")[0][4:]) for key in self.values
+                         if key.startswith("site") and key.endswith(".contact_transitions"))])
+
+    @property
     def has_object(self):
         return not self.bodies or any(body.role == "object" for body in self.bodies)
 
@@ -72,8 +87,9 @@ class Run:
         return self.number(f"scenario.{key}")
 
     def tables(self):
-        """site1.csv and site2.csv."""
-        return [read_table(os.path.join(self.folder, f"site{site}.csv")) for site in (1, 2)]
+        """site1.csv, site2.csv and those of further sites."""
+        return [read_table(os.path.join(self.folder, f"site{site}.csv"))
+                for site in range(1, self.sites + 1)]
 
     def settings_without(self, *keys):
         return {key: value for key, value in self.settings.items() if key not in keys}
@@ -134,7 +150,7 @@ def parse_object(text, source):
 
 def _read_body(summary, at):
     role, shape = summary.text(f"{at}.role"), summary.text(f"{at}.shape")
-    body = Body(1 if summary.number(f"{at}.site") < 1.5 else 2, summary.text(f"{at}.name", role),
+    body = Body(round(summary.number(f"{at}.site")), summary.text(f"{at}.name", role),
                 role, summary.text(f"{at}.motion", "dynamic") == "static")
     if shape == "box":
         body.half_extents = np.array([summary.number(f"{at}.half_extents.{i}") for i in range(3)])

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import to_rgba
 
 from canvas import LEFT, Figure, frame as draw_frame, line, points, set_axis
-from words import USER_COLOURS, body_colour, scheme_label
+from words import body_colour, scheme_label, user_colour
 
 _WIDTH, _GAP, _TOP, _ROW_GAP = 240, 41, 98, 36  # of panels [px]
 
@@ -71,8 +71,8 @@ def top_view(run, motion, name):
 
     def paint(sheet):
         roles = {body.role: body_colour(body) for body in motion.bodies}
-        sheet.legend([(f"user {user}", points(colour, "o", 13))
-                      for user, colour in USER_COLOURS.items()] +
+        sheet.legend([(f"user {user}", points(user_colour(user), "o", 13))
+                      for user in range(1, run.sites + 1)] +
                      [(role, points(roles[role], "s", 13))
                       for role in ("object", "neighbour", "obstacle") if role in roles])
         for site in (1, 2):

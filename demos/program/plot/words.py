@@ -8,7 +8,8 @@ SCHEMES = ["virtual_coupling", "kinematic_proxy", "remote_dynamic_proxy"]
 # From the Okabe-Ito set, which stays apart under the common kinds of colour blindness.
 _COLOURS = ["#e69f00", "#0072b2", "#009e73", "#d55e00", "#000000"]
 _MARKERS = ["s", "^", "o", "x"]
-USER_COLOURS = {1: "#444444", 2: "#cc79a7"}
+USER_COLOURS = {1: "#444444", 2: "#cc79a7", 3: "#0072b2", 4: "#e69f00", 5: "#009e73", 6: "#d55e00",
+                7: "#56b4e9", 8: "#7a3e9d"}
 
 # Settings with a name of their own; others are called by their key.
 _SETTINGS = {
@@ -41,12 +42,15 @@ def scheme_marker(scheme):
     return _MARKERS[min(SCHEMES.index(scheme), len(_MARKERS) - 1)]
 
 
+def user_colour(user):
+    """Eight colours; users 9 to 16 have them again."""
+    return USER_COLOURS[(user - 1) % len(USER_COLOURS) + 1]
+
+
 def body_colour(body):
-    """Users keep their colour at both sites, whether as device or as proxy."""
-    if body.role == "device":
-        return USER_COLOURS[body.site]
-    if body.role == "proxy":
-        return USER_COLOURS[3 - body.site]
+    """Users keep their colour at all sites, whether as device or as proxy."""
+    if body.is_user:
+        return user_colour(body.user)
     return {"object": "#f0c800", "neighbour": "#56b4e9"}.get(body.role, "#b8b8b8")
 
 
