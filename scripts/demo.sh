@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the program, runs both experiments under all schemes and the
-# playground, and draws one report. Its path is the last line. Runs from any folder.
+# Installs what is missing, builds the program, runs both experiments under all schemes, with two and
+# more users, and the playground, and draws one report. Its path is the last line. Runs from any folder.
 #
 #   scripts/demo.sh                   Bullet in double precision
 #   scripts/demo.sh --float           Bullet in single precision
@@ -48,6 +48,31 @@ touch_user() {   # SCHEME STIFFNESS DELAY_MS B_DEV
   delay=$(printf '0.%03d' "$3")
   run "experiment2-$1-$2N-$3ms$(damping_suffix "$4")" experiment2.toml "experiment.scheme=$1" \
     "contact.stiffness=$2" "network.delay=$delay" "device.damping=$4"
+}
+
+# list_sites N FIRST ODD EVEN: sites whose hands push by these forces [N]: that of user 1, and of the others.
+list_sites() {
+  local user force list="{hand_force=[$2,0,0]}"
+  for ((user = 2; user <= $1; ++user)); do
+    force=$((user % 2 ? $3 : $4))
+    list+=",{hand_force=[$force,0,0]}"
+  done
+  echo "site=[$list]"
+}
+
+# User 1 pushes the cube, the others' hands are empty.
+push_among_many() {   # N SCHEME
+  run "many-push-$1-$2" experiment1_many.toml "$(list_sites "$1" 5 0 0)" "experiment.scheme=$2"
+}
+
+# All push on by 1 N on average, and squeeze the cube, so that nobody loses touch: this shows the drag.
+move_together() {   # N SCHEME
+  run "many-together-$1-$2" experiment1_many.toml "$(list_sites "$1" 4 4 -2)" "experiment.scheme=$2" \
+    "device.damping=5" "experiment.duration=2"
+}
+
+stand_in_a_row() {   # N SCHEME
+  run "many-row-$1-$2" experiment2_many.toml "$(list_sites "$1" 3 0 0)" "experiment.scheme=$2"
 }
 
 # cooperate_live NAME SCENARIO DELAY_MS [KEY=VALUE...]: runs two sites with `tandem link` between them. Site 2 only
@@ -118,6 +143,15 @@ step "Both experiments again over the devices' damping: ${damping_sweep[*]} N s/
 for b_dev in "${damping_sweep[@]}"; do
   for scheme in "${all_schemes[@]}"; do cooperate "$scheme" "$b_dev"; done
   for scheme in "${contact_schemes[@]}"; do touch_user "$scheme" 2000 100 "$b_dev"; done
+done
+
+step "Three, four and eight users: one pushes, all move together, all in a row"
+for users in 3 4 8; do
+  for scheme in virtual_coupling remote_dynamic_proxy; do
+    push_among_many "$users" "$scheme"
+    move_together "$users" "$scheme"
+  done
+  stand_in_a_row "$users" remote_dynamic_proxy
 done
 
 if [[ -f "$scenarios/playground.toml" ]]; then
