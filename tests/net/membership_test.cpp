@@ -54,5 +54,11 @@ TEST(Membership, ASiteThatMovesAfterALongRoundTripIsFound) {
             "");
 }
 
+// The network stands still for two minutes, so a round trip of one is measured. Then a site moves
+// twice: each check of its address waited for one and a half of 5 s.
+TEST(Membership, ASiteThatMovesTwiceAfterAStandstillIsFound) {
+  EXPECT_EQ(play({0, 9, 0, 1, 13, 9, 11, 14, 0, 9, 0, 2, 13, 9}), "");
+}
+
 }  // namespace
 }  // namespace tandem

@@ -9,13 +9,14 @@ namespace {
 
 /// Challenges go out at 0, 25, 75, 175, 375 and 775 ms: less than three times the bytes of the
 /// state that led to them, wherever they go.
-constexpr double kFirstWait = 0.025, kLastWait = 0.4;  // [s]
+constexpr double kFirstWait = 0.025, kLastWait = 0.8;  // [s]
 /// The address in use has this much longer than a round trip and a half to answer [s].
 constexpr double kGrace = 0.05;
 /// Used while no round trip was measured [s].
 constexpr double kUnknownTrip = 0.2;
-/// A longer one was measured while the network stood still [s].
-constexpr double kLongestTrip = 5.0;
+/// A longer one was measured while the network stood still [s]. A peer may move during a check, so
+/// two checks must take less than 10 s.
+constexpr double kLongestTrip = 2.0;
 /// Copies start a check at most this often [s].
 constexpr double kRest = 1.0;
 
@@ -84,7 +85,7 @@ Paths::Challenges Paths::advance(double now, double round_trip) noexcept {
   if (now < next_) return due;
   if (wait_ > kLastWait) {
     // All were sent; the last answers may still be on their way.
-    if (now > next_ + 2.0 * trip) finish(now);
+    if (now > next_ + trip) finish(now);
     return due;
   }
   next_ = now + wait_;
