@@ -60,5 +60,12 @@ TEST(Membership, ASiteThatMovesTwiceAfterAStandstillIsFound) {
   EXPECT_EQ(play({0, 9, 0, 1, 13, 9, 11, 14, 0, 9, 0, 2, 13, 9}), "");
 }
 
+// Both sites move, so the initiator's new keys never come into use. While it calls again, a
+// datagram under the keys before them comes. It ended the call after the peer had answered, so that
+// the sites had no keys in common.
+TEST(Membership, ADatagramUnderReplacedKeysEndsNoCall) {
+  EXPECT_EQ(play({4, 9, 0, 2, 13, 10, 9, 11, 2, 13, 4, 11, 14, 3, 1, 1}), "");
+}
+
 }  // namespace
 }  // namespace tandem

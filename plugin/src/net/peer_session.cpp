@@ -230,8 +230,6 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
       newest_sequence_ = *sequence;
       paths_.note(from, now);
     }
-  } else if (!has_heard_present_) {
-    heard_at_ = now;
   }
   const ByteView payload{datagram.data + kHeaderSize,
                          datagram.size - kHeaderSize - secure::kTagSize};

@@ -117,7 +117,9 @@ class PeerSession {
   double previous_until_ = 0.0;
   std::uint16_t epoch_ = 0;
 
-  double heard_at_ = 0.0;  ///< last datagram under the present or, before any, previous keys
+  /// Last datagram under the present keys, or their begin. One under the previous keys shows that
+  /// the peer is there, but not that it has the present ones.
+  double heard_at_ = 0.0;
   bool has_heard_present_ = false;
   std::uint64_t newest_sequence_ = 0;
   double agree_at_ = 0.0;
