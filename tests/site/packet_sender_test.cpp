@@ -133,6 +133,7 @@ TEST(PacketSender, IsNeverRareUnlessAsked) {
 void checkTurns(int moving, int most_moving, int most) {
   SCOPED_TRACE(moving);
   constexpr int kObjects = 20;
+  constexpr std::size_t kTold = 40;  // packets, after which all have been told that others rest
   SendingSite site(kObjects);
   site.letObjectsGo();
   for (int i = 0; i < moving; ++i) site.rig.setVelocity(i, Vec3(0, 0, 0.01));
@@ -147,7 +148,7 @@ void checkTurns(int moving, int most_moving, int most) {
     for (int i = 0; i < kObjects; ++i) {
       int& since = silent[static_cast<std::size_t>(i)];
       since = ids.contains(static_cast<ObjectId>(i)) ? 0 : since + 1;
-      ASSERT_LE(since, n >= 8 && i < moving ? most_moving : most)
+      ASSERT_LE(since, n >= kTold && i < moving ? most_moving : most)
           << "packet " << n << ", object " << i;
     }
   }

@@ -35,14 +35,14 @@ struct PartsRig {
     bodies.clearList();
     for (SharedObject& object : bodies.objects) bodies.list(object.body);
     timeline.setBodyCount(static_cast<std::size_t>(island.bodyCount()));
-    sender.setObjectCount(bodies.objects.size());
+    sender.setSize(bodies.objects.size(), static_cast<std::size_t>(peers.count()));
     log.makeRoom(bodies.objects.size(), static_cast<std::size_t>(peers.count()));
   }
 
-  /// Connects peer 2 and couples each object to its copy there. Sites do this in Peers::tie(),
+  /// Connects a peer and couples each object to its copy there. Sites do this in Peers::tie(),
   /// which needs bodies of Bullet.
-  Peer& connect(Link& link) {
-    peers.add(peers.make(PeerId{2}, link, Vec3(0, 1, 0)));
+  Peer& connect(Link& link, PeerId id = PeerId{2}) {
+    peers.add(peers.make(id, link, Vec3(0, 1, 0)));
     Peer& peer = peers[peers.count() - 1];
     for (const SharedObject& object : bodies.objects) {
       Tie& tie = peer.ties.emplace_back();

@@ -344,7 +344,7 @@ TandemResult tandem_link_create_simulated(const TandemNetwork* network, TandemLi
 #define TANDEM_NO_OBJECT UINT32_MAX
 typedef struct TandemPacket {
   uint32_t sender;
-  int is_idle;        /* nothing moves there: packets come at 16 Hz */
+  int is_idle;        /* packets come at 16 Hz: nothing moves there, or near here */
   uint64_t sequence;  /* from 0 */
   double time;        /* sender's time [s] */
   double position[3]; /* of the sender's haptic interface point */

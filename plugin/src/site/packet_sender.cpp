@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coordination/src/same_state.h"
 #include "coordination/src/wire/state_gate.h"
 
 namespace tandem {
@@ -31,11 +30,12 @@ PacketSender::PacketSender(const SiteSettings& settings, const Island& island,
       grips_(grips),
       log_(log),
       idle_stride_(std::max<std::uint64_t>(
-          static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1)) {}
+          static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1)),
+      interest_(settings, island, bodies, peers) {}
 
-void PacketSender::setObjectCount(std::size_t count) {
-  turns_.setObjectCount(count);
-  sent_.resize(count);
+void PacketSender::setSize(std::size_t objects, std::size_t peers) {
+  interest_.setSize(objects, peers);
+  due_.reserve(peers);
 }
 
 void PacketSender::sendIfDue(double until, bool is_exact) noexcept {
@@ -43,7 +43,7 @@ void PacketSender::sendIfDue(double until, bool is_exact) noexcept {
     const double moment = due();
     if (moment > until + kSameTime) return;
     const bool is_rare = is_idle_ && idle_notices_ == 0;
-    if (!is_rare || packets_due_ % idle_stride_ == 0) send(is_exact ? moment : until);
+    if (!is_rare || packets_due_ % idle_stride_ == 0) send(is_exact ? moment : until, is_rare);
     if (is_idle_ && idle_notices_ > 0) --idle_notices_;
     ++packets_due_;
     // All others that are due would tell the same state.
@@ -62,7 +62,7 @@ void PacketSender::lookForIdleness(double now) noexcept {
   const bool was_idle = is_idle_;
   is_idle_ = settings_.thins_when_idle && now - busy_until_ >= kIdleAfter - kSameTime;
   if (!is_idle_) idle_notices_ = kIdleNotices;
-  if (was_idle && !is_idle_) send(now);
+  if (was_idle && !is_idle_) send(now, true);
 }
 
 /// A guided island never sleeps, because its maps cost the same whatever moves.
@@ -92,28 +92,37 @@ void PacketSender::noteWithheld() noexcept {
   ++log_.counters.states_withheld;
 }
 
-void PacketSender::send(double time) noexcept {
+/// `to_all`: rare packets go to all peers.
+void PacketSender::send(double time, bool to_all) noexcept {
+  const PointState user_W = hand_.pointAt(time, timeline_.tickStart());
   StatePacket packet;
   packet.sender = settings_.self;
   packet.sequence = sequence_++;
-  packet.is_idle = is_idle_;
   packet.time = time;
-  const SessionFrame& frame = peers_.frame();
-  packet.user = sent_user_ = limitUser(frame.toSession(hand_.pointAt(time, timeline_.tickStart())));
+  packet.user = sent_user_ = limitUser(peers_.frame().toSession(user_W));
   packet.grip = grips_.state(time);
   peers_.sayEpochs();
-  const auto state = [&](std::size_t i) -> const RigidState& {
-    return island_.state(bodies_.objects[i].body.index);
-  };
-  for (const std::size_t i :
-       turns_.choose([&](std::size_t i) { return !isSame(sent_[i], state(i)); })) {
-    const RigidState told = frame.toSession(state(i));
-    if (!bodies_.objects[i].is_sent || !maySend(told)) continue;
-    sent_[i] = state(i);
-    packet.objects[packet.object_count++] = {bodies_.objects[i].id, told, bodies_.objects[i].said};
+  interest_.look(user_W, packet.grip, packets_due_, time);
+  due_.clear();
+  for (Peer& peer : peers_)
+    if (to_all || interest_.isDue(peer)) due_.push_back(&peer);
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    packet.is_idle = is_idle_ || interest_.isFar(*due_[i]);
+    addObjects(packet, interest_.choose(*due_[i], due_.size() - i, time));
+    peers_.send(*due_[i], packet, time);
   }
-  peers_.send(packet, time);
   ++log_.counters.packets_sent;
+}
+
+void PacketSender::addObjects(StatePacket& packet,
+                              const std::vector<std::size_t>& chosen) noexcept {
+  packet.object_count = 0;
+  for (const std::size_t i : chosen) {
+    const SharedObject& object = bodies_.objects[i];
+    const RigidState told = peers_.frame().toSession(island_.state(object.body.index));
+    if (!object.is_sent || !maySend(told)) continue;
+    packet.objects[packet.object_count++] = {object.id, told, object.said};
+  }
 }
 
 }  // namespace tandem

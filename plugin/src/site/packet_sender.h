@@ -4,16 +4,16 @@
 
 #include "site/bodies.h"
 #include "site/grips.h"
+#include "site/interest.h"
 #include "site/local_hand.h"
-#include "site/packet_turns.h"
 #include "site/peers.h"
 #include "site/timeline.h"
 
 namespace tandem {
 
-/// Sends this site's state to all peers. Packet n leaves at start + n / packet_rate with the
-/// island's state of exactly that moment. While nothing moves or touches, packets are rare and
-/// marked idle. Real-time safe.
+/// Sends this site's state to all peers, each with the objects that it needs to be told of. Packet
+/// n leaves at start + n / packet_rate with the island's state of exactly that moment. While
+/// nothing moves or touches, packets are rare and marked idle. Real-time safe.
 class PacketSender {
  public:
   PacketSender(const SiteSettings& settings, const Island& island, const Timeline& timeline,
@@ -21,7 +21,7 @@ class PacketSender {
                SiteLog& log) noexcept;
 
   /// After set-up. Allocates.
-  void setObjectCount(std::size_t count);
+  void setSize(std::size_t objects, std::size_t peers);
 
   /// When the next packet is due [s].
   [[nodiscard]] double due() const noexcept {
@@ -39,7 +39,8 @@ class PacketSender {
 
  private:
   [[nodiscard]] bool isStill() const noexcept;
-  void send(double time) noexcept;
+  void send(double time, bool to_all) noexcept;
+  void addObjects(StatePacket& packet, const std::vector<std::size_t>& chosen) noexcept;
   [[nodiscard]] bool maySend(const RigidState& state) noexcept;
   [[nodiscard]] PointState limitUser(const PointState& user) noexcept;
   void noteWithheld() noexcept;
@@ -57,9 +58,9 @@ class PacketSender {
   int idle_notices_ = 0;       ///< idle packets left to send at the full rate
   bool is_idle_ = false;
   double busy_until_ = 0.0;  ///< last time of motion or touch [s]
-  PacketTurns turns_;
-  std::vector<RigidState> sent_;  ///< by object, as last sent
-  PointState sent_user_;          ///< as last sent, in the frame of the session
+  Interest interest_;
+  std::vector<Peer*> due_;  ///< peers that get the packet
+  PointState sent_user_;    ///< as last sent, in the frame of the session
 };
 
 }  // namespace tandem

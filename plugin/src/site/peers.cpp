@@ -214,14 +214,12 @@ void Peers::awaitNews(const Peer& peer, Tie& tie) noexcept {
   island_.setCouplerShare(tie.coupler, 0.0);
 }
 
-void Peers::send(StatePacket packet, double time) noexcept {
-  const auto is_live = [](const Peer& peer) { return peer.health.state() == LinkState::kLive; };
+void Peers::send(Peer& peer, StatePacket& packet, double time) noexcept {
+  const auto is_live = [](const Peer& other) { return other.health.state() == LinkState::kLive; };
   const auto sites = 1 + static_cast<int>(std::count_if(peers_.begin(), peers_.end(), is_live));
-  for (Peer& peer : peers_) {
-    // A peer that may be gone is granted nothing more; its report says so.
-    packet.energy = energy_.report(peer.ledger, is_live(peer) ? sites : 1);
-    peer.link->send(packet, time);
-  }
+  // A peer that may be gone is granted nothing more; its report says so.
+  packet.energy = energy_.report(peer.ledger, is_live(peer) ? sites : 1);
+  peer.link->send(packet, time);
 }
 
 void Peers::shiftOrigin(const Vec3& offset_W) noexcept {

@@ -50,8 +50,8 @@ class Peers {
   /// Arrival time of the next packet that is due before `until` [s]; `now` is the tick's start.
   [[nodiscard]] double nextArrival(double now, double until) noexcept;
   void takeInUntil(double time, double now) noexcept;
-  /// Sends a packet to all peers, each with its own energy report.
-  void send(StatePacket packet, double time) noexcept;
+  /// Sends a packet to one of the peers, with its own energy report.
+  void send(Peer& peer, StatePacket& packet, double time) noexcept;
 
   /// Where a peer's reset has an object that awaits to be put there.
   [[nodiscard]] RigidState findPlace(const SharedObject& object) const noexcept;

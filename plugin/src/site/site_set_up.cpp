@@ -158,7 +158,7 @@ void Site::Impl::finishSetUp() {
   timeline.setBodyCount(static_cast<std::size_t>(island.bodyCount()));
   hand.forgetRest();
   log.makeRoom(bodies.objects.size(), static_cast<std::size_t>(peers.count()));
-  sender.setObjectCount(bodies.objects.size());
+  sender.setSize(bodies.objects.size(), static_cast<std::size_t>(peers.count()));
   surroundings.makeRoom();
   press.makeRoom();
   bodies.forEach([](SiteBody& body) {

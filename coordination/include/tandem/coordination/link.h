@@ -73,13 +73,14 @@ struct GripState {
 /// State that a peer sends to the others `network.rate` times a second: kinematics, never forces.
 /// Each receiver computes its own forces with its own gains. The latest state wins, separately for
 /// the user and each object; nothing is sent again. If the objects exceed one packet, those that
-/// moved since their last sending go first, and the others take turns.
+/// the receiver needs most go first, and the others take turns.
 struct StatePacket {
   PeerId sender{};
   std::uint64_t sequence = 0;  ///< counts the sender's packets from 0
   double time = 0.0;           ///< sender's time of the state below [s]
   PointState user;             ///< the sender's haptic interface point
-  bool is_idle = false;        ///< nothing moves at the sender: packets come at kIdlePacketPeriod
+  /// Packets come at kIdlePacketPeriod: nothing moves at the sender, or nothing near the receiver.
+  bool is_idle = false;
   std::optional<EnergyReport> energy;  ///< empty: the sender keeps no account
   std::optional<GripState> grip;       ///< empty: the user has held nothing yet
   std::uint32_t object_count = 0;
