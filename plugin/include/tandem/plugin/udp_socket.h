@@ -43,12 +43,15 @@ class UdpSocket final : public Outlet {
   /// File descriptor, for poll() on several sockets.
   [[nodiscard]] int handle() const noexcept { return socket_; }
 
+  /// True on a machine without IPv6.
+  [[nodiscard]] bool isIpv4() const noexcept { return is_ipv4_; }
+
   [[nodiscard]] Address bound() const noexcept;
   [[nodiscard]] std::uint64_t unsent() const noexcept { return unsent_; }
 
  private:
   int socket_ = -1;
-  bool is_ipv4_ = false;  ///< true on a machine without IPv6
+  bool is_ipv4_ = false;
   std::uint64_t unsent_ = 0;
 };
 
