@@ -62,7 +62,7 @@ class Paths {
   void finish(double now) noexcept;
   void moveTo(const Address& address, double now) noexcept;
 
-  const std::optional<Address> configured_;
+  std::optional<Address> configured_;
   std::optional<Address> in_use_;
   std::array<std::optional<Path>, kMost> paths_;
   std::size_t next_place_ = 0;

@@ -25,15 +25,15 @@ class Retry {
   double next_ = 0.0, wait_ = kFirst;
 };
 
-/// Allows `rate` events per second, at most `depth` at once.
+/// Allows `rate` events, or bytes, per second, at most `depth` at once.
 class RateLimit {
  public:
   RateLimit(double rate, double depth) noexcept : rate_(rate), depth_(depth), left_(depth) {}
-  [[nodiscard]] bool take(double now) noexcept {
+  [[nodiscard]] bool take(double now, double amount = 1.0) noexcept {
     if (now > last_) left_ = std::min(depth_, left_ + rate_ * (now - last_));
     last_ = std::max(last_, now);
-    if (left_ < 1.0) return false;
-    left_ -= 1.0;
+    if (left_ < amount) return false;
+    left_ -= amount;
     return true;
   }
 
