@@ -67,12 +67,13 @@ class VirtualNet {
 
   void carry(Bytes bytes, const Address& from, const Address& to) {
     if (tap) tap(bytes, from, to);
-    if (is_down || random_.uniform(0, 1) < conditions.loss) return;
-    const int copies = random_.uniform(0, 1) < conditions.duplicate ? 2 : 1;
+    const NetConditions way = conditions_between ? conditions_between(from, to) : conditions;
+    if (is_down || random_.uniform(0, 1) < way.loss) return;
+    const int copies = random_.uniform(0, 1) < way.duplicate ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
-      Datagram datagram{now + conditions.delay + random_.uniform(0, 1) * conditions.jitter,
-                        number_++, from, to, bytes};
-      if (random_.uniform(0, 1) < conditions.corrupt)
+      Datagram datagram{now + way.delay + random_.uniform(0, 1) * way.jitter, number_++, from, to,
+                        bytes};
+      if (random_.uniform(0, 1) < way.corrupt)
         datagram.bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] ^=
             static_cast<std::uint8_t>(1 << random_.below(8));
       flying_.push_back(std::move(datagram));
@@ -94,6 +95,8 @@ class VirtualNet {
   }
 
   NetConditions conditions;
+  /// Conditions of one way, instead of the usual ones; empty: all are alike.
+  std::function<NetConditions(const Address&, const Address&)> conditions_between;
   double now = 0.0;
   bool is_down = false;
   std::function<void(const Bytes&, const Address&, const Address&)> tap;

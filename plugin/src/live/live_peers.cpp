@@ -43,8 +43,9 @@ struct PeerEnd {
 }  // namespace
 
 struct LivePeers::Impl {
-  Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers, const std::vector<PeerId>& ids)
-      : self(settings.self), mesh(settings, std::move(peers)) {
+  Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers, const std::vector<PeerId>& ids,
+       std::optional<RelayAccess> relay)
+      : self(settings.self), mesh(settings, std::move(peers), std::move(relay)) {
     for (const PeerId id : ids) ends.push_back(std::make_unique<PeerEnd>(id, mesh.link(id)));
   }
 
@@ -108,9 +109,10 @@ void LivePeers::Impl::setHapticThreads(bool have_one) noexcept {
   for (const auto& end : ends) end->link.setHapticThread(have_one);
 }
 
-LivePeers::LivePeers(const UdpMeshSettings& settings, std::vector<UdpPeer> peers) {
+LivePeers::LivePeers(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
+                     std::optional<RelayAccess> relay) {
   const std::vector<PeerId> ids = listIds(peers);
-  impl_ = std::make_unique<Impl>(settings, std::move(peers), ids);
+  impl_ = std::make_unique<Impl>(settings, std::move(peers), ids, std::move(relay));
 }
 
 LivePeers::~LivePeers() { stopThread(); }
@@ -201,6 +203,11 @@ void LivePeers::sayFarewell(ByeReason reason) noexcept {
 void LivePeers::leave(double now, ByeReason reason) noexcept {
   const std::lock_guard lock(impl_->mutex);
   impl_->mesh.leave(now, reason);
+}
+
+std::optional<RelayConnection> LivePeers::relay(double now) const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->mesh.relay(now);
 }
 
 PeerStatus LivePeers::status(PeerId peer, double now) const {

@@ -29,12 +29,11 @@ void Caller::stop() noexcept {
   noise_.reset();
 }
 
-void Caller::advance(double now, const Address& to, const std::optional<Address>& also,
-                     Outlet& outlet) noexcept {
+void Caller::advance(double now, const Paths::Calls& to, Outlet& outlet) noexcept {
   if (stage_ == Stage::kOpen && now - opened_at_ > kOpenFor) start(epoch_, now);
   if (stage_ == Stage::kIdle || !retry_.isDue(now)) return;
-  callAt(to, outlet);
-  if (also && *also != to) callAt(*also, outlet);
+  for (const auto& address : to)
+    if (address) callAt(*address, outlet);
 }
 
 void Caller::callAt(const Address& to, Outlet& outlet) const noexcept {

@@ -6,6 +6,7 @@
 
 #include "coordination/src/wire/wire_handshake.h"
 #include "net/handshake_nonces.h"
+#include "net/paths.h"
 #include "net/retry.h"
 #include "net/session_keys.h"
 
@@ -23,9 +24,8 @@ class Caller {
   void stop() noexcept;
   [[nodiscard]] bool isActive() const noexcept { return stage_ != Stage::kIdle; }
 
-  /// Repeats the unanswered message, to both addresses.
-  void advance(double now, const Address& to, const std::optional<Address>& also,
-               Outlet& outlet) noexcept;
+  /// Repeats the unanswered message, to all these addresses.
+  void advance(double now, const Paths::Calls& to, Outlet& outlet) noexcept;
 
   /// Sends the unanswered message to one more address.
   void callAt(const Address& to, Outlet& outlet) const noexcept;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "net/relayed_address.h"
 #include "net/tagged_datagrams.h"
 
 namespace tandem::net {
@@ -31,7 +32,7 @@ void checkIds(PeerId self, const std::vector<PeerGroup::Peer>& peers) {
   check(self);
   for (std::size_t i = 0; i < peers.size(); ++i) {
     check(peers[i].id);
-    if (self < peers[i].id && !peers[i].address)
+    if (self < peers[i].id && !peers[i].address && !peers[i].is_relayed)
       throw std::invalid_argument("peer " +
                                   std::to_string(static_cast<std::uint32_t>(peers[i].id)) +
                                   " has no address; of two sites the lower one calls");
@@ -72,7 +73,9 @@ PeerGroup::PeerGroup(PeerId self, std::vector<Peer> peers, const PeerSession::Co
       refusals_(kRefusalsPerSecond, kRefusalsPerSecond) {
   checkIds(self, peers);
   for (Peer& peer : peers) {
-    sessions_.push_back(std::make_unique<PeerSession>(Pair{self, peer.id}, peer.address,
+    const auto relayed =
+        peer.is_relayed ? std::optional(makeRelayedAddress(peer.id)) : std::nullopt;
+    sessions_.push_back(std::make_unique<PeerSession>(Pair{self, peer.id}, peer.address, relayed,
                                                       std::move(peer.key), common));
     links_.push_back(std::make_unique<PeerLink>(*sessions_.back(), outlet));
   }
@@ -92,6 +95,10 @@ void PeerGroup::advance(double now) noexcept {
 
 void PeerGroup::leave(ByeReason reason, double now) noexcept {
   for (auto& session : sessions_) session->leave(reason, now);
+}
+
+void PeerGroup::hearOf(PeerId peer, const Address& address) noexcept {
+  if (PeerSession* session = find(peer)) session->hearOf(address);
 }
 
 Link& PeerGroup::link(PeerId peer) {

@@ -18,6 +18,7 @@ class PeerGroup {
     PeerId id{};
     std::optional<Address> address;  ///< empty: the peer calls us
     SecretKey key;
+    bool is_relayed = false;  ///< there is a relay, at makeRelayedAddress(id)
   };
 
   /// Throws std::invalid_argument for an id outside 1 to 8, a repeated id or our own. Throws it
@@ -33,6 +34,8 @@ class PeerGroup {
   /// Sends what is due.
   void advance(double now) noexcept;
   void leave(ByeReason reason, double now) noexcept;
+  /// Somebody who is trusted with nothing else tells that the peer may be there.
+  void hearOf(PeerId peer, const Address& address) noexcept;
 
   /// Link to a peer, for a Site; lives as long as the mesh. Throws std::invalid_argument for an
   /// unknown id.

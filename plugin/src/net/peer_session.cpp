@@ -10,6 +10,7 @@ namespace tandem::net {
 namespace {
 
 constexpr double kSilence = 1.0;       ///< a silent peer is called again after this [s]
+constexpr double kDoubt = 0.1;         ///< states of a peer at rest come each 1/16 s [s]
 constexpr double kPreviousKeys = 2.0;  ///< replaced keys still open datagrams for this long [s]
 constexpr double kAgreePeriod = 0.25;  // [s]
 constexpr double kByePeriod = 0.01;    // [s]
@@ -26,10 +27,10 @@ struct Room {
 
 }  // namespace
 
-PeerSession::PeerSession(const Pair& pair, std::optional<Address> address, SecretKey key,
-                         const Common& common)
+PeerSession::PeerSession(const Pair& pair, const std::optional<Address>& address,
+                         const std::optional<Address>& relayed, SecretKey key, const Common& common)
     : pair_(pair),
-      paths_(address),
+      paths_(address, relayed),
       key_(std::move(key)),
       caller_(pair, key_, common.first_nonce),
       knock_nonces_(common.first_nonce),
@@ -87,7 +88,7 @@ void PeerSession::callIfNeeded(double now, Outlet& outlet) noexcept {
   // The peer was silent for a while, and still has the same keys.
   if (!is_needed) caller_.stop();
   // A peer at a new address may have restarted at its configured one: call both.
-  caller_.advance(now, *paths_.inUse(), paths_.configured(), outlet);
+  caller_.advance(now, paths_.calls(), outlet);
 }
 
 /// The initiator may not know where this site is now.
@@ -105,9 +106,8 @@ void PeerSession::knockIfNeeded(double now, Outlet& outlet) noexcept {
   Room room;
   const std::size_t size =
       writeHello({pair_.self, pair_.peer, knock_nonce_}, key_, room.datagram());
-  outlet.send({room.bytes.data(), size}, *paths_.inUse());
-  if (paths_.configured() && paths_.configured() != paths_.inUse())
-    outlet.send({room.bytes.data(), size}, *paths_.configured());
+  for (const auto& to : paths_.calls())
+    if (to) outlet.send({room.bytes.data(), size}, *to);
 }
 
 void PeerSession::tellConfiguration(double now, Outlet& outlet) noexcept {
@@ -279,7 +279,7 @@ Outcome PeerSession::handle(MessageType type, std::optional<std::uint64_t> seque
     case MessageType::kPathResponse: {
       const auto token = decodePath(payload);
       if (!token) return token.refusal();
-      paths_.onResponse(*token);
+      paths_.onResponse(*token, now);
       return {};
     }
     default:
@@ -291,20 +291,27 @@ void PeerSession::send(const StatePacket& packet, double now, Outlet& outlet) no
   if (!keys_ || bye_reason_) return;
   Room room;
   const std::size_t size = stream_.write(packet, keys_->minor(), now, room.payload());
-  const bool is_sent = size > 0 && sendSealed(MessageType::kState, size, room.datagram(), outlet);
-  ++(is_sent ? states_sent_ : states_unsent_);
+  const std::size_t sent =
+      size > 0 ? sendSealed(MessageType::kState, size, room.datagram(), outlet) : 0;
+  ++(sent > 0 ? states_sent_ : states_unsent_);
+  // The peer seems not to hear: while another way is looked for, a spare one carries the state,
+  // too.
+  const std::optional<Address> spare = paths_.spare(now);
+  if (sent > 0 && spare && stream_.unheardFor(now) > kDoubt + stream_.trip().trip())
+    outlet.send({room.bytes.data(), sent}, *spare);
 }
 
-bool PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
-                             Outlet& outlet) noexcept {
-  return paths_.inUse() && sendSealedTo(*paths_.inUse(), type, payload_size, datagram, outlet);
+std::size_t PeerSession::sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+                                    Outlet& outlet) noexcept {
+  if (!paths_.inUse()) return 0;
+  return sendSealedTo(*paths_.inUse(), type, payload_size, datagram, outlet);
 }
 
-bool PeerSession::sendSealedTo(const Address& to, MessageType type, std::size_t payload_size,
-                               ByteSpan datagram, Outlet& outlet) noexcept {
+std::size_t PeerSession::sendSealedTo(const Address& to, MessageType type, std::size_t payload_size,
+                                      ByteSpan datagram, Outlet& outlet) noexcept {
   const std::size_t size = keys_ ? keys_->seal(type, payload_size, datagram) : 0;
   if (size > 0) outlet.send({datagram.data, size}, to);
-  return size > 0;
+  return size;
 }
 
 }  // namespace tandem::net

@@ -34,8 +34,9 @@ class PeerSession {
     std::uint64_t first_nonce = 0;  ///< drawFirstNonce() of the program's start
   };
 
-  PeerSession(const Pair& pair, std::optional<Address> address, SecretKey key,
-              const Common& common);
+  /// `relayed`: the address that means "through the relay"; empty without a relay.
+  PeerSession(const Pair& pair, const std::optional<Address>& address,
+              const std::optional<Address>& relayed, SecretKey key, const Common& common);
   PeerSession(const PeerSession&) = delete;
   PeerSession& operator=(const PeerSession&) = delete;
 
@@ -68,6 +69,9 @@ class PeerSession {
     return stream_.pop(from, until);
   }
 
+  /// Somebody who is trusted with nothing else tells that the peer may be there.
+  void hearOf(const Address& address) noexcept { paths_.hear(address); }
+
   /// Sends farewell ten times, every 10 ms.
   void leave(ByeReason reason, double now) noexcept;
 
@@ -84,12 +88,12 @@ class PeerSession {
   [[nodiscard]] Outcome handle(MessageType type, std::optional<std::uint64_t> sequence,
                                ByteView payload, const Address& from, double now, Outlet& outlet);
   void install(SessionKeys keys, double now) noexcept;
-  /// Returns false if the key is used up or the peer's address is unknown.
-  bool sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
-                  Outlet& outlet) noexcept;
+  /// Returns the size; 0 if the key is used up or the peer's address is unknown.
+  std::size_t sendSealed(MessageType type, std::size_t payload_size, ByteSpan datagram,
+                         Outlet& outlet) noexcept;
   /// The same to any address.
-  bool sendSealedTo(const Address& to, MessageType type, std::size_t payload_size,
-                    ByteSpan datagram, Outlet& outlet) noexcept;
+  std::size_t sendSealedTo(const Address& to, MessageType type, std::size_t payload_size,
+                           ByteSpan datagram, Outlet& outlet) noexcept;
   void checkPaths(double now, Outlet& outlet) noexcept;
   void answerChallenge(PathToken token, const Address& from, Outlet& outlet) noexcept;
   void callIfNeeded(double now, Outlet& outlet) noexcept;

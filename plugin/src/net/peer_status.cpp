@@ -1,6 +1,7 @@
 // The status of a pair's session as its host sees it, and the words for it.
 
 #include "net/peer_session.h"
+#include "net/relayed_address.h"
 
 namespace tandem::net {
 namespace {
@@ -21,6 +22,7 @@ PeerStatus PeerSession::status(double now) const {
   else
     status.phase = agreement_.difference() ? PeerPhase::kDifferent : PeerPhase::kAgreeing;
   status.address = paths_.inUse();
+  status.is_relayed = status.address && relayedPeer(*status.address);
   status.address_changes = paths_.moves();
   status.silence = keys_ ? now - heard_at_ : 0.0;
   status.round_trip = stream_.trip().trip();

@@ -2,10 +2,14 @@
 
 #include <array>
 #include <chrono>
+#include <stdexcept>
 
 #include "tandem/plugin/udp_socket.h"
 
 #include "net/peer_group.h"
+#include "net/relayed_address.h"
+#include "net/system_address.h"
+#include "relay/relay_member.h"
 
 namespace tandem {
 namespace {
@@ -51,28 +55,74 @@ double readUtc() noexcept {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers) {
+std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers, bool are_relayed) {
   std::vector<net::PeerGroup::Peer> all;
-  for (UdpPeer& peer : peers) all.push_back({peer.id, peer.address, std::move(peer.key)});
+  for (UdpPeer& peer : peers)
+    all.push_back({peer.id, peer.address, std::move(peer.key), are_relayed});
   return all;
+}
+
+std::unique_ptr<relay::RelayMember> makeMember(std::optional<RelayAccess> access, PeerId self,
+                                               std::uint64_t first_nonce, net::Outlet& socket) {
+  if (!access) return nullptr;
+  const auto room = relay::makeRoomName(access->room);
+  if (!room)
+    throw std::invalid_argument("room " + access->room +
+                                ": must be 1 to 32 letters, digits, '.', '_' or '-'");
+  if (access->address.port == 0 || net::isAny(access->address))
+    throw std::invalid_argument("relay " + toString(access->address) +
+                                ": must have a host and a port, such as relay.example:7000");
+  return std::make_unique<relay::RelayMember>(access->address, std::move(access->key), *room, self,
+                                              first_nonce, socket);
 }
 
 }  // namespace
 
 struct UdpMesh::Impl {
-  Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers)
+  Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
+       std::optional<RelayAccess> access)
       : socket(settings.bind),
-        mesh(settings.self, toMeshPeers(std::move(peers)),
-             {settings.configuration, settings.playout, settings.profile,
-              net::drawFirstNonce(readUtc())},
-             socket) {}
+        member(makeMember(std::move(access), settings.self, first_nonce, socket)),
+        mesh(settings.self, toMeshPeers(std::move(peers), member != nullptr),
+             {settings.configuration, settings.playout, settings.profile, first_nonce}, outlet()) {}
+  ~Impl() {
+    if (member) member->leave();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
+  [[nodiscard]] net::Outlet& outlet() noexcept {
+    if (member) return *member;
+    return socket;
+  }
+  void receive(ByteSpan datagram, const Address& from, double now) noexcept;
+  void advanceMember(double now) noexcept;
+
+  const std::uint64_t first_nonce = net::drawFirstNonce(readUtc());
   net::UdpSocket socket;
+  std::unique_ptr<relay::RelayMember> member;  ///< null without a relay
   net::PeerGroup mesh;
 };
 
-UdpMesh::UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers)
-    : impl_(std::make_unique<Impl>(settings, std::move(peers))) {}
+/// What comes from the relay has either a datagram of a peer in it, or concerns the relay alone.
+void UdpMesh::Impl::receive(ByteSpan datagram, const Address& from, double now) noexcept {
+  if (!member || from != member->relay()) {
+    mesh.receive(datagram, from, now);
+    return;
+  }
+  if (const auto said = member->receive(datagram, now))
+    mesh.receive(said->inner, net::makeRelayedAddress(PeerId{said->from}), now);
+}
+
+void UdpMesh::Impl::advanceMember(double now) noexcept {
+  if (!member) return;
+  member->advance(now);
+  if (const auto seen = member->takeSeen()) mesh.hearOf(seen->member, seen->address);
+}
+
+UdpMesh::UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
+                 std::optional<RelayAccess> relay)
+    : impl_(std::make_unique<Impl>(settings, std::move(peers), std::move(relay))) {}
 
 UdpMesh::~UdpMesh() = default;
 
@@ -80,12 +130,13 @@ Link& UdpMesh::link(PeerId peer) { return impl_->mesh.link(peer); }
 
 void UdpMesh::poll(double now) noexcept {
   // One byte more than the longest datagram reveals a longer one.
-  std::array<std::uint8_t, kMaxDatagramSize + 1> room;
+  std::array<std::uint8_t, relay::kMaxForward + 1> room;
   for (int i = 0; i < kMostPerPoll; ++i) {
     const auto received = impl_->socket.receive({room.data(), room.size()});
     if (!received) break;
-    impl_->mesh.receive({room.data(), received->size}, received->from, now);
+    impl_->receive({room.data(), received->size}, received->from, now);
   }
+  impl_->advanceMember(now);
   impl_->mesh.advance(now);
 }
 
@@ -93,7 +144,19 @@ void UdpMesh::wait(double seconds) const noexcept { impl_->socket.wait(seconds);
 
 void UdpMesh::leave(double now, ByeReason reason) noexcept { impl_->mesh.leave(reason, now); }
 
-PeerStatus UdpMesh::status(PeerId peer, double now) const { return impl_->mesh.status(peer, now); }
+PeerStatus UdpMesh::status(PeerId peer, double now) const {
+  PeerStatus status = impl_->mesh.status(peer, now);
+  if (status.is_relayed && impl_->member) status.address = impl_->member->relay();
+  return status;
+}
+
+std::optional<RelayConnection> UdpMesh::relay(double now) const {
+  if (!impl_->member) return std::nullopt;
+  const relay::RelayMember& member = *impl_->member;
+  RelayConnection connection{member.isIn(), member.silence(now), member.roundTrip(), {}};
+  if (member.refused()) connection.refused = relay::explain(*member.refused());
+  return connection;
+}
 
 std::uint64_t UdpMesh::received() const noexcept { return impl_->mesh.counts().received; }
 

@@ -51,6 +51,8 @@ struct RefuseAnswer {
   Code code = Code::kVersion;
   std::uint8_t version = kVersion;  ///< of its sender
 };
+/// Reason and remedy: "another site has this id; give each its own". Allocates.
+[[nodiscard]] std::string explain(const RefuseAnswer& answer);
 [[nodiscard]] std::optional<RefuseAnswer> decodeRefuseAnswer(ByteView datagram) noexcept;
 
 }  // namespace tandem::relay

@@ -94,14 +94,15 @@ Result Relay::handleSession(Type type, ByteSpan datagram, const Address& from,
     member->paths.note(from, now);
   }
   return type == Type::kForward ? forward(*member, datagram, now)
-                                : handleOwn(*member, bytes, head.number);
+                                : handleOwn(*member, bytes, head.number, now);
 }
 
-Result Relay::handleOwn(Member& member, ByteView datagram, std::uint64_t number) noexcept {
+Result Relay::handleOwn(Member& member, ByteView datagram, std::uint64_t number,
+                        double now) noexcept {
   if (const auto asked = decodeKeep(datagram)) {
     answerKeep(member, number, *asked);
   } else if (const auto token = decodeResponse(datagram)) {
-    member.paths.onResponse(*token);
+    member.paths.onResponse(*token, now);
   } else if (isLeave(datagram)) {
     members_.remove(member);
   } else {

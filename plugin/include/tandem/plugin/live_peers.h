@@ -44,7 +44,8 @@ class LivePeers {
   static constexpr double kGetReady = 0.05;
 
   /// Throws as UdpMesh does.
-  LivePeers(const UdpMeshSettings& settings, std::vector<UdpPeer> peers);
+  LivePeers(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
+            std::optional<RelayAccess> relay = std::nullopt);
   /// Stops the thread as stopThread() does. Says no farewell.
   ~LivePeers();
   LivePeers(const LivePeers&) = delete;
@@ -106,6 +107,8 @@ class LivePeers {
 
   // --- State
 
+  /// Empty without a relay.
+  [[nodiscard]] std::optional<RelayConnection> relay(double now) const;
   [[nodiscard]] PeerStatus status(PeerId peer, double now) const;
   /// States that found no room on the way to or from a haptic thread.
   [[nodiscard]] std::uint64_t lost() const noexcept;

@@ -37,6 +37,7 @@ struct PeerStatus {
   PeerId peer{};
   PeerPhase phase = PeerPhase::kCalling;
   std::optional<Address> address;     ///< at which the peer is
+  bool is_relayed = false;            ///< it is reached through the relay, at the relay's address
   std::uint64_t address_changes = 0;  ///< how often it was found at another one
   double silence = 0.0;               ///< since the last authentic datagram [s]
   double round_trip = 0.0;            ///< smoothed [s]
@@ -64,6 +65,22 @@ struct UdpPeer {
   SecretKey key;                   ///< key shared by this pair
 };
 
+/// A room of a relay in which the peers are, too: the way to each of them where no direct one
+/// answers, or the relay is faster.
+struct RelayAccess {
+  Address address;   ///< of the relay
+  SecretKey key;     ///< the relay's, other than those of pairs
+  std::string room;  ///< 1 to 32 letters, digits, '.', '_' or '-'
+};
+
+/// State of the connection to the relay.
+struct RelayConnection {
+  bool is_in = false;       ///< the relay has let this site into the room
+  double silence = 0.0;     ///< since its last answer, one comes each second [s]
+  double round_trip = 0.0;  ///< to the relay and back, smoothed [s]
+  std::string refused;      ///< reason and remedy why it lets nobody in; empty: none. Not authentic
+};
+
 struct UdpMeshSettings {
   PeerId self{1};
   Address bind;                 ///< port 0: any free port
@@ -88,7 +105,9 @@ class UdpMesh {
  public:
   /// Throws std::invalid_argument for settings out of range or an address that cannot be bound.
   /// Throws tandem::Error if the system gives no socket.
-  UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers);
+  /// With a relay no peer needs an address.
+  UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
+          std::optional<RelayAccess> relay = std::nullopt);
   ~UdpMesh();
   UdpMesh(const UdpMesh&) = delete;
   UdpMesh& operator=(const UdpMesh&) = delete;
@@ -108,6 +127,8 @@ class UdpMesh {
   void leave(double now, ByeReason reason = ByeReason::kUserLeaves) noexcept;
 
   [[nodiscard]] PeerStatus status(PeerId peer, double now) const;
+  /// Empty without a relay.
+  [[nodiscard]] std::optional<RelayConnection> relay(double now) const;
   [[nodiscard]] std::uint64_t received() const noexcept;
   /// Reasons that occurred so far.
   [[nodiscard]] std::vector<RefusedDatagrams> refused() const;

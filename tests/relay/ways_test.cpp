@@ -1,0 +1,102 @@
+// The way between two sites: direct where one answers first, else by the relay; changes of it.
+
+#include <gtest/gtest.h>
+
+#include "relay/relayed_sites.h"
+
+namespace tandem {
+namespace {
+
+using test::RelayedSites;
+
+// States come each 7.8 ms; ticks of this network are 1 ms.
+constexpr double kTwoPackets = 0.0176;  // [s]
+
+bool areRelayed(RelayedSites& sites) {
+  return sites.status(1, 2).is_relayed && sites.status(2, 1).is_relayed;
+}
+bool areDirect(RelayedSites& sites) {
+  return !sites.status(1, 2).is_relayed && !sites.status(2, 1).is_relayed;
+}
+
+TEST(Ways, SitesMeetByTheRelayAlone) {
+  RelayedSites::Ways ways;
+  ways.has_direct = false;
+  RelayedSites sites(3, ways);
+  ASSERT_TRUE(sites.goLive(2.0));
+  sites.run(10.0);
+  EXPECT_TRUE(areRelayed(sites));
+  EXPECT_LT(sites.longestGapOver(5.0), kTwoPackets);
+}
+
+TEST(Ways, TheDirectWayIsFoundAndTaken) {
+  RelayedSites sites(2, {});
+  ASSERT_TRUE(sites.goLive(2.0));
+  EXPECT_LT(sites.longestGapOver(10.0), kTwoPackets);
+  EXPECT_TRUE(areDirect(sites));
+}
+
+TEST(Ways, ASlowerDirectWayIsNotTaken) {
+  RelayedSites::Ways ways;
+  ways.to_relay = 0.01;
+  ways.direct = 0.03;
+  RelayedSites sites(2, ways);
+  ASSERT_TRUE(sites.goLive(2.0));
+  EXPECT_LT(sites.longestGapOver(20.0), kTwoPackets);
+  EXPECT_TRUE(areRelayed(sites));
+  EXPECT_EQ(sites.status(1, 2).address_changes, 0u);
+}
+
+TEST(Ways, ADirectWayThatBecomesSlowIsLeftForTheRelay) {
+  RelayedSites sites(2, {});
+  ASSERT_TRUE(sites.goLive(2.0));
+  sites.run(10.0);
+  ASSERT_TRUE(areDirect(sites));
+  sites.ways.direct = 0.05;
+  sites.run(30.0);
+  EXPECT_TRUE(areRelayed(sites));
+}
+
+// 18 against 20 ms: nobody gains by a change.
+TEST(Ways, EqualWaysAreNotChangedBetween) {
+  RelayedSites::Ways ways;
+  ways.to_relay = 0.009;
+  ways.direct = 0.018;
+  ways.loss = 0.02;
+  RelayedSites sites(2, ways);
+  ASSERT_TRUE(sites.goLive(5.0));
+  sites.run(600.0);
+  EXPECT_LE(sites.status(1, 2).address_changes, 1u);
+  EXPECT_LE(sites.status(2, 1).address_changes, 1u);
+}
+
+TEST(Ways, ADirectWayThatFailsIsLeftBeforeGainsAreGone) {
+  for (const bool fails_direct : {true, false}) {
+    RelayedSites::Ways ways;
+    ways.direct = fails_direct ? 0.01 : 0.05;
+    RelayedSites sites(2, ways);
+    ASSERT_TRUE(sites.goLive(2.0));
+    sites.run(10.0);
+    ASSERT_EQ(areDirect(sites), fails_direct);
+    (fails_direct ? sites.ways.has_direct : sites.ways.has_relay) = false;
+    // Gains are gone after 250 ms.
+    EXPECT_LT(sites.longestGapOver(10.0), 0.2) << fails_direct;
+    EXPECT_EQ(areRelayed(sites), fails_direct);
+  }
+}
+
+TEST(Ways, WithoutAnyWayThePeerFallsSilentAndComesBackByTheFirst) {
+  RelayedSites sites(2, {});
+  ASSERT_TRUE(sites.goLive(2.0));
+  sites.run(10.0);
+  sites.ways.has_relay = sites.ways.has_direct = false;
+  sites.run(20.0);
+  EXPECT_EQ(sites.status(1, 2).phase, PeerPhase::kCalling);
+  sites.ways.has_relay = true;
+  sites.run(6.0);
+  EXPECT_LT(sites.longestGapOver(5.0), kTwoPackets);
+  EXPECT_TRUE(areRelayed(sites));
+}
+
+}  // namespace
+}  // namespace tandem
