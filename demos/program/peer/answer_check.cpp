@@ -70,6 +70,9 @@ void AnswerCheck::check(double waited) {
   std::string why = "is it running, is the address right, does a firewall let UDP pass?";
   if (status.is_called_with_another_key)
     why = "it calls, but with another key; give both sides the same key file";
+  if (const auto relay = peers_.relay(readMonotonicClock()); relay && !relay->is_in)
+    why = relay->refused.empty() ? "the relay does not answer; is its address right?"
+                                 : relay->refused;
   if (status.refused) why = fmt::format("it answers, but {}", explainRefusal(*status.refused));
   throw Error(fmt::format("site {} at {} did not join within {} s: {}",
                           static_cast<std::uint32_t>(other_), where, patience_, why));

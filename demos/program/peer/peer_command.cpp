@@ -31,6 +31,8 @@ struct PeerOptions {
   DeviceOptions device;  ///< without --device: simulated, by the scenario
 };
 
+constexpr double kRelaySilence = 3.0;  ///< a relay answers once a second [s]
+
 volatile std::sig_atomic_t stop_asked = 0;
 
 extern "C" void askToStop(int) { stop_asked = 1; }
@@ -48,6 +50,16 @@ void catchSignals(bool has_device) {
   sigaction(SIGPIPE, &action, nullptr);
 }
 
+/// The way to the peer, or the reason why the relay lets nobody in.
+std::string describeWay(const PeerReport& report) {
+  if (!report.relay) return {};
+  if (!report.relay->is_in && !report.relay->refused.empty())
+    return " | relay: " + report.relay->refused;
+  if (report.relay->silence > kRelaySilence)
+    return fmt::format(" | relay silent for {:.0f} s", report.relay->silence);
+  return report.peer.is_relayed ? " | by the relay" : " | direct";
+}
+
 void print(const PeerReport& report) {
   const PeerStatus& peer = report.peer;
   std::string time = report.has_start ? fmt::format("{:8.1f} s", report.time) : "   waiting";
@@ -56,9 +68,9 @@ void print(const PeerReport& report) {
   const std::string_view state = is_running ? nameOf(report.link) : name(peer.phase);
   fmt::print(
       "{} | {:9} | round trip {:6.1f} ms | wait {:5.1f} ms | jitter {:5.1f} ms | loss "
-      "{:4.1f} % | force {:6.3f} N | coherency {:7.3f} mm\n",
+      "{:4.1f} % | force {:6.3f} N | coherency {:7.3f} mm{}\n",
       time, state, 1e3 * peer.round_trip, 1e3 * peer.wait, 1e3 * peer.jitter, 1e2 * peer.loss,
-      report.force, 1e3 * report.coherency);
+      report.force, 1e3 * report.coherency, describeWay(report));
   std::fflush(stdout);
 }
 
@@ -80,7 +92,9 @@ void runPeer(const PeerOptions& options) {
   if (options.folder)
     folder.emplace(*options.folder, "--out " + *options.folder,
                    options.line.site == 1 ? FolderPart::kSite1 : FolderPart::kSite2);
-  (void)readKeyFile(options.line.key);  // a bad one is told before a device moves
+  // A bad one is told before a device moves.
+  (void)readKeyFile(options.line.key);
+  (void)makeRelayAccess(options.line);
   catchSignals(!options.device.device.empty());
   bool is_ended = false;
   const auto pause = [](double seconds) {

@@ -26,9 +26,10 @@ void PeerMeeting::makeRun(const ScenePlaces* places) {
   Scenario from_here = changed.scenario;
   const bool goes_on = places && places->areNear();
   if (goes_on) startHandsAt(*places, from_here);
-  run_ = std::make_unique<PeerRun>(from_here, line_.site - 1, makeMeshSettings(line_, changed),
-                                   makeOtherSite(line_), user_.device, user_.wants_grip,
-                                   user_.purpose, goes_on ? places->bodies : BodyPlaces{});
+  run_ =
+      std::make_unique<PeerRun>(from_here, line_.site - 1, makeMeshSettings(line_, changed),
+                                makeOtherSite(line_), user_.device, user_.wants_grip, user_.purpose,
+                                goes_on ? places->bodies : BodyPlaces{}, makeRelayAccess(line_));
   line_.bind = toString(run_->peers().bound());
 }
 

@@ -15,6 +15,8 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
           {"playout_wait", peer.wait},
           {"jitter", peer.jitter},
           {"loss", peer.loss},
+          {"is_relayed", peer.is_relayed},
+          {"changes_of_way", peer.address_changes},
           {"states",
            {{"sent", peer.states_sent},
             {"unsent", peer.states_unsent},

@@ -18,7 +18,7 @@ constexpr double kMostBehind = 0.1;    ///< a site later than this joins a runni
 
 PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
                  HapticDevice* device, std::function<bool()> wants_grip, PeerPurpose purpose,
-                 const BodyPlaces& places)
+                 const BodyPlaces& places, std::optional<RelayAccess> relay)
     : scenario_(scenario),
       index_(site),
       device_(device),
@@ -26,11 +26,14 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
       purpose_(purpose),
       places_(places),
       other_(peer.id),
-      peers_(settings, [&] {
-        std::vector<UdpPeer> peers;
-        peers.push_back(std::move(peer));
-        return peers;
-      }()) {
+      peers_(
+          settings,
+          [&] {
+            std::vector<UdpPeer> peers;
+            peers.push_back(std::move(peer));
+            return peers;
+          }(),
+          std::move(relay)) {
   requireTwoSites(scenario, "tandem peer");
   if (scenario.site.contact_model != ContactModel::kIsland ||
       scenario.site.injection != Injection::kHandoff)
@@ -162,6 +165,7 @@ PeerReport PeerRun::makeReport(double time) {
   report.time = time;
   report.has_start = peers_.start().has_value();
   report.peer = peerStatus();
+  report.relay = peers_.relay(readMonotonicClock());
   world_->site().betweenTicks([&] {
     report.link = world_->site().linkState(0);
     report.force = world_->site().force().norm();

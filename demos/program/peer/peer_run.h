@@ -19,9 +19,10 @@ struct PeerReport {
   double time = 0.0;  ///< site time [s]; negative before the start, when no force is felt
   bool has_start = false;
   PeerStatus peer;
-  LinkState link = LinkState::kLive;  ///< decides the share of the gains
-  double force = 0.0;                 ///< norm of the force on the device [N]
-  double coherency = 0.0;             ///< own object copy against the other's as received [m]
+  std::optional<RelayConnection> relay;  ///< empty without a relay
+  LinkState link = LinkState::kLive;     ///< decides the share of the gains
+  double force = 0.0;                    ///< norm of the force on the device [N]
+  double coherency = 0.0;                ///< own object copy against the other's as received [m]
 };
 
 /// Tells whether a PeerRun leaves something behind, and when it ends.
@@ -41,7 +42,8 @@ class PeerRun {
   /// begin at rest at `places`, or where the scenario says. Throws like LivePeers and SiteWorld.
   PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
           HapticDevice* device = nullptr, std::function<bool()> wants_grip = {},
-          PeerPurpose purpose = PeerPurpose::kResults, const BodyPlaces& places = {});
+          PeerPurpose purpose = PeerPurpose::kResults, const BodyPlaces& places = {},
+          std::optional<RelayAccess> relay = std::nullopt);
 
   /// Waits until the other site is there and both know the start. Throws UsageError if it has
   /// another configuration, or does not agree to a change within 5 s. Throws tandem::Error if it

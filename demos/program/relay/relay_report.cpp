@@ -53,12 +53,12 @@ std::string formatRelayLine(const RelayStatus& status, const RelayStatus& before
   const auto rate = [&](std::uint64_t now, std::uint64_t then) {
     return static_cast<double>(now - then) / period;
   };
-  std::string line =
-      fmt::format("{} in {} {} | {:7.0f} datagrams/s | {:8.1f} kB/s | refused {:.0f}/s",
-                  status.members, status.rooms.size(), status.rooms.size() == 1 ? "room" : "rooms",
-                  rate(status.forwarded, before.forwarded),
-                  1e-3 * rate(status.forwarded_bytes, before.forwarded_bytes),
-                  rate(countRefused(status), countRefused(before)));
+  std::string line = fmt::format(
+      "{} {} in {} {} | {:7.0f} datagrams/s | {:8.1f} kB/s | refused {:.0f}/s", status.members,
+      status.members == 1 ? "member" : "members", status.rooms.size(),
+      status.rooms.size() == 1 ? "room" : "rooms", rate(status.forwarded, before.forwarded),
+      1e-3 * rate(status.forwarded_bytes, before.forwarded_bytes),
+      rate(countRefused(status), countRefused(before)));
   if (!status.rooms.empty()) line += " | " + nameRooms(status.rooms);
   return line;
 }

@@ -79,7 +79,8 @@ class ViewCommand final : public Command {
     settings_.scenario = loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_),
                                       addShares(overrides_, shares_));
     if (record_) settings_.record = *record_;
-    if (line_.site != 0 || !line_.peer.empty()) settings_.line = completeLine();
+    if (line_.site != 0 || !line_.peer.empty() || !line_.relay.empty())
+      settings_.line = completeLine();
     if (watches_) leaveHand();
     checkGrip(device_, settings_.scenario);
     checkSecond();
@@ -129,8 +130,8 @@ class ViewCommand final : public Command {
 
   [[nodiscard]] const PeerLine& completeLine() const {
     checkPeerLine(line_);
-    if (line_.bind.empty() || line_.peer.empty() || line_.key.empty())
-      throw UsageError("--site, --bind, --peer and --key belong together: name all four");
+    if (line_.bind.empty() || line_.key.empty())
+      throw UsageError("--site, --bind, --key and --peer or --relay belong together");
     return line_;
   }
 

@@ -1,0 +1,112 @@
+// `tandem relay` and sites that meet through it, as processes on loopback.
+
+#include <csignal>
+#include <future>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program/background.h"
+#include "program/process.h"
+
+namespace tandem {
+namespace {
+
+using test::Background;
+using test::Outcome;
+using test::runTandem;
+using test::TempFolder;
+
+/// A relay with its key, and the key of a pair.
+struct Rig {
+  explicit Rig(const std::vector<std::string>& more = {}) {
+    for (const char* name : {"relay", "pair"})
+      EXPECT_EQ(runTandem({"key", "new", folder / name}).status, 0);
+    std::vector<std::string> line = {"relay", "--bind", test::ownLoopback() + ":0", "--key",
+                                     folder / "relay"};
+    line.insert(line.end(), more.begin(), more.end());
+    relay = std::make_unique<Background>(TANDEM_PROGRAM, line);
+    const std::string first = relay->readLine();
+    address = first.substr(first.rfind(' ') + 1);
+  }
+  [[nodiscard]] std::vector<std::string> site(int number, const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"peer",
+                                     "--scenario",
+                                     test::scenarioPath("experiment1.toml"),
+                                     "--site",
+                                     std::to_string(number),
+                                     "--bind",
+                                     test::ownLoopback() + ":0",
+                                     "--key",
+                                     folder / "pair",
+                                     "--relay",
+                                     address};
+    line.insert(line.end(), more.begin(), more.end());
+    return line;
+  }
+
+  TempFolder folder;
+  std::unique_ptr<Background> relay;
+  std::string address;
+};
+
+TEST(RelayProgram, TwoSitesMeetThroughItWithoutAddresses) {
+  Rig rig({"--json"});
+  const std::string key = rig.folder / "relay";
+  auto second = std::async(std::launch::async, [&] {
+    return runTandem(rig.site(2, {"--relay-key", key, "--out", rig.folder / "two"}));
+  });
+  const Outcome first = runTandem(rig.site(1, {"--relay-key", key, "--out", rig.folder / "one"}));
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(second.get().status, 0);
+  EXPECT_NE(first.out.find("by the relay"), std::string::npos) << first.out;
+  const auto summary = nlohmann::json::parse(test::readFile(rig.folder / "one/site1.json"));
+  EXPECT_GT(summary["network"]["states"]["given"], 50);
+  const Outcome end = rig.relay->finish(SIGTERM);
+  EXPECT_EQ(end.status, 0);
+  const auto report = nlohmann::json::parse(end.out.substr(0, end.out.find('\n')));
+  EXPECT_TRUE(report.contains("rooms"));
+}
+
+void expectLine(const Outcome& outcome, int status, const std::string& word) {
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+}
+
+TEST(RelayProgram, AWrongKeyIsALine) {
+  Rig rig;
+  const Outcome outcome =
+      runTandem(rig.site(1, {"--relay-key", rig.folder / "pair", "--wait", "2"}));
+  expectLine(outcome, 1, "the relay has another key");
+}
+
+TEST(RelayProgram, ARelayThatIsNotThereIsALine) {
+  Rig rig;
+  const std::string key = rig.folder / "relay";
+  EXPECT_EQ(rig.relay->finish(SIGINT).status, 0);
+  expectLine(runTandem(rig.site(1, {"--relay-key", key, "--wait", "1"})), 1,
+             "the relay does not answer");
+}
+
+TEST(RelayProgram, BadUseIsALine) {
+  Rig rig;
+  const std::string key = rig.folder / "relay";
+  const auto relay = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"relay", "--bind", test::ownLoopback() + ":0", "--key", key};
+    line.insert(line.end(), more.begin(), more.end());
+    return runTandem(line);
+  };
+  expectLine(relay({"--members", "65"}), 2, "members = 65: must be 2 to 64");
+  expectLine(relay({"--rooms", "0"}), 2, "rooms = 0: must be 1 to 10000");
+  expectLine(relay({"--rate", "0"}), 2, "datagram_rate");
+  expectLine(relay({"--seconds", "-1"}), 2, "--seconds -1: must be 0 to 1e9");
+  expectLine(runTandem({"relay", "--bind", rig.address, "--key", key}), 2, "in use");
+  expectLine(runTandem(rig.site(1, {})), 2, "--relay-key");
+  expectLine(runTandem(rig.site(1, {"--relay-key", key, "--room", "a b"})), 2, "room a b: must be");
+  EXPECT_EQ(relay({"--seconds", "0"}).status, 0);
+}
+
+}  // namespace
+}  // namespace tandem
