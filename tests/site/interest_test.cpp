@@ -95,7 +95,7 @@ struct Crowd {
 };
 
 TEST(Interest, WithoutABudgetAllPeersGetAllPackets) {
-  Crowd crowd(3, 4, std::numeric_limits<double>::infinity());
+  Crowd crowd(3, 4, 0.0);
   crowd.run(1000);
   for (std::size_t peer = 0; peer < 4; ++peer) {
     ASSERT_EQ(crowd.sent(peer).size(), 128u);
@@ -190,7 +190,7 @@ TEST(Interest, AnObjectIsToldAtOnceWhenItBeginsToMove) {
 
 // Of 60 objects that move, the one at the local hand is in every packet.
 TEST(Interest, WhatIsTouchedIsToldAtFullRateAmongManyThatMove) {
-  Crowd crowd(100, 2, std::numeric_limits<double>::infinity());
+  Crowd crowd(100, 2, 0.0);
   crowd.rig.bodies.objects[50].tool_of = PeerId{1};
   for (int i = 20; i < 80; ++i) crowd.rig.setVelocity(i, Vec3(0, 0, 1e-3));
   crowd.run(1000);

@@ -21,12 +21,12 @@ namespace tandem {
 /// most. What must be sent may take it below 0; the others then wait. Plain value; real-time safe.
 class ByteBudget {
  public:
-  /// `rate` [bit/s], may be infinite.
+  /// `rate` [bit/s]; 0: no limit.
   explicit ByteBudget(double rate) noexcept : rate_(rate / 8.0) {}
 
   /// True if it is too small for `bytes_per_second` [byte/s].
   [[nodiscard]] bool binds(double bytes_per_second) const noexcept {
-    return bytes_per_second > rate_;
+    return rate_ > 0.0 && bytes_per_second > rate_;
   }
   /// Takes in what came until `time` [s].
   void fill(double time) noexcept {

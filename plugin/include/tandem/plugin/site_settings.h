@@ -66,10 +66,10 @@ struct SiteSettings {
   int peers = 2;                ///< N: a shared object has N copies of mass m/N
   double haptic_rate = 1000.0;  ///< device loop [Hz]; higher renders stiffer contact
   double packet_rate = 128.0;   ///< states sent per second [Hz], at most the haptic rate
-  /// Bytes that all peers together may be sent, with their IP headers, as `float32` [bit/s]. If it
-  /// is too small for all packets, peers whose hands are far get rare ones. Peers near by still get
-  /// all, so they may exceed it.
-  double packet_budget = std::numeric_limits<double>::infinity();
+  /// Sent to all peers together, with IP headers and as `float32` [bit/s]; 0: no limit. If it is
+  /// too small for all packets, peers whose hands are far get rare ones. Near peers still get all,
+  /// so they may exceed it.
+  double packet_budget = 0.0;
   /// If nothing moves or touches for half a second, states go out once per kIdlePacketPeriod and
   /// are marked idle. The first motion is sent in its tick. False: always at `packet_rate`.
   bool thins_when_idle = true;
