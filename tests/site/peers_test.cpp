@@ -13,9 +13,9 @@ namespace {
 
 using test::kPeriod;
 
-/// Peer 2 with two shared objects, and packets that the test makes.
+/// Peer 2 with shared objects, and packets that the test makes.
 struct Conversation {
-  Conversation() : rig(2), peer(rig.connect(link)) {}
+  explicit Conversation(int objects = 2) : rig(objects), peer(rig.connect(link)) {}
 
   StatePacket makePacket(std::uint64_t sequence) const {
     return test::makePacket(PeerId{2}, sequence, Vec3(0, 1, 0));
@@ -219,6 +219,41 @@ TEST(Peers, TakeWhatAPeerGrantsOnce) {
   EXPECT_NEAR(energy.observer().available() - start, 1.25, 1e-15);
   talk.arrive(talk.makePacket(43), 0.43);
   EXPECT_FALSE(talk.rig.peers.keepAccounts());
+}
+
+// Each packet tells one of 256 objects in turn, and two packets with the last one get lost.
+TEST(Peers, KeepHoldOfWhatIsToldRarely) {
+  constexpr std::uint64_t kObjects = 256;
+  Conversation talk(kObjects);
+  for (std::uint64_t n = 0; n < 4 * kObjects - 1; ++n) {
+    StatePacket packet = talk.makePacket(n);
+    const auto id = static_cast<ObjectId>(n % kObjects);
+    if (id != kObjects - 1 || n < kObjects)
+      Conversation::addObject(packet, id, Vec3(id + 1.0, 0, 0));
+    talk.arrive(packet, static_cast<double>(n) / 16.0);
+  }
+  EXPECT_EQ(talk.share(kObjects - 1), 1.0);
+}
+
+// What is told no more has no force after four rounds of one object a packet.
+TEST(Peers, LetGoOfWhatIsToldNoMoreAmongMany) {
+  constexpr int kObjects = 20;
+  Conversation talk(kObjects);
+  const auto tell = [&](std::uint64_t from, std::uint64_t until, bool tells_last) {
+    for (std::uint64_t n = from; n < until; ++n) {
+      StatePacket packet = talk.makePacket(n);
+      const auto id = static_cast<ObjectId>(n % kObjects);
+      if (tells_last || id != kObjects - 1)
+        Conversation::addObject(packet, id, Vec3(id + 1.0, 0, 0));
+      talk.arrive(packet, static_cast<double>(n) / 128.0);
+    }
+  };
+  tell(0, 20, true);
+  tell(20, 20 + 70, false);
+  EXPECT_EQ(talk.share(kObjects - 1), 1.0);
+  tell(90, 20 + 90, false);
+  EXPECT_EQ(talk.share(kObjects - 1), 0.0);
+  EXPECT_EQ(talk.share(0), 1.0);
 }
 
 }  // namespace

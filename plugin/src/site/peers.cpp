@@ -10,9 +10,11 @@
 namespace tandem {
 namespace {
 
-/// An object counts as missing at the peer when it missed its turn this often. Packets overtake,
-/// and a body may be too fast for packets for a moment.
-constexpr std::uint64_t kTurnsMissed = 16;
+/// An object counts as missing at the peer after so many packets without it. Packets overtake, and
+/// a body may be too fast for packets for a moment.
+constexpr std::size_t kPacketsMissed = 16;
+/// Rounds of one object a packet that may be missed, if not all fit: a round may be lost in part.
+constexpr std::size_t kRoundsMissed = 4;
 
 }  // namespace
 
@@ -195,11 +197,12 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
 /// they do not fit into one packet, each waits for its turn. Looks at some of them per packet.
 void Peers::letGoOfMissing(Peer& peer) noexcept {
   const std::size_t count = peer.ties.size();
-  const std::uint64_t turns = 1 + count / (kMaxObjectsPerPacket - 1);
+  const std::size_t patience =
+      count > kMaxObjectsPerPacket ? kRoundsMissed * count : kPacketsMissed;
   for (std::size_t i = 0; i < std::min<std::size_t>(count, kMaxObjectsPerPacket); ++i) {
     peer.next_checked = (peer.next_checked + 1) % count;
     Tie& tie = peer.ties[peer.next_checked];
-    const bool is_missing = peer.packets_heard - tie.heard_at >= kTurnsMissed * turns;
+    const bool is_missing = peer.packets_heard - tie.heard_at >= patience;
     if (is_missing && tie.sequence && peer.isRenewed(tie, bodies_.objects[peer.next_checked]))
       awaitNews(peer, tie);
   }
