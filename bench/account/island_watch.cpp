@@ -15,13 +15,12 @@ std::uint64_t spread(std::uint64_t sequence) { return (sequence + 1) << kRepeatB
 
 }  // namespace
 
-RemoteUser IslandWatch::makeRemoteUser(Island& island, const ProxySettings& proxy,
-                                       const CouplerGains& coordination,
+RemoteUser IslandWatch::makeRemoteUser(Island& island, const StandInSettings& stand_in,
                                        const PointState& start) const {
   island_ = &island;
   // The account knows springs only.
   island.setTouchMemory(false);
-  const RemoteUser user = scheme_.makeRemoteUser(island, proxy, coordination, start);
+  const RemoteUser user = scheme_.makeRemoteUser(island, stand_in, start);
   bodies_.push_back(user.body.value_or(-1));
   times_.push_back(0.0);
   return user;

@@ -29,8 +29,7 @@ class IslandWatch final : public Scheme {
   [[nodiscard]] const Island* island() const { return island_; }
 
   [[nodiscard]] std::string_view name() const noexcept override { return scheme_.name(); }
-  [[nodiscard]] RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy,
-                                          const CouplerGains& coordination,
+  [[nodiscard]] RemoteUser makeRemoteUser(Island& island, const StandInSettings& stand_in,
                                           const PointState& start) const override;
   void follow(Island& island, const RemoteUser& user,
               const PointState& latest) const noexcept override;

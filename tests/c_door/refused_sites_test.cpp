@@ -37,6 +37,8 @@ std::vector<Case> siteCases() {
       siteCase("NoScheme", "scheme is null", [](auto& s) { s.scheme = nullptr; }),
       siteCase("Guide", "guide = (1, 1, 0): must be of length 1",
                [](auto& s) { s.has_guide = 1, s.guide[1] = 1.0; }),
+      siteCase("CoordinationMode", "coordination_mode = 2: must be TANDEM_COORDINATION_SUM or",
+               [](auto& s) { setNumber(s.coordination_mode, 2); }),
       siteCase("TickSource", "tick_source", [](auto& s) { setNumber(s.tick_source, 3); }),
       {"DeviceTaken", TANDEM_IN_USE, "the device belongs to another site",
        [](Scene& scene) {

@@ -24,12 +24,13 @@ constexpr double kPeriod = 1e-3, kHostStep = 4e-3, kPacketRate = 500.0;
 /// N sites around a circle share a cube in its middle; no hand touches it.
 class Party {
  public:
-  Party(int agreed, int present, double delay) {
+  Party(int agreed, int present, double delay, CoordinationMode mode = CoordinationMode::kSum) {
     for (int i = 0; i < present; ++i) {
       users_.push_back(std::make_unique<User>(startOf(i, agreed)));
       SiteSettings settings;
       settings.self = idOf(i);
       settings.peers = agreed;
+      settings.coordination_mode = mode;
       settings.packet_rate = kPacketRate;
       settings.host_step = kHostStep;
       settings.tick_source = TickSource::kCaller;
@@ -94,16 +95,25 @@ class Party {
 
 class ManyPeers : public ::testing::TestWithParam<int> {};
 
+/// Speed of all copies while the first is pushed: the delay of the couplers holds them back.
+void expectSpeed(int n, CoordinationMode mode, double couplers) {
+  constexpr double kForce = 0.4, kDelay = 0.02, kStiffness = 200.0;
+  Party party(n, n, kDelay, mode);
+  party.run(4.0, Vec3(kForce, 0, 0));
+  const double age = kDelay + 0.5 / kPacketRate;
+  const double speed = kForce / (couplers * kStiffness * age);
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(party.copy(i).v_W.x(), speed, 0.03 * speed) << i;
+}
+
 // Each of the N (N - 1) couplers pulls back by K v tau. Its target is as old as the delay plus half
 // a packet period. A pushed cube reaches the speed at which the sum equals the push.
 TEST_P(ManyPeers, MoveAtTheSpeedAtWhichDelayHoldsThemBack) {
-  const int n = GetParam();
-  constexpr double kForce = 0.4, kDelay = 0.02, kStiffness = 200.0;
-  Party party(n, n, kDelay);
-  party.run(4.0, Vec3(kForce, 0, 0));
-  const double age = kDelay + 0.5 / kPacketRate;
-  const double speed = kForce / (n * (n - 1) * kStiffness * age);
-  for (int i = 0; i < n; ++i) EXPECT_NEAR(party.copy(i).v_W.x(), speed, 0.03 * speed) << i;
+  expectSpeed(GetParam(), CoordinationMode::kSum, GetParam() * (GetParam() - 1));
+}
+
+// By average, each coupler has 1/N of K.
+TEST_P(ManyPeers, MoveNTimesAsFastByAverage) {
+  expectSpeed(GetParam(), CoordinationMode::kAverage, GetParam() - 1);
 }
 
 // One copy is pushed for a while. All follow over the network and come to rest at one place.

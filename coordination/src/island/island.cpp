@@ -105,8 +105,9 @@ void Island::setGrip(GripIndex grip, const IslandGrip* hold) noexcept {
 void Island::setContactShare(BodyIndex body, double share) noexcept {
   TANDEM_ASSERT(impl_->prepared && share >= 0.0 && share <= 1.0);
   ModelBody& b = impl_->model.bodies[body];
-  if (b.contact_share == share) return;
-  b.contact_share = share;
+  const double of_all = share * b.settings.contact_share;
+  if (b.contact_share == of_all) return;
+  b.contact_share = of_all;
   impl_->refit(body, false);
 }
 

@@ -41,6 +41,7 @@ struct IslandBody {
   Vec3 linear_factor = Vec3::Ones(), angular_factor = Vec3::Ones();
   double damping = 0.0;          ///< b of the force -b v [N s/m], >= 0
   double angular_damping = 0.0;  ///< rate of the damping w' = -rate w [1/s], >= 0
+  double contact_share = 1.0;    ///< of the gains of its smooth contacts; two bodies' multiply
   bool feels_obstacles = false;  ///< the sphere touches obstacles of Island::setObstacles
   bool touches_spheres = true;   ///< in a slot: spheres with `feels_obstacles` touch it
   bool is_rigid = false;         ///< a ContactFinder finds its rigid contacts
@@ -210,8 +211,7 @@ class Island {
   /// Holds a body, or changes how it is held; null lets go. Once let go, hand and body may touch
   /// again: a deep contact is let in gently.
   void setGrip(GripIndex grip, const IslandGrip* hold) noexcept;
-  /// Scales the gains of all smooth contacts of a body. In a contact of two bodies both shares
-  /// multiply.
+  /// Scales the gains of all smooth contacts of a body, beside IslandBody::contact_share.
   void setContactShare(BodyIndex body, double share) noexcept;
   /// Damping added to the body's own [N s/m], >= 0, until set again.
   void setExtraDamping(BodyIndex body, double damping) noexcept;

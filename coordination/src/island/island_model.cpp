@@ -48,6 +48,7 @@ ModelBody ModelBody::make(const IslandBody& settings, bool is_guided) noexcept {
   ModelBody body;
   body.settings = settings;
   body.state = settings.start;
+  body.contact_share = settings.contact_share;
   body.bounding_radius = computeBoundingRadius(settings.shape);
   if (is_guided) body.settings.linear_factor = body.settings.angular_factor = Vec3::Ones();
   if (!body.isDynamic()) return body;

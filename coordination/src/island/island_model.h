@@ -97,10 +97,6 @@ struct ModelGrip {
   IslandGrip hold;
 };
 
-[[nodiscard]] inline CouplerGains computeShare(const CouplerGains& gains, double share) noexcept {
-  return {share * gains.stiffness, share * gains.damping};
-}
-
 /// The island as built, and lists of the bodies that take part now. Work of each tick loops over
 /// present bodies only.
 struct IslandModel {
@@ -160,6 +156,10 @@ struct IslandModel {
   /// Share of the gains of a contact of two bodies.
   [[nodiscard]] double contactShare(BodyIndex a, BodyIndex b) const noexcept {
     return bodies[a].contact_share * bodies[b].contact_share;
+  }
+  /// The same with nothing lowered.
+  [[nodiscard]] double fullContactShare(BodyIndex a, BodyIndex b) const noexcept {
+    return bodies[a].settings.contact_share * bodies[b].settings.contact_share;
   }
 
   /// Reserves enough room that listPresent() never allocates.

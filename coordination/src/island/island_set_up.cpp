@@ -31,6 +31,7 @@ void checkBody(const IslandBody& body, bool is_guided) {
   checkShape(body.shape);
   checkNotNegative("body damping", body.damping);
   checkNotNegative("body angular damping", body.angular_damping);
+  checkPositive("body contact share", body.contact_share);
   if (!isFinite(body.start)) throw std::invalid_argument("a body's start state must be finite");
   if (body.feels_obstacles && !std::holds_alternative<Sphere>(body.shape))
     throw std::invalid_argument("only a sphere feels obstacles; make other shapes is_rigid");

@@ -55,10 +55,11 @@ SlotMotion::SlotMotion(const IslandModel& model)
       blocked |= is_between(b);
     if (blocked || !model.letsMeet(pair.sphere, pair.other)) continue;
 
-    Contact contact{pair.sphere, pair.other, pair.gains, other >= sphere ? 1.0 : -1.0,
-                    0.0,         pair.gains};
     const auto& a = model.bodies[pair.sphere].settings;
     const auto& b = model.bodies[pair.other].settings;
+    const CouplerGains gains =
+        computeShare(pair.gains, model.fullContactShare(pair.sphere, pair.other));
+    Contact contact{pair.sphere, pair.other, gains, other >= sphere ? 1.0 : -1.0, 0.0, gains};
     const Vec3 towards = contact.side * axis_;  // from the sphere to the other
     contact.clearance =
         std::abs(other - sphere) - computeExtent(a, towards) - computeExtent(b, -towards);
@@ -128,11 +129,13 @@ void SlotMotion::refit(const IslandModel& model) noexcept {
   uses_series_ = !has_maps_;
   for (const ModelCoupler& coupler : model.couplers) uses_series_ |= coupler.share != 1.0;
   for (const ModelBody& body : model.bodies)
-    uses_series_ |= body.is_ghost || body.contact_share != 1.0 || body.extra_damping != 0.0;
+    uses_series_ |= body.is_ghost || body.contact_share != body.settings.contact_share ||
+                    body.extra_damping != 0.0;
   for (Contact& contact : contacts_) {
     const bool meets =
         !model.bodies[contact.sphere].is_ghost && !model.bodies[contact.other].is_ghost;
-    const double share = model.contactShare(contact.sphere, contact.other);
+    const double share = model.contactShare(contact.sphere, contact.other) /
+                         model.fullContactShare(contact.sphere, contact.other);
     contact.gains = meets ? computeShare(contact.full_gains, share) : CouplerGains{};
   }
   for (std::size_t i = 0; i < movers_.size(); ++i) {

@@ -6,6 +6,10 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
+[[nodiscard]] inline CouplerGains computeShare(const CouplerGains& gains, double share) noexcept {
+  return {share * gains.stiffness, share * gains.damping};
+}
+
 /// Force that pulls `follower` towards `leader`, expressed in W [N]:
 ///
 ///   f = K (p_leader - p_follower) + B (v_leader - v_follower)

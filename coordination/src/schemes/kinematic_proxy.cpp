@@ -9,11 +9,12 @@ class KinematicProxy final : public Scheme {
  public:
   std::string_view name() const noexcept override { return "kinematic_proxy"; }
 
-  RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy, const CouplerGains&,
+  RemoteUser makeRemoteUser(Island& island, const StandInSettings& stand_in,
                             const PointState& start) const override {
     IslandBody body;
-    body.shape = Sphere{proxy.radius};
+    body.shape = Sphere{stand_in.proxy.radius};
     body.motion = Motion::kHeld;
+    body.contact_share = stand_in.contact_share;
     body.start.p_W = start.p_W;
     body.start.v_W = start.v_W;
     return {island.addBody(body), std::nullopt};

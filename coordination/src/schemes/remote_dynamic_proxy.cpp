@@ -9,18 +9,19 @@ class RemoteDynamicProxy final : public Scheme {
  public:
   std::string_view name() const noexcept override { return "remote_dynamic_proxy"; }
 
-  RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy,
-                            const CouplerGains& coordination,
+  RemoteUser makeRemoteUser(Island& island, const StandInSettings& stand_in,
                             const PointState& start) const override {
+    const ProxySettings& proxy = stand_in.proxy;
     IslandBody body;
     body.shape = Sphere{proxy.radius};
     body.mass = proxy.mass;
     body.damping = proxy.damping;
+    body.contact_share = stand_in.contact_share;
     body.feels_obstacles = true;
     body.start.p_W = start.p_W;
     body.start.v_W = start.v_W;
     const BodyIndex index = island.addBody(body);
-    return {index, island.addCoupler(index, {coordination, {}})};
+    return {index, island.addCoupler(index, {stand_in.coordination, {}})};
   }
 
   void follow(Island& island, const RemoteUser& user,

@@ -9,8 +9,7 @@ class VirtualCoupling final : public Scheme {
  public:
   std::string_view name() const noexcept override { return "virtual_coupling"; }
 
-  RemoteUser makeRemoteUser(Island&, const ProxySettings&, const CouplerGains&,
-                            const PointState&) const override {
+  RemoteUser makeRemoteUser(Island&, const StandInSettings&, const PointState&) const override {
     return {};
   }
 

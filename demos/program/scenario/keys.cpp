@@ -113,6 +113,11 @@ Keys makeCouplingKeys() {
           kContactModels, [](auto& s) -> auto& { return s.site.contact_model; }),
       siteKey("contact.stiffness"),
       siteKey("contact.damping"),
+      enumKey(
+          {"coordination.mode",
+           "whether each copy of an object is tied to every other one, or to the "
+           "[mean of all](users.md)"},
+          {"sum", "average"}, [](auto& s) -> auto& { return s.site.coordination_mode; }),
       siteKey("coordination.stiffness"),
       siteKey("coordination.damping"),
       numberKey({"coordination.angular_stiffness", "turns cube copies towards each other",

@@ -23,6 +23,18 @@ constexpr int kCookie = 0x54735345;
   }
 }
 
+[[nodiscard]] CoordinationMode readCoordinationMode(int mode) {
+  switch (mode) {
+    case TANDEM_COORDINATION_SUM:
+      return CoordinationMode::kSum;
+    case TANDEM_COORDINATION_AVERAGE:
+      return CoordinationMode::kAverage;
+    default:
+      refuseValue("coordination_mode", mode,
+                  "TANDEM_COORDINATION_SUM or TANDEM_COORDINATION_AVERAGE");
+  }
+}
+
 }  // namespace
 
 SiteSettings fromC(const TandemSiteSettings& c) {
@@ -34,6 +46,7 @@ SiteSettings fromC(const TandemSiteSettings& c) {
   settings.self = PeerId{c.self};
   for (const SiteWord& word : kSiteWords) findSiteField(word.field).set(settings, word.get(c));
   settings.scheme = &findScheme(&checkPointer(c.scheme, "scheme"));
+  settings.coordination_mode = readCoordinationMode(readNumber(c.coordination_mode));
   settings.tick_source = readTickSource(readNumber(c.tick_source));
   if (c.has_guide) settings.guide = readUnitVec3("guide", c.guide);
   checkSiteSettings(settings);
@@ -52,6 +65,7 @@ extern "C" TandemSiteSettings tandem_default_site_settings(void) {
   c.self = static_cast<std::uint32_t>(defaults.self);
   for (const SiteWord& word : kSiteWords) word.set(c, findSiteField(word.field).get(defaults));
   c.scheme = "remote_dynamic_proxy";
+  c.coordination_mode = TANDEM_COORDINATION_SUM;
   c.tick_source = TANDEM_TICK_HOST_STEP;
   c.guide[0] = 1.0;
   return c;

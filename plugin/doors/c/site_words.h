@@ -40,7 +40,8 @@ constexpr SiteWord word(const char* both) {
   return word<Path...>(both, both);
 }
 
-/// All but `self`, `scheme`, `tick_source` and `guide`, which are no plain numbers.
+/// All but `self`, `scheme`, `coordination_mode`, `tick_source` and `guide`, which are no plain
+/// numbers.
 inline constexpr SiteWord kSiteWords[] = {
     word<&TandemSiteSettings::peers>("peers"),
     word<&TandemSiteSettings::haptic_rate>("haptic_rate"),

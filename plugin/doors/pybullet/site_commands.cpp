@@ -26,6 +26,13 @@ void readNumber(Words& words, const c_door::SiteWord& number, TandemSiteSettings
   number.set(settings, value);
 }
 
+TandemCoordinationMode readCoordinationMode(Words& words) {
+  const std::string mode = words.text("coordination_mode", "sum");
+  if (mode == "sum") return TANDEM_COORDINATION_SUM;
+  if (mode == "average") return TANDEM_COORDINATION_AVERAGE;
+  throw Refusal(kBadCommand, "coordination_mode=" + mode + ": there are sum and average");
+}
+
 }  // namespace
 
 void Commands::device(Words& words, Reply&) {
@@ -63,6 +70,7 @@ void Commands::site(Words& words, Reply&) {
   readGains(words, "coordination", settings.coordination);
   const std::string scheme = words.text("scheme", settings.scheme);
   settings.scheme = scheme.c_str();
+  settings.coordination_mode = readCoordinationMode(words);
   settings.has_guide = words.numbersIfThere("guide", settings.guide, 3) ? 1 : 0;
   words.finish();
   session_.openSite(settings);

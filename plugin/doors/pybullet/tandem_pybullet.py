@@ -142,8 +142,8 @@ class Site:
 
     `device`: a Device or SimulatedDevice. `self_id`: this user's number, 1 or more. `peers`: number of
     users; each copy of a body carries 1/peers of its mass. `settings`: haptic_rate, packet_rate,
-    contact=(K, B), coordination=(K, B), proxy_mass, proxy_damping, proxy_radius, hip_radius, scheme,
-    guide=(x, y, z) and more: docs/pybullet.md. The defaults are those of the paper's Experiment I.
+    contact=(K, B), coordination=(K, B), coordination_mode="sum" or "average", proxy_mass, proxy_damping,
+    proxy_radius, hip_radius, scheme, guide=(x, y, z) and more: docs/pybullet.md. The defaults are those of the paper's Experiment I.
     A client takes one site at a time.
     """
 

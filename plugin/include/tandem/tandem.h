@@ -456,6 +456,12 @@ typedef enum TandemTickSource {
   TANDEM_TICK_CALLER = 1     /* tandem_site_tick(), or a loop: tandem_site_start_loop() */
 } TandemTickSource;
 
+/* How the copies of an object, and the stand-ins of remote users, share K_t and B_t. */
+typedef enum TandemCoordinationMode {
+  TANDEM_COORDINATION_SUM = 0,    /* each pair of copies is tied: stiffness and drag grow with N */
+  TANDEM_COORDINATION_AVERAGE = 1 /* each copy is tied to the mean of all N copies */
+} TandemCoordinationMode;
+
 typedef struct TandemSiteSettings {
   int internal;             /* set by tandem_default_site_settings() */
   uint32_t self;            /* id of this site, 1 or more */
@@ -466,12 +472,13 @@ typedef struct TandemSiteSettings {
   double host_step;         /* first step expected of the host [s]; 0: learnt from it */
   TandemGains contact;      /* K_vc, B_vc */
   TandemGains coordination; /* K_t, B_t */
-  double proxy_mass;        /* m_h [kg] */
-  double proxy_damping;     /* b_h [N s/m] */
-  double proxy_radius;      /* [m] */
-  double hip_radius;        /* radius of the local haptic interface point [m] */
-  int hand_group;           /* collision group of the hand and of proxies */
-  int hand_mask;            /* collision groups that the hand and proxies meet */
+  TandemCoordinationMode coordination_mode;
+  double proxy_mass;    /* m_h [kg] */
+  double proxy_damping; /* b_h [N s/m] */
+  double proxy_radius;  /* [m] */
+  double hip_radius;    /* radius of the local haptic interface point [m] */
+  int hand_group;       /* collision group of the hand and of proxies */
+  int hand_mask;        /* collision groups that the hand and proxies meet */
   /* The hand feels moving bodies with nothing shared, too; 0: the host's bits stay the same. */
   int hand_feels_moving_bodies;
   int puts_reset_objects; /* 0: an object that a peer's host put elsewhere is led there */

@@ -120,7 +120,8 @@ void Grips::followPeer(const Peer& peer, Remote& remote, double now, double peri
   if (peer.health.isProxyOut()) return hold.pause();
   const SharedObject& held = bodies_.objects[*hold.state().object];
   if (!held.body.is_held) return hold.drop();
-  hold.follow(held, period, peer.health.proxyShare(), 0.0);
+  const double share = peers_.standIn().contact_share * peer.health.proxyShare();
+  hold.follow(held, period, share, 0.0);
   hand_.energy().countLift(hold.takeWork());
 }
 

@@ -7,7 +7,7 @@
 namespace tandem {
 
 void ImpulseStep::addProxy(Peer& peer, const Vec3& start_W) {
-  checkStable("proxy", site_.settings.proxy.mass);
+  checkStable("proxy", site_.peers.standIn().proxy.mass);
   IslandStep::addProxy(peer, start_W);
 }
 

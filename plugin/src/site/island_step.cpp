@@ -31,7 +31,7 @@ void IslandStep::addObject(SharedObject& object) {
 }
 
 void IslandStep::addProxy(Peer& peer, const Vec3& start_W) {
-  const ProxySettings& proxy = site_.settings.proxy;
+  const ProxySettings& proxy = site_.peers.standIn().proxy;
   const CouplerGains& contact = site_.settings.contact;
   const BodyIndex index = *peer.user.body;
   const CollisionFilter filter{site_.settings.hand_group, site_.settings.hand_mask};

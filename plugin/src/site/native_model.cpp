@@ -36,17 +36,19 @@ void NativeModel::addObject(const HapticBody& object, double damping) {
   soften(hand_.rigid());
 }
 
-void NativeModel::addProxy(BodyIndex body, const SphereBody& proxy) {
+void NativeModel::addProxy(BodyIndex body, const SphereBody& proxy,
+                           const StandInSettings& stand_in) {
   proxies_.push_back({body, &proxy.rigid()});
   proxy.rigid().setActivationState(DISABLE_DEACTIVATION);
-  setNativeDamping(proxy.rigid(), settings_.proxy.damping);
+  setNativeDamping(proxy.rigid(), stand_in.proxy.damping);
   guide(proxy.rigid());
-  soften(proxy.rigid());
+  soften(proxy.rigid(), stand_in.contact_share);
 }
 
-KinematicSphere& NativeModel::addHeldProxy(BodyIndex body, const Vec3& p_W) {
+KinematicSphere& NativeModel::addHeldProxy(BodyIndex body, const Vec3& p_W,
+                                           const StandInSettings& stand_in) {
   held_.push_back({body, std::make_unique<KinematicSphere>(world_, settings_.proxy.radius, p_W)});
-  soften(held_.back().sphere->rigid());
+  soften(held_.back().sphere->rigid(), stand_in.contact_share);
   return *held_.back().sphere;
 }
 
@@ -72,7 +74,8 @@ void NativeModel::followShares(const Island& island) noexcept {
   for (const Held& held : held_) soften(held.sphere->rigid(), island.contactShare(held.body));
   for (const Proxy& proxy : proxies_) {
     soften(*proxy.rigid, island.contactShare(proxy.body));
-    setNativeDamping(*proxy.rigid, settings_.proxy.damping + island.extraDamping(proxy.body));
+    setNativeDamping(*proxy.rigid,
+                     island.body(proxy.body).damping + island.extraDamping(proxy.body));
   }
 }
 

@@ -30,9 +30,9 @@ class NativeModel {
   /// Set-up, once for each body; may throw std::invalid_argument. Objects must outlive this. So
   /// must rigid bodies with joints or guides, and all others until they leave the world.
   void addObject(const HapticBody& object, double damping);
-  void addProxy(BodyIndex body, const SphereBody& proxy);
+  void addProxy(BodyIndex body, const SphereBody& proxy, const StandInSettings& stand_in);
   /// Adds a prescribed proxy: a kinematic sphere held at the state of `body`.
-  KinematicSphere& addHeldProxy(BodyIndex body, const Vec3& p_W);
+  KinematicSphere& addHeldProxy(BodyIndex body, const Vec3& p_W, const StandInSettings& stand_in);
   /// Adds the counterpart of the island's coupler `index`, with its target.
   void addCoupler(btRigidBody& body, CouplerIndex index, CouplerSettings coupler);
 

@@ -16,17 +16,17 @@ void NativeStep::addObject(SharedObject& object) {
 void NativeStep::addProxy(Peer& peer, const Vec3& start_W) {
   const BodyIndex index = *peer.user.body;
   if (!peer.user.coupler) {
-    peer.proxy.held = &model_->addHeldProxy(index, start_W);
+    peer.proxy.held = &model_->addHeldProxy(index, start_W, site_.peers.standIn());
     return;
   }
-  const ProxySettings& proxy = site_.settings.proxy;
+  const StandInSettings& stand_in = site_.peers.standIn();
+  const ProxySettings& proxy = stand_in.proxy;
   peer.proxy.sphere = std::make_unique<SphereBody>(site_.host_world.world(), proxy.radius,
                                                    proxy.mass, start_W, SphereMeets::kAllBodies);
   peer.proxy.body.bullet = &peer.proxy.sphere->haptic();
   peer.proxy.body.index = index;
-  model_->addProxy(index, *peer.proxy.sphere);
-  model_->addCoupler(peer.proxy.sphere->rigid(), *peer.user.coupler,
-                     {site_.settings.coordination, {}});
+  model_->addProxy(index, *peer.proxy.sphere, stand_in);
+  model_->addCoupler(peer.proxy.sphere->rigid(), *peer.user.coupler, {stand_in.coordination, {}});
 }
 
 void NativeStep::addCoupler(SharedObject& object, CouplerIndex index,

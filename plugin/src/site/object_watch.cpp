@@ -150,7 +150,7 @@ bool ObjectWatch::findReturned() {
 bool ObjectWatch::hold(SharedObject& object) {
   const std::optional<Shape> shape = findShareableShape(*object.rigid);
   if (!shape) return false;
-  object.hold(world_, settings_.peers, *shape);
+  object.hold(world_, *shape);
   object.body.step = {};
   object.body.load = {};
   object.body.load.makeRoom();

@@ -22,6 +22,7 @@ struct SharedObject {
   SiteBody body;
   ObjectId id = 0;
   std::optional<PeerId> tool_of;  ///< the user of a tool; empty: an object of all
+  double mass_share = 1.0;        ///< part of the body's mass that this copy has
   double damping = 0.0;           ///< of this copy [N s/m]
   double bounding_radius = 0.0;
   ObjectEpoch epoch;        ///< of our copy; for the thread that ticks
@@ -43,15 +44,9 @@ struct SharedObject {
     seen.p_W += offset_W;
   }
 
-  /// Part of the body's mass that this copy has, one of `peers` copies.
-  [[nodiscard]] double massShare(int peers) const noexcept {
-    return tool_of ? 1.0 : 1.0 / static_cast<double>(peers);
-  }
-
-  /// Takes the host's body as it is now, one of `peers` copies. It must be dynamic and in the
-  /// world.
-  void hold(btDiscreteDynamicsWorld& world, int peers, const Shape& shape) {
-    bullet = std::make_unique<HapticBody>(world, *rigid, massShare(peers));
+  /// Takes the host's body as it is now. It must be dynamic and in the world.
+  void hold(btDiscreteDynamicsWorld& world, const Shape& shape) {
+    bullet = std::make_unique<HapticBody>(world, *rigid, mass_share);
     body.bullet = bullet.get();
     bounding_radius = computeBoundingRadius(shape);
     settings.shape = shape;

@@ -133,7 +133,7 @@ void Peers::restrainProxy(Peer& peer, HostStep& host_step) noexcept {
   }
   island_.setContactShare(body, health.proxyShare());
   if (!peer.user.coupler) return;
-  const double rest_damping = computeRestDamping(settings_.coordination, settings_.proxy.mass,
+  const double rest_damping = computeRestDamping(stand_in_.coordination, stand_in_.proxy.mass,
                                                  settings_.link_loss.hold_decay);
   island_.setCouplerShare(*peer.user.coupler, health.proxyShare());
   island_.setExtraDamping(body, is_out ? 0.0 : health.silence() * rest_damping);

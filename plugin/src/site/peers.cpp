@@ -22,6 +22,8 @@ Peers::Peers(const SiteSettings& settings, Island& island, Bodies& bodies, Energ
              SiteLog& log)
     : settings_(settings),
       scheme_(settings.scheme ? *settings.scheme : findScheme("remote_dynamic_proxy")),
+      shares_(computeShares(settings.coordination_mode, settings.peers)),
+      stand_in_(makeStandIn(settings.proxy, settings.coordination, shares_.stand_in)),
       island_(island),
       bodies_(bodies),
       energy_(energy),
@@ -36,19 +38,24 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
   peer.acted_on = peer.health.state();
   peer.track.jump({start_W, Vec3::Zero()});
   peer.searched_W = start_W;
-  peer.user = scheme_.makeRemoteUser(island_, settings_.proxy, settings_.coordination,
-                                     {start_W, Vec3::Zero()});
+  peer.user = scheme_.makeRemoteUser(island_, stand_in_, {start_W, Vec3::Zero()});
   if (peer.user.body)
     island_.setFilter(*peer.user.body, {settings_.hand_group, settings_.hand_mask});
   return peer;
+}
+
+double Peers::findMassShare(const std::optional<PeerId>& tool_of) const noexcept {
+  if (!tool_of) return 1.0 / settings_.peers;
+  return *tool_of == settings_.self ? 1.0 : stand_in_.contact_share;
 }
 
 CouplerSettings Peers::makeCoupler(const SharedObject& object) const noexcept {
   if (object.tool_of) return {};
   const CouplerGains& linear = settings_.coordination;
   const double radius_squared = object.settings.inertia_B.maxCoeff() / object.settings.mass;
-  return {linear, settings_.angular_coordination.value_or(CouplerGains{
-                      linear.stiffness * radius_squared, linear.damping * radius_squared})};
+  const CouplerGains angular =
+      settings_.angular_coordination.value_or(computeShare(linear, radius_squared));
+  return {computeShare(linear, shares_.object), computeShare(angular, shares_.object)};
 }
 
 double Peers::nextArrival(double now, double until) noexcept {

@@ -4,6 +4,7 @@
 
 #include "tandem/plugin/site_settings.h"
 
+#include "coordination/src/schemes/coordination_shares.h"
 #include "site/bodies.h"
 #include "site/peer.h"
 #include "site/session_frame.h"
@@ -29,6 +30,11 @@ class Peers {
  public:
   Peers(const SiteSettings& settings, Island& island, Bodies& bodies, EnergyPort& energy,
         SiteLog& log);
+
+  /// What stands for each of the remote users.
+  [[nodiscard]] const StandInSettings& standIn() const noexcept { return stand_in_; }
+  /// Part of a body's mass that our copy of an object, or of a tool of this user, has.
+  [[nodiscard]] double findMassShare(const std::optional<PeerId>& tool_of) const noexcept;
 
   [[nodiscard]] bool isEmpty() const noexcept { return peers_.empty(); }
   [[nodiscard]] int count() const noexcept { return static_cast<int>(peers_.size()); }
@@ -113,6 +119,8 @@ class Peers {
 
   const SiteSettings& settings_;
   const Scheme& scheme_;
+  const CoordinationShares shares_;
+  const StandInSettings stand_in_;
   Island& island_;
   Bodies& bodies_;
   EnergyPort& energy_;

@@ -78,7 +78,8 @@ ObjectId Site::Impl::add(SharedObject object, btRigidBody& rigid) {
 
   object.id = static_cast<ObjectId>(bodies.objects.size());
   object.rigid = &rigid;
-  object.hold(host_world.world(), settings.peers, shape);
+  object.mass_share = peers.findMassShare(object.tool_of);
+  object.hold(host_world.world(), shape);
   host_step->checkObject(object.settings.mass);
   object.body.index = island.addBody(object.settings);
   object.body.is_held = true;
@@ -123,8 +124,7 @@ void Site::Impl::share(ObjectId id, btRigidBody& rigid) {
   checkShareable(rigid);
   static_cast<void>(getShareableShape(rigid));
   HapticBody::checkAttachable(host_world.world(), rigid);
-  host_step->checkObject(object.massShare(settings.peers) /
-                         static_cast<double>(rigid.getInvMass()));
+  host_step->checkObject(object.mass_share / static_cast<double>(rigid.getInvMass()));
   host_step->leaveNeighbours();  // the body may be a neighbour
   unshare(id);
   objects.expect(object, rigid);

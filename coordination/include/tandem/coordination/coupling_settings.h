@@ -13,11 +13,24 @@ struct CouplerGains {
   double damping = 0.0;    ///< [N s/m], >= 0; higher calms the coupling, too high rings with delay
 };
 
+/// How the copies of an object, and the stand-ins of remote users, share K_t and B_t.
+enum class CoordinationMode {
+  kSum,      ///< each pair of copies is tied by K_t, B_t: stiffness and drag grow with N
+  kAverage,  ///< each copy is tied to the mean of all N: K_t/N, B_t/N for each pair
+};
+
 /// The remote dynamic proxy: the body that stands for a remote user in some schemes.
 struct ProxySettings {
   double mass = 0.1;     ///< m_h, the mass of the remote user's device [kg]
   double damping = 0.0;  ///< b_h, damping of the remote user's hand [N s/m]
   double radius = 0.01;  ///< radius of the sphere [m]
+};
+
+/// What stands for a remote user at this site: the whole user, or a part of it.
+struct StandInSettings {
+  ProxySettings proxy;
+  CouplerGains coordination;   ///< ties it to the user's delayed state
+  double contact_share = 1.0;  ///< of the gains of its smooth contacts
 };
 
 /// State of a remote peer, by the age of its last applied state.

@@ -7,10 +7,9 @@
 namespace tandem {
 
 class Island;
-struct CouplerGains;
 struct PointState;
-struct ProxySettings;
 struct RemoteUser;
+struct StandInSettings;
 
 /// A coordination scheme: how a remote user is represented. Schemes are what Tandem compares.
 ///
@@ -24,8 +23,7 @@ class Scheme {
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
 
   /// Set-up: makes the representation of a remote user whose device is at `start`.
-  [[nodiscard]] virtual RemoteUser makeRemoteUser(Island& island, const ProxySettings& proxy,
-                                                  const CouplerGains& coordination,
+  [[nodiscard]] virtual RemoteUser makeRemoteUser(Island& island, const StandInSettings& stand_in,
                                                   const PointState& start) const = 0;
 
   /// Applies the user's newest (delayed) state. Called in the tick; real-time safe.

@@ -76,6 +76,7 @@ struct SiteSettings {
   double host_step = 0.0;             ///< first step expected of the host [s]; 0: learnt from it
   CouplerGains contact{4000.0, 1.0};  ///< K_vc, B_vc of every contact coupling of spheres
   CouplerGains coordination{200.0, 30.0};  ///< K_t, B_t: proxy to user, object copy to object copy
+  CoordinationMode coordination_mode = CoordinationMode::kSum;  ///< kAverage for N above 2
   /// Rotational coupling of object copies [N m/rad, N m s/rad]. Empty: K_t J/m and B_t J/m, as if
   /// each mass element were coupled to its own copy.
   std::optional<CouplerGains> angular_coordination;
