@@ -193,7 +193,7 @@ def replay_a_run(tandem, worlds, display, folder):
     check(view.end() == 0, "Escape ends the window with status 0")
     check((folder / "replay.png").read_bytes()[:4] == b"\x89PNG", "a screenshot of a run")
     refuse(tandem, display.environment, 2, "--replay: shows what was recorded", "cube", "--replay", run)
-    refuse(tandem, display.environment, 2, "must be 1 or 2", "--replay", run, "--site", "3")
+    refuse(tandem, display.environment, 2, "has sites 1 to 2", "--replay", run, "--site", "3")
     (run / "scene.csv").unlink()
     refuse(tandem, display.environment, 2, "scene.csv: cannot be read", "--replay", run)
 

@@ -28,7 +28,7 @@ class FilmCommand final : public Command {
         {.is_required = true});
     arguments.repeated("--set", overrides_, "override a key, as for tandem run");
     arguments.repeated("--share", shares_, "a body of the world's file that both users move");
-    arguments.option("--site", site_, "of a recorded run: whose view, 1 or 2");
+    arguments.option("--site", site_, "of a recorded run: whose view, 1, 2 ...");
     arguments.option("--out", out_, "film.mp4, .webm, .gif, or a folder for PNG frames",
                      {.is_required = true});
     arguments.option("--size", size_, "width and height in pixels, e.g. 960x600");

@@ -39,7 +39,7 @@ void makeFilm(const demos::Scenario& scenario, const FilmSettings& settings,
   FilmCamera camera(settings.size, scenario, chooseFirstEye(scenario, 0));
   const auto take = [&] {
     DrawList list = look.look();
-    addGhosts(list, run.world(1));
+    for (int other = 1; other < run.siteCount(); ++other) addGhosts(list, run.world(other));
     const Site& site = run.world(0).site();
     sink->add(camera.take(std::move(list), site.hip().p_W, site.force()));
   };

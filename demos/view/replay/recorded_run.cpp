@@ -1,7 +1,7 @@
 #include "replay/recorded_run.h"
 
 #include <algorithm>
-#include <initializer_list>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,13 +17,18 @@ fs::path summaryOf(const fs::path& folder, int site) {
   return folder / fmt::format("site{}.json", site + 1);
 }
 
-/// Adds what one summary and its scene tell of some sites.
+/// Adds what one summary and its scene tell of some sites; none: of all that the scenario has.
 void addSites(RecordedRun& run, const fs::path& summary_file, const fs::path& scene_file,
-              std::initializer_list<int> sites) {
+              std::vector<int> sites = {}) {
   RecordedSummary summary = readRecordedSummary(summary_file);
   run.summary = summary_file;
   run.scenario = std::move(summary.scenario);
-  auto scenes = readRecordedScenes(scene_file, summary.bodies);
+  run.sites.resize(run.scenario.sites.size());
+  auto scenes = readRecordedScenes(scene_file, summary.bodies, run.sites.size());
+  if (sites.empty()) {
+    sites.resize(run.sites.size());
+    std::iota(sites.begin(), sites.end(), 0);
+  }
   for (const int site : sites) {
     const auto at = static_cast<std::size_t>(site);
     RecordedSite& recorded = run.sites[at].emplace();
@@ -43,7 +48,7 @@ RecordedRun loadRecordedRun(const fs::path& folder) {
   const bool has_site = exists(summaryOf(folder, 0)) || exists(summaryOf(folder, 1));
   if (exists(folder / "summary.json") || !has_site) {
     // `tandem run` wrote it, in virtual time.
-    addSites(run, folder / "summary.json", folder / "scene.csv", {0, 1});
+    addSites(run, folder / "summary.json", folder / "scene.csv");
     return run;
   }
   // `tandem peer` wrote it: each site has files of its own. The first site's scenario stays.

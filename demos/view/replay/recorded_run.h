@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -17,15 +16,16 @@ struct RecordedSite {
   std::vector<HandMoment> hand;
 };
 
-/// A run as its folder has it: of both sites, or of one of a live run.
+/// A run as its folder has it: of all sites, or of one of a live run.
 struct RecordedRun {
   std::filesystem::path summary;  ///< its file, for messages
   demos::Scenario scenario;
-  std::array<std::optional<RecordedSite>, 2> sites;
-  double duration = 0.0;  ///< until the last tick or frame [s]
+  std::vector<std::optional<RecordedSite>> sites;  ///< of the scenario; empty: not recorded
+  double duration = 0.0;                           ///< until the last tick or frame [s]
 
   [[nodiscard]] bool has(int site) const {
-    return sites[static_cast<std::size_t>(site)].has_value();
+    const auto at = static_cast<std::size_t>(site);
+    return at < sites.size() && sites[at].has_value();
   }
 };
 

@@ -33,9 +33,10 @@ void checkBody(const NumberTable& row, std::size_t place, const RecordedBody& bo
 
 }  // namespace
 
-std::array<RecordedScene, 2> readRecordedScenes(const std::filesystem::path& file,
-                                                const std::vector<RecordedBody>& bodies) {
-  std::array<RecordedScene, 2> scenes;
+std::vector<RecordedScene> readRecordedScenes(const std::filesystem::path& file,
+                                              const std::vector<RecordedBody>& bodies,
+                                              std::size_t sites) {
+  std::vector<RecordedScene> scenes(sites);
   for (const RecordedBody& body : bodies)
     scenes[static_cast<std::size_t>(body.site)].names.push_back(body.name);
   NumberTable row(file, {"t", "site", "body", "x", "y", "z", "qw", "qx", "qy", "qz"});

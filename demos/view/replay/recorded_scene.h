@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@ namespace tandem::view {
 
 /// A body of a recorded scene, as summary.json lists it.
 struct RecordedBody {
-  int site = 0;  ///< 0 or 1
+  int site = 0;  ///< counted from 0
   std::string name;
 };
 
@@ -28,10 +27,11 @@ struct RecordedScene {
   std::vector<RecordedPose> poses;  ///< of all bodies in the first frame, then in the next
 };
 
-/// Reads both sites' scenes from a table such as scene.csv, in which each frame has all `bodies`
-/// in their order. Throws UsageError with file, line and remedy.
-[[nodiscard]] std::array<RecordedScene, 2> readRecordedScenes(
-    const std::filesystem::path& file, const std::vector<RecordedBody>& bodies);
+/// Reads the scenes of `sites` sites from a table such as scene.csv, in which each frame has all
+/// `bodies` in their order. Throws UsageError with file, line and remedy.
+[[nodiscard]] std::vector<RecordedScene> readRecordedScenes(const std::filesystem::path& file,
+                                                            const std::vector<RecordedBody>& bodies,
+                                                            std::size_t sites);
 
 /// Pose of a body at a time, straight between two frames; before the first and after the last frame
 /// as there.

@@ -27,12 +27,13 @@ nlohmann::json parseFile(const std::filesystem::path& file) {
 }
 
 RecordedBody readBody(const std::filesystem::path& file, const nlohmann::json& body,
-                      std::size_t place) {
+                      std::size_t place, std::size_t sites) {
   const auto site = body.is_object() ? body.value("site", nlohmann::json()) : nlohmann::json();
   const auto name = body.is_object() ? body.value("name", nlohmann::json()) : nlohmann::json();
-  if ((site != 1 && site != 2) || !name.is_string())
-    refuseRunFile(
-        file, fmt::format("scene.bodies, body {}: must have a site, 1 or 2, and a name", place));
+  const bool has_site = site.is_number_unsigned() && site > 0 && site <= sites;
+  if (!has_site || !name.is_string())
+    refuseRunFile(file, fmt::format("scene.bodies, body {}: must have a site, 1 {} {}, and a name",
+                                    place, sites == 2 ? "or" : "to", sites));
   return {site.get<int>() - 1, name.get<std::string>()};
 }
 
@@ -49,7 +50,8 @@ RecordedSummary readRecordedSummary(const std::filesystem::path& file) {
   const nlohmann::json bodies = part("/scene/bodies");
   if (!bodies.is_array() || bodies.empty()) refuseRunFile(file, "scene.bodies: there are none");
   for (const nlohmann::json& body : bodies)
-    summary.bodies.push_back(readBody(file, body, summary.bodies.size()));
+    summary.bodies.push_back(
+        readBody(file, body, summary.bodies.size(), summary.scenario.sites.size()));
   return summary;
 }
 

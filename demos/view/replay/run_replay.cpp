@@ -11,14 +11,23 @@ namespace tandem::view {
 
 RunReplay::RunReplay(RecordedRun run, std::optional<int> user)
     : run_(std::move(run)), user_(chooseUser(user)), own_(run_, user_), scene_look_(own_.world()) {
-  if (run_.has(1 - user_)) other_ = std::make_unique<SiteReplay>(run_, 1 - user_);
+  for (int site = 0; site < static_cast<int>(run_.sites.size()); ++site)
+    if (site != user_ && run_.has(site))
+      others_.push_back(std::make_unique<SiteReplay>(run_, site));
 }
 
 int RunReplay::chooseUser(std::optional<int> wanted) const {
-  const int user = wanted.value_or(run_.has(0) ? 0 : 1);
+  int first = 0;
+  while (!run_.has(first)) ++first;
+  const int user = wanted.value_or(first);
   if (run_.has(user)) return user;
+  const std::string folder = run_.summary.parent_path().string();
+  const auto count = std::ranges::count_if(run_.sites, [](const auto& site) { return !!site; });
+  if (count > 1)
+    throw demos::UsageError(
+        fmt::format("--site {}: {} has sites 1 to {}", user + 1, folder, count));
   throw demos::UsageError(fmt::format("--site {}: {} has site {} only; give --site {}", user + 1,
-                                      run_.summary.parent_path().string(), 2 - user, 2 - user));
+                                      folder, first + 1, first + 1));
 }
 
 const std::vector<double>& RunReplay::frames() const {
@@ -42,9 +51,9 @@ SessionLook RunReplay::look(double time) {
   SessionLook look;
   look.time = time;
   look.list = scene_look_.look();
-  if (other_) {
-    other_->moveTo(time);
-    look.apart = addGhosts(look.list, other_->world());
+  for (const auto& other : others_) {
+    other->moveTo(time);
+    look.apart = std::max(look.apart, addGhosts(look.list, other->world()));
   }
   look.hip_W = own_.hip_W();
   look.force_W = own_.force_W();

@@ -12,8 +12,8 @@ namespace tandem::view {
 /// A recorded run as one of its users saw it. For one thread.
 class RunReplay {
  public:
-  /// `user` is 0 or 1; without it the first one whose site was recorded. Throws UsageError if that
-  /// site was not.
+  /// `user` counts from 0; without it the first one whose site was recorded. Throws UsageError if
+  /// that site was not.
   RunReplay(RecordedRun run, std::optional<int> user);
   RunReplay(const RunReplay&) = delete;
   RunReplay& operator=(const RunReplay&) = delete;
@@ -21,7 +21,7 @@ class RunReplay {
   /// What the user saw at that time [s]. The list has no hand of the user's own.
   [[nodiscard]] SessionLook look(double time);
 
-  /// Where the user's hand, the other's and the objects are in all recorded pictures [m].
+  /// Where the user's hand, the others' and the objects are in all recorded pictures [m].
   [[nodiscard]] std::vector<Vec3> findWays();
 
   [[nodiscard]] int user() const noexcept { return user_; }
@@ -36,7 +36,7 @@ class RunReplay {
   RecordedRun run_;
   int user_;
   SiteReplay own_;
-  std::unique_ptr<SiteReplay> other_;  ///< null if that site was not recorded
+  std::vector<std::unique_ptr<SiteReplay>> others_;  ///< all other sites that were recorded
   SceneLook scene_look_;
 };
 

@@ -21,7 +21,8 @@ btCollisionObject* findObject(btDiscreteDynamicsWorld& world, const btRigidBody*
 SiteReplay::SiteReplay(const RecordedRun& run, int site)
     : recorded_(*run.sites[static_cast<std::size_t>(site)]),
       frame_(demos::makeSceneFrame(run.scenario)),
-      world_(run.scenario, site, *links_.first, device_) {
+      links_(run.scenario),
+      world_(run.scenario, site, links_.of(site), device_) {
   findBodies(run, site);
   const double begin = recorded_.scene.times.front();
   hand_start_S_ =

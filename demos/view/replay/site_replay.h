@@ -1,13 +1,11 @@
 #pragma once
 
-#include <memory>
-#include <utility>
 #include <vector>
 
-#include "tandem/coordination/simulated_link.h"
 #include "tandem/falcon/simulated_device.h"
 
 #include "replay/recorded_run.h"
+#include "run/site_links.h"
 #include "session/scene_look.h"
 
 namespace tandem::view {
@@ -15,8 +13,8 @@ namespace tandem::view {
 /// One site of a recorded run: its world with all bodies where they were. Nothing is simulated.
 class SiteReplay {
  public:
-  /// `run` must have the site, 0 or 1, and outlive this. Throws UsageError if the scenario makes
-  /// other bodies than were recorded.
+  /// `run` must have the site, counted from 0, and outlive this. Throws UsageError if the scenario
+  /// makes other bodies than were recorded.
   SiteReplay(const RecordedRun& run, int site);
 
   /// Puts all bodies where they were at that time [s].
@@ -32,8 +30,7 @@ class SiteReplay {
   const RecordedSite& recorded_;
   demos::SceneFrame frame_;
   // Never used, but a site has them.
-  std::pair<std::unique_ptr<SimulatedLink>, std::unique_ptr<SimulatedLink>> links_ =
-      makeSimulatedLinks({});
+  demos::SiteLinks links_;
   SimulatedDevice device_{{}, makeConstantHand(Vec3::Zero())};
   demos::SiteWorld world_;
   std::vector<btCollisionObject*> bodies_;  ///< null: the hand, which has no body

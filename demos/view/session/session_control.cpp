@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scenario/keys.h"
+#include "scenario/site_checks.h"
 #include "session/own_worlds.h"
 #include "terminal/usage_error.h"
 
@@ -132,6 +133,7 @@ void SessionControl::start(const std::optional<demos::ScenePlaces>& places) {
 }
 
 void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places) {
+  demos::requireTwoSites(scenario_, "tandem view");
   demos::Scenario scenario = scenario_;
   if (places) demos::startHandsAt(*places, scenario);
   if (!LiveSession::hasHapticThreads(scenario))
