@@ -1,5 +1,6 @@
 // Equal runs have equal hashes, independent of earlier or concurrent runs. So has a run's replay.
 
+#include <memory>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -66,6 +67,11 @@ std::vector<Case> makeCases() {
         "world.boxes=[[0.1,0,0,0.04,0.1]]", "experiment.duration=0.5", "site1.hand=minimum_jerk",
         "site1.hand_waypoints=[[0,0,0,0],[0.4,0.05,0.004,0.002]]", "site2.hand=minimum_jerk",
         "site2.hand_waypoints=[[0,0,0,0]]"}});
+  for (const std::string four : {"experiment1_many.toml", "experiment2_many.toml"}) {
+    add("Four_" + four.substr(0, 11), four, {"experiment.duration=0.5"}, {});
+    add("Four_" + four.substr(0, 11) + "_bad_network", four, {"experiment.duration=0.5"},
+        kBadNetwork);
+  }
   return cases;
 }
 
@@ -81,8 +87,13 @@ TEST_P(Determinism, EqualRunsHaveEqualHashes) {
 std::uint64_t replay(const Scenario& scenario, VirtualRun& run, int site) {
   const Recording& recording = run.recording(site);
   ReplayDevice device(recording, run.world(site).device().capabilities());
-  ReplayLink link(recording, 0);
-  SiteWorld world(scenario, site, link, device);
+  std::vector<std::unique_ptr<ReplayLink>> links;
+  std::vector<Link*> to_peers;
+  for (int remote = 0; remote < run.siteCount() - 1; ++remote) {
+    links.push_back(std::make_unique<ReplayLink>(recording, remote));
+    to_peers.push_back(links.back().get());
+  }
+  SiteWorld world(scenario, site, PeerLinks(to_peers), device);
   for (std::size_t tick = 0; tick < recording.ticks().size(); ++tick) {
     world.site().tick(static_cast<double>(tick) / scenario.site.haptic_rate);
     world.stepHostUntil(static_cast<double>(tick + 1) / scenario.site.haptic_rate);
@@ -94,7 +105,7 @@ TEST_P(Determinism, ReplayHasTheHashOfTheRun) {
   const Scenario scenario = load(GetParam());
   VirtualRun run(scenario);
   run.run();
-  for (int site = 0; site < 2; ++site) {
+  for (int site = 0; site < run.siteCount(); ++site) {
     ASSERT_EQ(run.recording(site).leftOut(), 0u);
     EXPECT_EQ(replay(scenario, run, site), run.world(site).site().stateHash())
         << "site " << site + 1;
