@@ -118,6 +118,19 @@ TEST(SessionControl, EveryWorldTakesBulletsContactOrRefusesItAndComesBack) {
   }
 }
 
+TEST(SessionControl, RefusesMoreThanTwoSites) {
+  const demos::Scenario scenario = loadWorld("rail", {"site=[{}, {}, {}]"});
+  try {
+    SessionControl control(scenario, std::nullopt, {});
+    ADD_FAILURE() << "not refused";
+  } catch (const demos::UsageError& error) {
+    const std::string line = error.what();
+    EXPECT_NE(line.find("has 3 sites"), std::string::npos) << line;
+    EXPECT_NE(line.find("tandem run"), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
 TEST(SessionControl, DoesNotStopASecondUsersHand) {
   const demos::Scenario scenario = loadWorld("cube");
   demos::DeviceOptions options;
