@@ -38,11 +38,15 @@ class RelayRig {
   /// (Re)starts a member's program at the address with this number.
   Member& join(int address, std::uint16_t id, const std::string& room = "lab",
                std::uint8_t key = kKey) {
-    Member& one = members[address];
+    return joinAt(VirtualNet::addressOf(address), address, id, room, key);
+  }
+  Member& joinAt(const Address& address, int number, std::uint16_t id, const std::string& room,
+                 std::uint8_t key = kKey) {
+    Member& one = members[number];
     one.id = id;
     one.heard.clear();
     one.member.reset();
-    one.port = std::make_unique<VirtualNet::Port>(net, VirtualNet::addressOf(address));
+    one.port = std::make_unique<VirtualNet::Port>(net, address);
     one.member = std::make_unique<relay::RelayMember>(relayAddress(), makeKey(key),
                                                       *relay::makeRoomName(room), PeerId{id},
                                                       net::drawFirstNonce(net.now), *one.port);
@@ -53,22 +57,21 @@ class RelayRig {
     from.member->send({bytes.data(), bytes.size()}, net::makeRelayedAddress(PeerId{to}));
   }
 
-  void run(double seconds) {
-    for (const double end = net.now + seconds; net.now < end - 1e-9;) step();
+  void run(double seconds, double period = 1e-3) {
+    for (const double end = net.now + seconds; net.now < end - 1e-9;) step(period);
   }
-  /// Advances by one millisecond.
-  void step() {
-    net.deliverUntil(net.now + 1e-3, [&](VirtualNet::Datagram& datagram) {
+  void step(double period = 1e-3) {
+    net.deliverUntil(net.now + period, [&](VirtualNet::Datagram& datagram) {
       const ByteSpan bytes{datagram.bytes.data(), datagram.bytes.size()};
       if (datagram.to == relayAddress() && relay) relay->receive(bytes, datagram.from, net.now);
-      for (auto& [address, one] : members)
+      for (auto& [number, one] : members)
         if (one.member && one.port->address == datagram.to && datagram.from == relayAddress())
           if (const auto said = one.member->receive(bytes, net.now))
             one.heard.emplace_back(said->from,
                                    Bytes(said->inner.data, said->inner.data + said->inner.size));
     });
     if (relay) relay->advance(net.now);
-    for (auto& [address, one] : members)
+    for (auto& [number, one] : members)
       if (one.member) one.member->advance(net.now);
   }
 
@@ -78,7 +81,7 @@ class RelayRig {
 
   static constexpr std::uint8_t kKey = 0x17;
   VirtualNet net;
-  std::map<int, Member> members;  ///< by the number of their address
+  std::map<int, Member> members;  ///< by number, usually that of their address
   std::unique_ptr<relay::Relay> relay;
 
  private:

@@ -85,6 +85,21 @@ TEST(Ways, ADirectWayThatFailsIsLeftBeforeGainsAreGone) {
   }
 }
 
+// TANDEM_WAY_SECONDS=3600 runs an hour.
+TEST(Ways, ChangesOnceASecondMakeNoGap) {
+  RelayedSites::Ways ways;
+  ways.to_relay = 0.008;
+  RelayedSites sites(2, ways);
+  ASSERT_TRUE(sites.goLive(2.0));
+  sites.run(5.0);
+  const auto changes = static_cast<int>(test::readCount("TANDEM_WAY_SECONDS", 300));
+  for (int i = 0; i < changes; ++i) {
+    sites.by_relay = i % 2 == 0;
+    ASSERT_LT(sites.longestGapOver(1.0), kTwoPackets) << i;
+  }
+  EXPECT_EQ(sites.status(1, 2).states_too_late, 0u);
+}
+
 TEST(Ways, WithoutAnyWayThePeerFallsSilentAndComesBackByTheFirst) {
   RelayedSites sites(2, {});
   ASSERT_TRUE(sites.goLive(2.0));
