@@ -41,15 +41,15 @@ class RelayRig {
     return joinAt(VirtualNet::addressOf(address), address, id, room, key);
   }
   Member& joinAt(const Address& address, int number, std::uint16_t id, const std::string& room,
-                 std::uint8_t key = kKey) {
+                 std::uint8_t key = kKey, bool is_watcher = false) {
     Member& one = members[number];
     one.id = id;
     one.heard.clear();
     one.member.reset();
     one.port = std::make_unique<VirtualNet::Port>(net, address);
-    one.member = std::make_unique<relay::RelayMember>(relayAddress(), makeKey(key),
-                                                      *relay::makeRoomName(room), PeerId{id},
-                                                      net::drawFirstNonce(net.now), *one.port);
+    one.member = std::make_unique<relay::RelayMember>(
+        relayAddress(), makeKey(key), *relay::makeRoomName(room), PeerId{id},
+        net::drawFirstNonce(net.now), *one.port, is_watcher);
     return one;
   }
 

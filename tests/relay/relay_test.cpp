@@ -195,6 +195,42 @@ TEST(Relay, FollowsAPortThatANatChanged) {
   EXPECT_EQ(second.heard.size(), 1u);
 }
 
+TEST(Relay, WatchersHearWhatIsSaidToAllOfThemAndSayNothing) {
+  RelayRig rig;
+  auto& player = rig.join(1, 1);
+  auto& other = rig.join(2, 2);
+  std::vector<RelayRig::Member*> watchers;
+  for (const int number : {3, 4, 5})
+    watchers.push_back(&rig.joinAt(VirtualNet::addressOf(number), number,
+                                   static_cast<std::uint16_t>(number), "lab", RelayRig::kKey,
+                                   true));
+  rig.run(1.0);
+  rig.say(player, relay::kAllWatchers, makeInner(7));
+  for (auto* watcher : watchers) rig.say(*watcher, 1, makeInner(8));
+  rig.say(*watchers[0], relay::kAllWatchers, makeInner(9));
+  rig.run(0.1);
+  for (auto* watcher : watchers) {
+    ASSERT_EQ(watcher->heard.size(), 1u);
+    EXPECT_EQ(watcher->heard[0], std::make_pair(std::uint16_t{1}, makeInner(7)));
+  }
+  EXPECT_TRUE(player.heard.empty() && other.heard.empty());
+  EXPECT_EQ(rig.count(Result::kWatcher), 4u);
+  EXPECT_EQ(rig.relay->members().rooms()[0].watchers, 3);
+  rig.members[3].member->leave();
+  rig.run(0.1);
+  EXPECT_EQ(rig.relay->members().rooms()[0].watchers, 2);
+}
+
+TEST(Relay, WithoutWatchersNothingIsForwardedToThem) {
+  RelayRig rig;
+  auto& player = rig.join(1, 1);
+  rig.run(1.0);
+  rig.say(player, relay::kAllWatchers, makeInner(7));
+  rig.run(0.1);
+  EXPECT_EQ(rig.count(Result::kNoReceiver), 1u);
+  EXPECT_EQ(rig.relay->counts().forwarded, 0u);
+}
+
 TEST(Relay, SettingsOutOfRangeAreRefused) {
   test::VirtualNet net;
   VirtualNet::Port port(net, test::relayAddress());

@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 ByteSpan span(Bytes& bytes) { return {bytes.data(), bytes.size()}; }
 ByteView view(const Bytes& bytes) { return {bytes.data(), bytes.size()}; }
 
-const Request kRequest{{5, 0x1122334455667788}, *makeRoomName("lab-1.x_"), {1, 2, 3}};
+const Request kRequest{{5, 0x1122334455667788}, false, *makeRoomName("lab-1.x_"), {1, 2, 3}};
 
 TEST(RelayWire, NamesOfRooms) {
   EXPECT_EQ(toString(*makeRoomName("a")), "a");

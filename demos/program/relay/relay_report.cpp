@@ -36,6 +36,7 @@ nlohmann::json makeRelayReport(const RelayStatus& status, double time) {
   for (const RelayRoom& room : status.rooms)
     rooms.push_back({{"name", room.name},
                      {"members", room.members},
+                     {"watchers", room.watchers},
                      {"forwarded", room.forwarded},
                      {"forwarded_bytes", room.forwarded_bytes},
                      {"too_many", room.too_many}});

@@ -12,6 +12,7 @@ using wire::ByteWriter;
 
 /// Offset of the first byte that follows the type.
 constexpr std::size_t kCallerOffset = kTypeOffset + 1;
+constexpr std::size_t kRoleOffset = kCallerOffset + 2;
 
 void writeCaller(ByteWriter& writer, Type type, const Caller& caller, std::uint8_t code) noexcept {
   writeStart(writer, type);
@@ -21,13 +22,13 @@ void writeCaller(ByteWriter& writer, Type type, const Caller& caller, std::uint8
   writer.write(caller.nonce);
 }
 
-/// Reads the rest of the caller's 16 bytes, whose code must be 0.
-std::optional<Caller> readCaller(ByteReader& reader) noexcept {
+/// Reads the rest of the caller's 16 bytes. The byte between is at most `most`.
+std::optional<Caller> readCaller(ByteReader& reader, std::uint16_t most = 0) noexcept {
   Caller caller;
   caller.member = reader.read<std::uint16_t>();
-  const auto zeros = reader.read<std::uint16_t>();
+  const auto between = reader.read<std::uint16_t>();
   caller.nonce = reader.read<std::uint64_t>();
-  if (!isMember(caller.member) || zeros != 0) return std::nullopt;
+  if (!isMember(caller.member) || between > most) return std::nullopt;
   return caller;
 }
 
@@ -35,7 +36,7 @@ std::optional<Caller> readCaller(ByteReader& reader) noexcept {
 
 std::size_t encodeRequest(Type type, const Request& request, ByteSpan out) noexcept {
   ByteWriter writer(out);
-  writeCaller(writer, type, request.caller, 0);
+  writeCaller(writer, type, request.caller, request.is_watcher ? 1 : 0);
   writer.writeBytes(request.room);
   writer.writeBytes(request.cookie);
   writer.writeZeros(kHelloSize - kLongTag - writer.size());
@@ -56,9 +57,11 @@ std::optional<Request> decodeRequest(ByteView datagram) noexcept {
   if (type != Type::kHello && type != Type::kJoin) return std::nullopt;
   auto reader = open(datagram, *type, kHelloSize, kCallerOffset);
   if (!reader) return std::nullopt;
-  const auto caller = readCaller(*reader);
+  const auto caller = readCaller(*reader, 1);
   if (!caller) return std::nullopt;
-  Request request{*caller, {}, {}};
+  Request request;
+  request.caller = *caller;
+  request.is_watcher = datagram.data[kRoleOffset] != 0;
   const std::string_view name = reader->readText(request.room.size());
   std::copy(name.begin(), name.end(), request.room.begin());
   reader->readInto(request.cookie);

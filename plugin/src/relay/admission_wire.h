@@ -21,6 +21,7 @@ using CookieBytes = std::array<std::uint8_t, 16>;
 /// HELLO and, with a cookie, JOIN.
 struct Request {
   Caller caller;
+  bool is_watcher = false;  ///< hears what is said to watchers, and says nothing
   RoomName room{};
   CookieBytes cookie{};  ///< zero in HELLO
 };

@@ -51,7 +51,7 @@ Room* Members::openRoom(const RoomName& name) noexcept {
   return &*found;
 }
 
-Member* Members::add(Room& room, std::uint16_t id) noexcept {
+Member* Members::add(Room& room, std::uint16_t id, bool is_watcher) noexcept {
   const auto first = members_.begin() + static_cast<std::ptrdiff_t>(room.number * per_room_);
   const auto last = first + static_cast<std::ptrdiff_t>(per_room_);
   const auto free =
@@ -61,10 +61,12 @@ Member* Members::add(Room& room, std::uint16_t id) noexcept {
   room.place[id] = place;
   room.present |= bitOf(id);
   ++room.count;
+  if (is_watcher) ++room.watchers;
   ++count_;
   *free = Member{};
   free->place = place;
   free->id = id;
+  free->is_watcher = is_watcher;
   free->room = room.number;
   free->session = std::uint32_t{net::drawNumber<std::uint16_t>()} << 16U | place;
   return &*free;
@@ -74,6 +76,7 @@ void Members::remove(Member& member) noexcept {
   Room& room = roomOf(member);
   room.present &= ~bitOf(member.id);
   --room.count;
+  if (member.is_watcher) --room.watchers;
   --count_;
   member.session = 0;
   sodium_memzero(member.key.data(), member.key.size());

@@ -18,6 +18,7 @@ struct Member {
   std::uint16_t place = 0;    ///< among all members
   std::uint16_t id = 0;
   std::uint16_t room = 0;
+  bool is_watcher = false;
   std::uint64_t nonce = 0;  ///< of its JOIN
   SessionKey key{};
   ReplayWindow window;
@@ -31,7 +32,7 @@ struct Member {
 struct Room {
   std::uint16_t number = 0;
   RoomName name{};
-  std::uint16_t count = 0;
+  std::uint16_t count = 0, watchers = 0;
   std::uint64_t present = 0;                            ///< bit id - 1 for each member
   std::array<std::uint16_t, kMostMembers + 1> place{};  ///< of a member, by its id
   std::uint64_t forwarded = 0, forwarded_bytes = 0, too_many = 0;
@@ -53,7 +54,7 @@ class Members {
   /// A room that nobody uses, with this name; null if there is none.
   [[nodiscard]] Room* openRoom(const RoomName& name) noexcept;
   /// A free place in the room for this id, with a session of its own; null if the room is full.
-  [[nodiscard]] Member* add(Room& room, std::uint16_t id) noexcept;
+  [[nodiscard]] Member* add(Room& room, std::uint16_t id, bool is_watcher) noexcept;
   void remove(Member& member) noexcept;
 
   [[nodiscard]] std::vector<Member>& all() noexcept { return members_; }

@@ -114,20 +114,34 @@ Result Relay::handleOwn(Member& member, ByteView datagram, std::uint64_t number,
 Result Relay::forward(Member& member, ByteSpan datagram, double now) noexcept {
   const auto to = decodeForward({datagram.data, datagram.size});
   if (!to) return Result::kForm;
+  if (member.is_watcher) return Result::kWatcher;
   Room& room = members_.roomOf(member);
   if (!member.datagrams.take(now) || !member.bytes.take(now, static_cast<double>(datagram.size))) {
     ++room.too_many;
     return Result::kTooMany;
   }
-  const Member* receiver = members_.find(room, *to);
-  if (!receiver) return Result::kNoReceiver;
   const std::size_t size = turnForward(member.id, datagram);
-  outlet_.send({datagram.data, size}, *receiver->paths.inUse());
-  ++counts_.forwarded;
-  counts_.forwarded_bytes += size;
-  ++room.forwarded;
-  room.forwarded_bytes += size;
-  return Result::kTaken;
+  return deliver(room, *to, {datagram.data, size}) ? Result::kTaken : Result::kNoReceiver;
+}
+
+/// Sends to the receiver, or to all watchers. False if there is none.
+bool Relay::deliver(Room& room, std::uint16_t to, ByteView datagram) noexcept {
+  const auto send = [&](const Member& receiver) {
+    outlet_.send(datagram, *receiver.paths.inUse());
+    ++counts_.forwarded;
+    counts_.forwarded_bytes += datagram.size;
+    ++room.forwarded;
+    room.forwarded_bytes += datagram.size;
+  };
+  if (to != kAllWatchers) {
+    const Member* receiver = members_.find(room, to);
+    if (receiver) send(*receiver);
+    return receiver != nullptr;
+  }
+  if (room.watchers == 0) return false;
+  for (std::uint16_t id = 1; id <= kMostMembers; ++id)
+    if (const Member* one = members_.find(room, id); one && one->is_watcher) send(*one);
+  return true;
 }
 
 /// The answer goes to the address in use: another one may be a listener's.

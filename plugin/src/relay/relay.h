@@ -46,6 +46,7 @@ class Relay {
   [[nodiscard]] Result forward(Member& member, ByteSpan datagram, double now) noexcept;
   [[nodiscard]] Result handleOwn(Member& member, ByteView datagram, std::uint64_t number,
                                  double now) noexcept;
+  [[nodiscard]] bool deliver(Room& room, std::uint16_t to, ByteView datagram) noexcept;
   void answerKeep(Member& member, std::uint64_t number, std::uint16_t asked) noexcept;
   void begin(Member& member, const Request& join, const Address& from, double now) noexcept;
   void sendJoined(const Member& member, const Address& to) noexcept;

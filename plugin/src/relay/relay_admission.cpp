@@ -70,7 +70,7 @@ Result Relay::admit(const Request& join, const Address& from, double now) noexce
     if (join.caller.nonce < earlier->nonce) return Result::kOld;
     members_.remove(*earlier);
   }
-  Member* member = members_.add(*room, join.caller.member);
+  Member* member = members_.add(*room, join.caller.member, join.is_watcher);
   if (!member) {
     refuse(join.caller, Code::kMembers, from, now);
     return Result::kFull;

@@ -8,20 +8,21 @@ namespace tandem::relay {
 
 /// What became of a received datagram.
 enum class Result : std::uint8_t {
-  kTaken,      ///< answered or forwarded
-  kForm,       ///< no datagram of a relay
-  kKey,        ///< the admission is not tagged under the relay's key
-  kCookie,     ///< wrong or expired cookie
-  kOld,        ///< JOIN of an earlier attempt
-  kFull,       ///< no room or no place in the room
-  kIdInUse,    ///< a live member has the id
-  kSession,    ///< unknown session
-  kReplayed,   ///< received before, or too far behind
-  kForged,     ///< not tagged under the session's key
-  kTooMany,    ///< beyond the member's rate
-  kNoReceiver  ///< the receiver is not in the room
+  kTaken,       ///< answered or forwarded
+  kForm,        ///< no datagram of a relay
+  kKey,         ///< the admission is not tagged under the relay's key
+  kCookie,      ///< wrong or expired cookie
+  kOld,         ///< JOIN of an earlier attempt
+  kFull,        ///< no room or no place in the room
+  kIdInUse,     ///< a live member has the id
+  kSession,     ///< unknown session
+  kReplayed,    ///< received before, or too far behind
+  kForged,      ///< not tagged under the session's key
+  kTooMany,     ///< beyond the member's rate
+  kNoReceiver,  ///< the receiver is not in the room
+  kWatcher      ///< a watcher says something
 };
-inline constexpr std::size_t kResults = static_cast<std::size_t>(Result::kNoReceiver) + 1;
+inline constexpr std::size_t kResults = static_cast<std::size_t>(Result::kWatcher) + 1;
 
 [[nodiscard]] const char* name(Result result) noexcept;
 

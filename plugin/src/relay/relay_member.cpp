@@ -22,7 +22,7 @@ constexpr double kNewShare = 0.2;  ///< of a new round trip in the smoothed one
 }  // namespace
 
 RelayMember::RelayMember(const Address& relay, SecretKey key, const RoomName& room, PeerId self,
-                         std::uint64_t first_nonce, net::Outlet& socket)
+                         std::uint64_t first_nonce, net::Outlet& socket, bool is_watcher)
     : relay_(relay), key_(std::move(key)), socket_(socket), nonces_(first_nonce) {
   const auto id = static_cast<std::uint32_t>(self);
   if (id < 1 || id > kMostMembers)
@@ -30,6 +30,7 @@ RelayMember::RelayMember(const Address& relay, SecretKey key, const RoomName& ro
                                 std::to_string(kMostMembers) + " in a relay's room");
   request_.caller.member = static_cast<std::uint16_t>(id);
   request_.room = room;
+  request_.is_watcher = is_watcher;
 }
 
 void RelayMember::send(ByteView datagram, const Address& to) noexcept {

@@ -25,7 +25,7 @@ class RelayMember final : public net::Outlet {
   /// `first_nonce` is above the nonces of all earlier programs at this site. `socket` must outlive
   /// this. Throws std::invalid_argument for an id above 64.
   RelayMember(const Address& relay, SecretKey key, const RoomName& room, PeerId self,
-              std::uint64_t first_nonce, net::Outlet& socket);
+              std::uint64_t first_nonce, net::Outlet& socket, bool is_watcher = false);
 
   void send(ByteView datagram, const Address& to) noexcept override;
 

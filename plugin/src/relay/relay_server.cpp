@@ -56,7 +56,7 @@ RelayStatus RelayServer::status() const {
   }
   for (const relay::Room& room : members.rooms())
     if (room.count > 0)
-      status.rooms.push_back({relay::toString(room.name), room.count, room.forwarded,
+      status.rooms.push_back({relay::toString(room.name), room.count, room.watchers, room.forwarded,
                               room.forwarded_bytes, room.too_many});
   return status;
 }

@@ -15,7 +15,8 @@
 namespace tandem::relay {
 
 inline constexpr std::uint8_t kVersion = 1;
-inline constexpr std::uint16_t kMostMembers = 64;  ///< of a room; member ids are 1 to 64
+inline constexpr std::uint16_t kMostMembers = 64;      ///< of a room; member ids are 1 to 64
+inline constexpr std::uint16_t kAllWatchers = 0xffff;  ///< as receiver: each watcher of the room
 
 /// First byte after the version.
 enum class Type : std::uint8_t {

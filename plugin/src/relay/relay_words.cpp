@@ -31,6 +31,8 @@ const char* name(Result result) noexcept {
       return "too_many";
     case Result::kNoReceiver:
       return "no_receiver";
+    case Result::kWatcher:
+      return "watcher";
   }
   return "";
 }

@@ -120,7 +120,8 @@ std::optional<std::uint16_t> decodeForward(ByteView datagram) noexcept {
   auto reader = open(datagram, Type::kForward, datagram.size, kHeadSize);
   if (!reader) return std::nullopt;
   const auto to = reader->read<std::uint16_t>();
-  if (!isMember(to) || reader->read<std::uint16_t>() != 0) return std::nullopt;
+  const bool is_receiver = isMember(to) || to == kAllWatchers;
+  if (!is_receiver || reader->read<std::uint16_t>() != 0) return std::nullopt;
   return to;
 }
 

@@ -42,7 +42,7 @@ std::size_t encodeResponse(const SessionHead& head, std::uint64_t token, ByteSpa
 /// the size with the tag.
 std::size_t encodeForward(const SessionHead& head, std::uint16_t to, std::size_t inner_size,
                           ByteSpan out) noexcept;
-/// The receiver of a FORWARD.
+/// The receiver of a FORWARD: a member, or kAllWatchers.
 [[nodiscard]] std::optional<std::uint16_t> decodeForward(ByteView datagram) noexcept;
 /// Turns a FORWARD into a FORWARDED in place. Returns its size.
 std::size_t turnForward(std::uint16_t from, ByteSpan datagram) noexcept;

@@ -24,6 +24,7 @@ struct RelaySettings {
 struct RelayRoom {
   std::string name;
   int members = 0;
+  int watchers = 0;                   ///< of these
   std::uint64_t forwarded = 0;        ///< datagrams, since the room was opened
   std::uint64_t forwarded_bytes = 0;  ///< of them, with headers
   std::uint64_t too_many = 0;         ///< dropped, beyond a member's rate
