@@ -61,14 +61,15 @@ list_sites() {
 }
 
 # User 1 pushes the cube, the others' hands are empty.
-push_among_many() {   # N SCHEME
-  run "many-push-$1-$2" experiment1_many.toml "$(list_sites "$1" 5 0 0)" "experiment.scheme=$2"
+push_among_many() {   # N SCHEME MODE
+  run "many-push-$1-$2-$3" experiment1_many.toml "$(list_sites "$1" 5 0 0)" "experiment.scheme=$2" \
+    "coordination.mode=$3"
 }
 
-# All push on by 1 N on average, and squeeze the cube, so that nobody loses touch: this shows the drag.
-move_together() {   # N SCHEME
-  run "many-together-$1-$2" experiment1_many.toml "$(list_sites "$1" 4 4 -2)" "experiment.scheme=$2" \
-    "device.damping=5" "experiment.duration=2"
+# All push on and squeeze the cube, so that nobody loses touch: this shows the drag.
+move_together() {   # N SCHEME MODE
+  run "many-together-$1-$2-$3" experiment1_many.toml "$(list_sites "$1" 4 4 -2)" "experiment.scheme=$2" \
+    "coordination.mode=$3" "device.damping=5" "experiment.duration=2"
 }
 
 stand_in_a_row() {   # N SCHEME
@@ -148,8 +149,10 @@ done
 step "Three, four and eight users: one pushes, all move together, all in a row"
 for users in 3 4 8; do
   for scheme in virtual_coupling remote_dynamic_proxy; do
-    push_among_many "$users" "$scheme"
-    move_together "$users" "$scheme"
+    for mode in sum average; do
+      push_among_many "$users" "$scheme" "$mode"
+      move_together "$users" "$scheme" "$mode"
+    done
   done
   stand_in_a_row "$users" remote_dynamic_proxy
 done
