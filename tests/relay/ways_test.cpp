@@ -29,6 +29,26 @@ TEST(Ways, SitesMeetByTheRelayAlone) {
   EXPECT_LT(sites.longestGapOver(5.0), kTwoPackets);
 }
 
+TEST(Ways, EightSitesLoseNoStateByTheRelay) {
+  RelayedSites::Ways ways;
+  ways.has_direct = false;
+  RelayedSites sites(8, ways);
+  ASSERT_TRUE(sites.goLive(3.0));
+  sites.run(1.0);
+  for (RelayedSites::Site& site : sites.sites)
+    for (auto& given : site.given) given.clear();
+  sites.run(10.0);
+  for (int at = 1; at <= 8; ++at) {
+    for (int of = 1; of <= 8; ++of) {
+      if (at == of) continue;
+      EXPECT_NEAR(static_cast<double>(sites.at(at).given[static_cast<std::size_t>(of)].size()),
+                  1250.0, 5.0);
+      // Challenges on the direct way, which is not there, count as lost.
+      EXPECT_LT(sites.status(at, of).loss, 0.05);
+    }
+  }
+}
+
 TEST(Ways, TheDirectWayIsFoundAndTaken) {
   RelayedSites sites(2, {});
   ASSERT_TRUE(sites.goLive(2.0));
