@@ -55,9 +55,10 @@ std::string describeWay(const PeerReport& report) {
   if (!report.relay) return {};
   if (!report.relay->is_in && !report.relay->refused.empty())
     return " | relay: " + report.relay->refused;
+  std::string way = report.peer.is_relayed ? " | by the relay" : " | direct";
   if (report.relay->silence > kRelaySilence)
-    return fmt::format(" | relay silent for {:.0f} s", report.relay->silence);
-  return report.peer.is_relayed ? " | by the relay" : " | direct";
+    way += fmt::format(", relay silent for {:.0f} s", report.relay->silence);
+  return way;
 }
 
 void print(const PeerReport& report) {
