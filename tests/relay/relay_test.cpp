@@ -217,6 +217,7 @@ TEST(Relay, WatchersHearWhatIsSaidToAllOfThemAndSayNothing) {
   EXPECT_EQ(rig.count(Result::kWatcher), 4u);
   EXPECT_EQ(rig.relay->members().rooms()[0].watchers, 3);
   rig.members[3].member->leave();
+  rig.members[3].member.reset();
   rig.run(0.1);
   EXPECT_EQ(rig.relay->members().rooms()[0].watchers, 2);
 }

@@ -64,8 +64,8 @@ class ViewCommand final : public Command {
 
  private:
   void showReplay() {
-    if (!line_.peer.empty() || !device_.device.empty() || !overrides_.empty() || !shares_.empty() ||
-        !world_.empty() || record_ || second_)
+    if (!line_.peer.empty() || !line_.relay.empty() || !device_.device.empty() ||
+        !overrides_.empty() || !shares_.empty() || !world_.empty() || record_ || second_)
       throw UsageError(
           "--replay: shows what was recorded; leave WORLD and all options but the window's and "
           "--site");
@@ -129,9 +129,10 @@ class ViewCommand final : public Command {
   }
 
   [[nodiscard]] const PeerLine& completeLine() const {
-    checkPeerLine(line_);
-    if (line_.bind.empty() || line_.key.empty())
+    const bool has_way = !line_.peer.empty() || !line_.relay.empty();
+    if (line_.site == 0 || line_.bind.empty() || line_.key.empty() || !has_way)
       throw UsageError("--site, --bind, --key and --peer or --relay belong together");
+    checkPeerLine(line_);
     return line_;
   }
 

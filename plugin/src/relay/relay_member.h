@@ -36,7 +36,7 @@ class RelayMember final : public net::Outlet {
   /// member's number.
   [[nodiscard]] std::optional<Forwarded> receive(ByteSpan datagram, double now) noexcept;
 
-  /// Says farewell; several copies, as one may be lost.
+  /// Says farewell; several copies, as one may be lost. A later advance() joins again.
   void leave() noexcept;
 
   [[nodiscard]] const Address& relay() const noexcept { return relay_; }
