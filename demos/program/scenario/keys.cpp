@@ -189,6 +189,7 @@ Keys makeNetworkKeys() {
           [](auto& s) -> auto& { return s.network.delay; })),
       delaysKey(),
       siteKey("network.rate", "packet_rate", kPositive, "at most `rates.haptic`"),
+      siteKey("network.budget", "packet_budget", kNotNegative),
       own(numberKey(
           {"network.jitter", "delay is even in delay +- jitter; may reorder", "s"}, kNotNegative,
           [](auto& s) -> auto& { return s.network.jitter; })),
