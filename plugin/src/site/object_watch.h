@@ -27,11 +27,10 @@ namespace tandem {
 // clang-format on
 class ObjectWatch {
  public:
-  ObjectWatch(btDiscreteDynamicsWorld& world, const SiteSettings& settings, Island& island,
-              Timeline& timeline, Bodies& bodies, Peers& peers, LocalHand& hand, HostForces& forces,
-              Surroundings& surroundings, SiteLog& log)
+  ObjectWatch(btDiscreteDynamicsWorld& world, Island& island, Timeline& timeline, Bodies& bodies,
+              Peers& peers, LocalHand& hand, HostForces& forces, Surroundings& surroundings,
+              SiteLog& log)
       : world_(world),
-        settings_(settings),
         island_(island),
         timeline_(timeline),
         bodies_(bodies),
@@ -81,7 +80,6 @@ class ObjectWatch {
   void notePlace(SharedObject& object, const RigidState& now, double dt) noexcept;
 
   btDiscreteDynamicsWorld& world_;
-  const SiteSettings& settings_;
   Island& island_;
   Timeline& timeline_;
   Bodies& bodies_;

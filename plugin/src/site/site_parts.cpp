@@ -35,7 +35,7 @@ SiteParts::SiteParts(const SiteSettings& wanted, btDiscreteDynamicsWorld& world,
       sender(settings, island, timeline, bodies, hand, peers, grips, log),
       surroundings(world, settings, island, timeline, clock, bodies, peers, hand, forces, log),
       press(world, island, timeline, bodies, surroundings),
-      objects(world, settings, island, timeline, bodies, peers, hand, forces, surroundings, log),
+      objects(world, island, timeline, bodies, peers, hand, forces, surroundings, log),
       rest(world, settings.hip_radius, log) {}
 
 void SiteParts::runTicksUntil(double time) noexcept {
