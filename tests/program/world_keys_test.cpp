@@ -89,7 +89,7 @@ TEST(WorldKeys, FormsHaveWhatTheyNeedAndNothingElse) {
                 "either");
   expectRefused(form("size = [1, 1, 1]\nshared = true\n"), "own.toml: body.b.shared", "mass");
   expectRefused(form("size = [1, 1, 1]\ntool_of = 1\n"), "own.toml: body.b.tool_of", "shared");
-  expectRefused(form("size = [1, 1, 1]\ntool_of = 3\n"), "own.toml:7: body.b.tool_of", "1 or 2");
+  expectRefused(form("size = [1, 1, 1]\ntool_of = 17\n"), "own.toml:7: body.b.tool_of", "1 to 16");
 }
 
 TEST(WorldKeys, TrianglesHaveTheirPoints) {

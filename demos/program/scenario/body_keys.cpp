@@ -23,7 +23,7 @@ std::string readColour(const Place& place, const toml::node& node) {
 int readUser(const Place& place, const toml::node& node) {
   const auto value = node.is_integer() ? node.value<int>() : std::nullopt;
   if (!value || *value < 0 || *value > static_cast<int>(kMostSites))
-    refuse(place, node, "1 or 2, a user, or another site's; 0: nobody's tool");
+    refuse(place, node, "the number of a site, 1 to 16; 0: nobody's tool");
   return *value;
 }
 
