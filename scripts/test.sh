@@ -13,7 +13,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 # Minutes of one motion under a sanitizer, whose code shorter tests run too. Release runs them in both widths.
 long_simulations='NotWithAHandAloneInTheHeap|BulletsExample.GetsNoEnergy|PegInHole|PlanarReferenceInBullet'
 long_simulations+='|GuestBench.HardlyAnything|Model.AgreesForParameters|JointsForAMinute|ArmsAtRates.AFreeArm|BenchSpeed'
-long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory'
+long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory|AveragePosition'
+long_simulations+='|Room.ManyAtRest|Room.ABudget'
 
 preset=${1:-release}
 groups=(build demo view import test)
