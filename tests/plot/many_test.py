@@ -88,12 +88,22 @@ class ManyFigures(FolderTest):
         texts = [text.get_text() for text in drawing.legends[0].get_texts()]
         self.assertEqual(texts, [f"user {user}" for user in range(1, 17)])
 
-    def test_the_legend_of_eight_is_within_the_picture(self):
-        drawing = self.paint(many_motion(self.make_folder(8), "motion"))
+    def expect_legend_inside(self, figure):
+        drawing = self.paint(figure)
         drawing.canvas.draw()
         box = drawing.legends[0].get_window_extent()
         self.assertGreater(box.x0, 0)
         self.assertLess(box.x1, drawing.bbox.width)
+        return drawing.legends[0]
+
+    def test_the_legend_of_eight_is_within_the_picture(self):
+        self.expect_legend_inside(many_motion(self.make_folder(8), "motion"))
+
+    def test_a_legend_too_long_for_a_row_gets_more_of_them(self):
+        group, = group_many([many_run(n, scheme, mode) for n in (3, 4) for scheme in (VC, RDP)
+                             for mode in ("sum", "average")])
+        legend = self.expect_legend_inside(many_overview(group, "overview"))
+        self.assertEqual(len(legend.get_texts()), 5)
 
     def test_matrices_have_each_pair_twice(self):
         pairs, felt = self.paint(many_matrices(self.make_folder(3), "pairs")).axes

@@ -114,11 +114,19 @@ class Sheet:
 
     def legend(self, entries, y=55):
         """Centred rows of at most eight: pairs of a text and the looks of a Line2D."""
-        rows = math.ceil(len(entries) / 8)
+        for rows in range(math.ceil(len(entries) / 8), len(entries) + 1):
+            legend = self._draw_legend(entries, y, math.ceil(len(entries) / rows))
+            place = legend.get_window_extent(self.drawing.canvas.get_renderer())
+            if place.x0 >= 0 and place.x1 <= self.drawing.bbox.width:
+                return
+            legend.remove()
+        self._draw_legend(entries, y, 1)
+
+    def _draw_legend(self, entries, y, columns):
         is_crowded = len(entries) > 6
         handles = [Line2D([], [], **looks) for _, looks in entries]
-        self.drawing.legend(
-            handles, [text for text, _ in entries], loc="center", ncol=math.ceil(len(entries) / rows),
+        return self.drawing.legend(
+            handles, [text for text, _ in entries], loc="center", ncol=columns,
             bbox_to_anchor=((LEFT + INNER / 2) / WIDTH, 1 - y / self.height), frameon=False,
             handlelength=1.6 if is_crowded else 2.4, handletextpad=0.6,
             columnspacing=1.2 if is_crowded else 1.8, borderpad=0)
