@@ -35,6 +35,7 @@ TEST(IslandDesk, WorkIsDoneByTheThreadThatServes) {
 TEST(IslandDesk, ManyAskersAreServedOneByOneWhileTheDeskOpensAndCloses) {
   constexpr int kAskers = 4, kOrders = 2000;
   IslandDesk desk;
+  desk.open();      // before, the island belongs to one thread
   long island = 0;  // not atomic: one thread at a time has it
   std::atomic<bool> stops{false};
   std::thread server([&] {
