@@ -6,32 +6,14 @@
 #include <array>
 #include <cstdlib>
 #include <map>
-#include <random>
 #include <vector>
 
-#include <sodium.h>
-
+#include "fuzz/seeded_random.h"
 #include "relay/relay.h"
 #include "relay/relay_member.h"
 
 namespace tandem::relay {
 namespace {
-
-std::mt19937_64 engine;
-
-void fill(void* bytes, std::size_t size) {
-  auto* all = static_cast<std::uint8_t*>(bytes);
-  for (std::size_t i = 0; i < size; ++i) all[i] = static_cast<std::uint8_t>(engine());
-}
-
-/// Cookies and sessions are drawn from a seed, so that equal input gives equal runs.
-void drawFromSeed() {
-  static randombytes_implementation drawn{};
-  drawn.implementation_name = [] { return "seeded"; };
-  drawn.random = [] { return static_cast<std::uint32_t>(engine()); };
-  drawn.buf = fill;
-  randombytes_set_implementation(&drawn);
-}
 
 void require(bool holds) {
   if (!holds) std::abort();
@@ -49,7 +31,7 @@ Address addressOf(int number) {
   return address;
 }
 
-/// What went to whom.
+/// Notes what went to whom.
 struct Record final : net::Outlet {
   void send(ByteView datagram, const Address& to) noexcept override {
     last.assign(datagram.data, datagram.data + datagram.size);
@@ -128,12 +110,12 @@ struct Rig {
 }  // namespace tandem::relay
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  tandem::relay::drawFromSeed();
+  tandem::fuzz::drawFromSeed();
   return sodium_init() < 0 ? 1 : 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  tandem::relay::engine.seed(2009);
+  tandem::fuzz::seedAgain();
   tandem::relay::Rig rig;
   while (size >= 2) {
     const std::size_t length = std::min<std::size_t>(data[1], size - 2);
