@@ -55,7 +55,7 @@ Caller peekCaller(ByteView hello) noexcept {
 std::optional<Request> decodeRequest(ByteView datagram) noexcept {
   const auto type = readType(datagram);
   if (type != Type::kHello && type != Type::kJoin) return std::nullopt;
-  auto reader = open(datagram, *type, kHelloSize, kCallerOffset);
+  auto reader = open(datagram, *type, kHelloSize, kCallerOffset, kLongTag);
   if (!reader) return std::nullopt;
   const auto caller = readCaller(*reader, 1);
   if (!caller) return std::nullopt;
@@ -66,8 +66,7 @@ std::optional<Request> decodeRequest(ByteView datagram) noexcept {
   std::copy(name.begin(), name.end(), request.room.begin());
   reader->readInto(request.cookie);
   const bool has_cookie = request.cookie != CookieBytes{};
-  ByteReader rest({datagram.data + 64, kHelloSize - kLongTag - 64});
-  if (!isRoomName(request.room) || has_cookie != (type == Type::kJoin) || !rest.hasOnlyZeros())
+  if (!isRoomName(request.room) || has_cookie != (type == Type::kJoin) || !reader->hasOnlyZeros())
     return std::nullopt;
   return request;
 }
@@ -80,7 +79,7 @@ std::size_t encodeCookie(const Caller& caller, const CookieBytes& cookie, ByteSp
 }
 
 std::optional<CookieAnswer> decodeCookieAnswer(ByteView datagram) noexcept {
-  auto reader = open(datagram, Type::kCookie, kCookieSize, kCallerOffset);
+  auto reader = open(datagram, Type::kCookie, kCookieSize, kCallerOffset, kLongTag);
   const auto caller = reader ? readCaller(*reader) : std::nullopt;
   if (!caller) return std::nullopt;
   CookieAnswer answer{*caller, {}};
@@ -97,7 +96,7 @@ std::size_t encodeJoined(const Caller& caller, std::uint32_t session, ByteSpan o
 }
 
 std::optional<JoinedAnswer> decodeJoinedAnswer(ByteView datagram) noexcept {
-  auto reader = open(datagram, Type::kJoined, kJoinedSize, kCallerOffset);
+  auto reader = open(datagram, Type::kJoined, kJoinedSize, kCallerOffset, kLongTag);
   const auto caller = reader ? readCaller(*reader) : std::nullopt;
   if (!caller) return std::nullopt;
   const JoinedAnswer answer{*caller, reader->read<std::uint32_t>()};

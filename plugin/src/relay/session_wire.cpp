@@ -36,11 +36,10 @@ std::size_t encodeKeep(const SessionHead& head, std::uint16_t asked, ByteSpan ou
 }
 
 std::optional<std::uint16_t> decodeKeep(ByteView datagram) noexcept {
-  auto reader = open(datagram, Type::kKeep, kKeepSize, kHeadSize);
+  auto reader = open(datagram, Type::kKeep, kKeepSize, kHeadSize, kShortTag);
   if (!reader) return std::nullopt;
   const auto asked = reader->read<std::uint16_t>();
-  const ByteReader rest({datagram.data + 18, kKeepSize - kShortTag - 18});
-  if (asked > kMostMembers || !rest.hasOnlyZeros()) return std::nullopt;
+  if (asked > kMostMembers || !reader->hasOnlyZeros()) return std::nullopt;
   return asked;
 }
 
@@ -57,7 +56,7 @@ std::size_t encodeKept(const SessionHead& head, const Kept& kept, ByteSpan out) 
 }
 
 std::optional<Kept> decodeKept(ByteView datagram) noexcept {
-  auto reader = open(datagram, Type::kKept, kKeptSize, kHeadSize);
+  auto reader = open(datagram, Type::kKept, kKeptSize, kHeadSize, kShortTag);
   if (!reader) return std::nullopt;
   Kept kept;
   kept.asked = reader->read<std::uint16_t>();
@@ -66,8 +65,7 @@ std::optional<Kept> decodeKept(ByteView datagram) noexcept {
   reader->readInto(address.ip);
   kept.members = reader->read<std::uint64_t>();
   if (address.port != 0) kept.address = address;
-  const ByteReader rest({datagram.data + 44, kKeptSize - kShortTag - 44});
-  if (kept.asked > kMostMembers || !rest.hasOnlyZeros()) return std::nullopt;
+  if (kept.asked > kMostMembers || !reader->hasOnlyZeros()) return std::nullopt;
   return kept;
 }
 
@@ -99,7 +97,7 @@ bool isChallenge(ByteView datagram) noexcept {
 }
 
 std::optional<std::uint64_t> decodeResponse(ByteView datagram) noexcept {
-  auto reader = open(datagram, Type::kResponse, kResponseSize, kHeadSize);
+  auto reader = open(datagram, Type::kResponse, kResponseSize, kHeadSize, kShortTag);
   if (!reader) return std::nullopt;
   return reader->read<std::uint64_t>();
 }
@@ -117,7 +115,7 @@ std::optional<std::uint16_t> decodeForward(ByteView datagram) noexcept {
   const bool fits =
       datagram.size >= kForwardHeader + kInnerLeast + kShortTag && datagram.size <= kMaxForward;
   if (!fits) return std::nullopt;
-  auto reader = open(datagram, Type::kForward, datagram.size, kHeadSize);
+  auto reader = open(datagram, Type::kForward, datagram.size, kHeadSize, kShortTag);
   if (!reader) return std::nullopt;
   const auto to = reader->read<std::uint16_t>();
   const bool is_receiver = isMember(to) || to == kAllWatchers;
@@ -138,7 +136,7 @@ std::optional<Forwarded> decodeForwarded(ByteSpan datagram) noexcept {
   if (datagram.size < kForwardHeader + kInnerLeast ||
       datagram.size > kForwardHeader + kMaxDatagramSize)
     return std::nullopt;
-  auto reader = open(bytes, Type::kForwarded, datagram.size, kHeadSize);
+  auto reader = open(bytes, Type::kForwarded, datagram.size, kHeadSize, 0);
   if (!reader || readHead(bytes).session != 0) return std::nullopt;
   const auto from = reader->read<std::uint16_t>();
   if (!isMember(from) || reader->read<std::uint16_t>() != 0) return std::nullopt;

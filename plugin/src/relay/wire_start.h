@@ -22,12 +22,13 @@ inline void writeStart(wire::ByteWriter& writer, Type type) noexcept {
   return id >= 1 && id <= kMostMembers;
 }
 
-/// A reader `skipped` bytes behind the start, if the datagram has this type and size.
+/// A reader of what is between the first `skipped` bytes and the last `tag` bytes, if the datagram
+/// has this type and size.
 [[nodiscard]] inline std::optional<wire::ByteReader> open(ByteView datagram, Type type,
-                                                          std::size_t size,
-                                                          std::size_t skipped) noexcept {
+                                                          std::size_t size, std::size_t skipped,
+                                                          std::size_t tag) noexcept {
   if (datagram.size != size || readType(datagram) != type) return std::nullopt;
-  return wire::ByteReader({datagram.data + skipped, datagram.size - skipped});
+  return wire::ByteReader({datagram.data + skipped, size - skipped - tag});
 }
 
 }  // namespace tandem::relay
