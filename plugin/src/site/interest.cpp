@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "site/idle_stride.h"
+
 namespace tandem {
 namespace {
 
@@ -21,8 +23,7 @@ Interest::Interest(const SiteSettings& settings, const Island& island, const Bod
       bodies_(bodies),
       peers_(peers),
       budget_(settings.packet_budget),
-      stride_(std::max<std::uint64_t>(
-          static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1)) {}
+      stride_(computeIdleStride(settings.packet_rate)) {}
 
 void Interest::setSize(std::size_t objects, std::size_t peers) {
   for (std::size_t i = motions_.size(); i < objects; ++i)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coordination/src/wire/state_gate.h"
+#include "site/idle_stride.h"
 
 namespace tandem {
 namespace {
@@ -29,8 +30,7 @@ PacketSender::PacketSender(const SiteSettings& settings, const Island& island,
       peers_(peers),
       grips_(grips),
       log_(log),
-      idle_stride_(std::max<std::uint64_t>(
-          static_cast<std::uint64_t>(settings.packet_rate * kIdlePacketPeriod), 1)),
+      idle_stride_(computeIdleStride(settings.packet_rate)),
       interest_(settings, island, bodies, peers) {}
 
 void PacketSender::setSize(std::size_t objects, std::size_t peers) {
