@@ -17,6 +17,7 @@ using test::kStranger;
 using test::makeInner;
 using test::relayAddress;
 using test::RelayedSites;
+using test::RelayOfTwo;
 using test::RelayRig;
 using test::VirtualNet;
 
@@ -41,20 +42,17 @@ Account copyAll(RelayRig& rig, double seconds) {
 }
 
 TEST(RelayAttack, CopiesThatArriveFirstMoveNobodyAndAreDeliveredOnce) {
-  RelayRig rig;
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(1.0);
+  RelayOfTwo rig;
   for (int i = 0; i < 100; ++i) {
-    rig.say(first, 2, makeInner(static_cast<std::uint8_t>(i)));
+    rig.say(rig.first, 2, makeInner(static_cast<std::uint8_t>(i)));
     (void)copyAll(rig, 0.05);
   }
-  ASSERT_EQ(second.heard.size(), 100u);
+  ASSERT_EQ(rig.second.heard.size(), 100u);
   for (std::size_t i = 0; i < 100; ++i)
-    EXPECT_EQ(second.heard[i].second, makeInner(static_cast<std::uint8_t>(i)));
-  rig.say(second, 1, makeInner(7));
+    EXPECT_EQ(rig.second.heard[i].second, makeInner(static_cast<std::uint8_t>(i)));
+  rig.say(rig.second, 1, makeInner(7));
   rig.run(0.1);
-  EXPECT_EQ(first.heard.size(), 1u);
+  EXPECT_EQ(rig.first.heard.size(), 1u);
 }
 
 TEST(RelayAttack, AStrangerGetsLessThanItSends) {
@@ -87,17 +85,14 @@ TEST(RelayAttack, ARecordedAdmissionIsNotTakenFromElsewhereNorLater) {
 }
 
 TEST(RelayAttack, AFloodOfForgedDatagramsDeliversNothingAndLosesNothing) {
-  RelayRig rig;
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(1.0);
+  RelayOfTwo rig;
   Bytes heard_on_the_way;
   rig.net.tap = [&](const Bytes& bytes, const Address& from, const Address& to) {
     if (to == relayAddress() && from != kStranger) heard_on_the_way = bytes;
   };
   test::Random random(20260101);
   for (int i = 0; i < 500; ++i) {
-    rig.say(first, 2, makeInner(static_cast<std::uint8_t>(i)));
+    rig.say(rig.first, 2, makeInner(static_cast<std::uint8_t>(i)));
     for (int k = 0; k < 100; ++k) {  // 100,000 a second
       Bytes forged = heard_on_the_way;
       forged[9] = 0x40;  // a sequence far ahead
@@ -108,16 +103,14 @@ TEST(RelayAttack, AFloodOfForgedDatagramsDeliversNothingAndLosesNothing) {
     rig.step();
   }
   rig.run(0.2);
-  EXPECT_EQ(second.heard.size(), 500u);
-  EXPECT_EQ(first.heard.size(), 0u);
+  EXPECT_EQ(rig.second.heard.size(), 500u);
+  EXPECT_EQ(rig.first.heard.size(), 0u);
   EXPECT_GT(rig.count(Result::kForged), 20'000u);
 }
 
 /// Runs two sites whose relay does `lie`. All states that come are whole, and in order.
 void expectTrueStates(const std::function<void(Bytes&, Address&)>& lie, bool come) {
-  RelayedSites::Ways ways;
-  ways.has_direct = false;
-  RelayedSites sites(3, ways);
+  RelayedSites sites(3, {.has_direct = false});
   ASSERT_TRUE(sites.goLive(2.0));
   sites.relay_port.lie = lie;
   sites.run(5.0);

@@ -89,6 +89,16 @@ class RelayRig {
   RelaySettings settings_;
 };
 
+/// A relay with two members in one room, for a while already.
+struct RelayOfTwo : RelayRig {
+  explicit RelayOfTwo(double seconds = 1.0, const RelaySettings& settings = {})
+      : RelayRig(settings), first(join(1, 1)), second(join(2, 2)) {
+    run(seconds);
+  }
+  Member& first;
+  Member& second;
+};
+
 /// Bytes as long as a state's datagram.
 inline Bytes makeInner(std::uint8_t value, std::size_t size = 172) { return Bytes(size, value); }
 

@@ -13,25 +13,23 @@ using relay::Code;
 using relay::Result;
 using test::Bytes;
 using test::makeInner;
+using test::RelayOfTwo;
 using test::RelayRig;
 using test::VirtualNet;
 
 TEST(Relay, ForwardsWhatAMemberSaysUnchanged) {
-  RelayRig rig;
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(1.0);
-  ASSERT_TRUE(first.member->isIn() && second.member->isIn());
+  RelayOfTwo rig;
+  ASSERT_TRUE(rig.first.member->isIn() && rig.second.member->isIn());
   for (const std::size_t size : {std::size_t{20}, std::size_t{172}, kMaxDatagramSize}) {
-    rig.say(first, 2, makeInner(7, size));
-    rig.say(second, 1, makeInner(8, size));
+    rig.say(rig.first, 2, makeInner(7, size));
+    rig.say(rig.second, 1, makeInner(8, size));
     rig.run(0.1);
-    ASSERT_EQ(second.heard.size(), 1u);
-    EXPECT_EQ(second.heard[0].first, 1);
-    EXPECT_EQ(second.heard[0].second, makeInner(7, size));
-    ASSERT_EQ(first.heard.size(), 1u);
-    EXPECT_EQ(first.heard[0].second, makeInner(8, size));
-    first.heard.clear(), second.heard.clear();
+    ASSERT_EQ(rig.second.heard.size(), 1u);
+    EXPECT_EQ(rig.second.heard[0].first, 1);
+    EXPECT_EQ(rig.second.heard[0].second, makeInner(7, size));
+    ASSERT_EQ(rig.first.heard.size(), 1u);
+    EXPECT_EQ(rig.first.heard[0].second, makeInner(8, size));
+    rig.first.heard.clear(), rig.second.heard.clear();
   }
   EXPECT_EQ(rig.relay->counts().forwarded, 6u);
 }
@@ -75,18 +73,15 @@ TEST(Relay, RefusesAnotherKey) {
 }
 
 TEST(Relay, RefusesAnIdThatIsThere) {
-  RelayRig rig;
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(1.0);
+  RelayOfTwo rig;
   auto& impostor = rig.join(3, 2);
   rig.run(10.0);
   EXPECT_FALSE(impostor.member->isIn());
   ASSERT_TRUE(impostor.member->refused());
   EXPECT_EQ(impostor.member->refused()->code, Code::kTaken);
-  rig.say(first, 2, makeInner(7));
+  rig.say(rig.first, 2, makeInner(7));
   rig.run(0.1);
-  EXPECT_EQ(second.heard.size(), 1u);
+  EXPECT_EQ(rig.second.heard.size(), 1u);
 }
 
 TEST(Relay, TakesAMemberThatBeganAnewAtOnceAtItsAddressAndElsewhereAfterFiveSeconds) {
@@ -146,30 +141,24 @@ TEST(Relay, APlaceIsFreeAfterAFarewellAndAfterTenSilentSeconds) {
 TEST(Relay, DropsWhatIsBeyondAMembersRate) {
   RelaySettings settings;
   settings.datagram_rate = 100.0;
-  RelayRig rig(settings);
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(1.0);
-  for (int i = 0; i < 1000; ++i, rig.step()) rig.say(first, 2, makeInner(7));
+  RelayOfTwo rig(1.0, settings);
+  for (int i = 0; i < 1000; ++i, rig.step()) rig.say(rig.first, 2, makeInner(7));
   rig.run(0.1);
   // A burst of 64, and 100 a second.
-  EXPECT_NEAR(static_cast<double>(second.heard.size()), 164.0, 8.0);
-  EXPECT_EQ(rig.count(Result::kTooMany), 1000u - second.heard.size());
-  rig.say(second, 1, makeInner(8));
+  EXPECT_NEAR(static_cast<double>(rig.second.heard.size()), 164.0, 8.0);
+  EXPECT_EQ(rig.count(Result::kTooMany), 1000u - rig.second.heard.size());
+  rig.say(rig.second, 1, makeInner(8));
   rig.run(0.1);
-  EXPECT_EQ(first.heard.size(), 1u);
+  EXPECT_EQ(rig.first.heard.size(), 1u);
 }
 
 TEST(Relay, ARestartedRelayIsJoinedAgain) {
-  RelayRig rig;
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(3.0);
+  RelayOfTwo rig(3.0);
   rig.startRelay();
   rig.run(1.5);
-  rig.say(first, 2, makeInner(7));
+  rig.say(rig.first, 2, makeInner(7));
   rig.run(0.1);
-  EXPECT_EQ(second.heard.size(), 1u);
+  EXPECT_EQ(rig.second.heard.size(), 1u);
 }
 
 TEST(Relay, ASilentRelayIsNoticed) {
@@ -182,17 +171,14 @@ TEST(Relay, ASilentRelayIsNoticed) {
 }
 
 TEST(Relay, FollowsAPortThatANatChanged) {
-  RelayRig rig;
-  auto& first = rig.join(1, 1);
-  auto& second = rig.join(2, 2);
-  rig.run(3.0);
-  second.port->address.port = 7999;
-  rig.say(second, 1, makeInner(8));
+  RelayOfTwo rig(3.0);
+  rig.second.port->address.port = 7999;
+  rig.say(rig.second, 1, makeInner(8));
   rig.run(0.6);
-  EXPECT_EQ(first.heard.size(), 1u);
-  rig.say(first, 2, makeInner(7));
+  EXPECT_EQ(rig.first.heard.size(), 1u);
+  rig.say(rig.first, 2, makeInner(7));
   rig.run(0.1);
-  EXPECT_EQ(second.heard.size(), 1u);
+  EXPECT_EQ(rig.second.heard.size(), 1u);
 }
 
 TEST(Relay, WatchersHearWhatIsSaidToAllOfThemAndSayNothing) {

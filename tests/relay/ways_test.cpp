@@ -20,9 +20,7 @@ bool areDirect(RelayedSites& sites) {
 }
 
 TEST(Ways, SitesMeetByTheRelayAlone) {
-  RelayedSites::Ways ways;
-  ways.has_direct = false;
-  RelayedSites sites(3, ways);
+  RelayedSites sites(3, {.has_direct = false});
   ASSERT_TRUE(sites.goLive(2.0));
   sites.run(10.0);
   EXPECT_TRUE(areRelayed(sites));
@@ -30,9 +28,7 @@ TEST(Ways, SitesMeetByTheRelayAlone) {
 }
 
 TEST(Ways, EightSitesLoseNoStateByTheRelay) {
-  RelayedSites::Ways ways;
-  ways.has_direct = false;
-  RelayedSites sites(8, ways);
+  RelayedSites sites(8, {.has_direct = false});
   ASSERT_TRUE(sites.goLive(3.0));
   sites.run(1.0);
   for (RelayedSites::Site& site : sites.sites)
@@ -57,10 +53,7 @@ TEST(Ways, TheDirectWayIsFoundAndTaken) {
 }
 
 TEST(Ways, ASlowerDirectWayIsNotTaken) {
-  RelayedSites::Ways ways;
-  ways.to_relay = 0.01;
-  ways.direct = 0.03;
-  RelayedSites sites(2, ways);
+  RelayedSites sites(2, {.to_relay = 0.01, .direct = 0.03});
   ASSERT_TRUE(sites.goLive(2.0));
   EXPECT_LT(sites.longestGapOver(20.0), kTwoPackets);
   EXPECT_TRUE(areRelayed(sites));
@@ -79,11 +72,7 @@ TEST(Ways, ADirectWayThatBecomesSlowIsLeftForTheRelay) {
 
 // 18 against 20 ms: nobody gains by a change.
 TEST(Ways, EqualWaysAreNotChangedBetween) {
-  RelayedSites::Ways ways;
-  ways.to_relay = 0.009;
-  ways.direct = 0.018;
-  ways.loss = 0.02;
-  RelayedSites sites(2, ways);
+  RelayedSites sites(2, {.to_relay = 0.009, .direct = 0.018, .loss = 0.02});
   ASSERT_TRUE(sites.goLive(5.0));
   sites.run(600.0);
   EXPECT_LE(sites.status(1, 2).address_changes, 1u);
@@ -92,9 +81,7 @@ TEST(Ways, EqualWaysAreNotChangedBetween) {
 
 TEST(Ways, ADirectWayThatFailsIsLeftBeforeGainsAreGone) {
   for (const bool fails_direct : {true, false}) {
-    RelayedSites::Ways ways;
-    ways.direct = fails_direct ? 0.01 : 0.05;
-    RelayedSites sites(2, ways);
+    RelayedSites sites(2, {.direct = fails_direct ? 0.01 : 0.05});
     ASSERT_TRUE(sites.goLive(2.0));
     sites.run(10.0);
     ASSERT_EQ(areDirect(sites), fails_direct);
@@ -107,9 +94,7 @@ TEST(Ways, ADirectWayThatFailsIsLeftBeforeGainsAreGone) {
 
 // TANDEM_WAY_SECONDS=3600 runs an hour.
 TEST(Ways, ChangesOnceASecondMakeNoGap) {
-  RelayedSites::Ways ways;
-  ways.to_relay = 0.008;
-  RelayedSites sites(2, ways);
+  RelayedSites sites(2, {.to_relay = 0.008});
   ASSERT_TRUE(sites.goLive(2.0));
   sites.run(5.0);
   const auto changes = static_cast<int>(test::readCount("TANDEM_WAY_SECONDS", 300));

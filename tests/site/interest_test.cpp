@@ -63,6 +63,12 @@ struct Crowd {
   void forget() {
     for (auto& link : links) link->sent.clear();
   }
+  /// Runs ticks after the first second, of which nothing is kept.
+  void runSettled(int count) {
+    run(1000);
+    forget();
+    run(count);
+  }
   [[nodiscard]] double now() const { return ticks * kPeriod; }
   [[nodiscard]] const std::vector<StatePacket>& sent(std::size_t peer) const {
     return links[peer]->sent;
@@ -116,9 +122,7 @@ TEST(Interest, ABudgetThatSufficesChangesNothing) {
 TEST(Interest, FarPeersGetRarePacketsThatSaySo) {
   Crowd crowd(8, 2, kBudget);
   crowd.hands[0].p_W = Vec3(0, 0.1, 0);
-  crowd.run(1000);
-  crowd.forget();
-  crowd.run(1000);
+  crowd.runSettled(1000);
   EXPECT_EQ(crowd.sent(0).size(), 128u);
   EXPECT_GE(crowd.sent(1).size(), 8u);
   EXPECT_LE(crowd.sent(1).size(), 17u);
@@ -131,9 +135,7 @@ TEST(Interest, ReachingTheSameObjectMakesPeersNear) {
   Crowd crowd(8, 2, kBudget);
   crowd.rig.bodies.objects[0].tool_of = PeerId{1};
   crowd.hands[1].p_W = Vec3(1, 0.02, 0);
-  crowd.run(1000);
-  crowd.forget();
-  crowd.run(1000);
+  crowd.runSettled(1000);
   EXPECT_LE(crowd.sent(0).size(), 17u);
   EXPECT_EQ(crowd.sent(1).size(), 128u);
 }
@@ -188,14 +190,12 @@ TEST(Interest, AnObjectIsToldAtOnceWhenItBeginsToMove) {
   }
 }
 
-// Of 60 objects that move, the one at the local hand is in every packet.
+// Sixty objects move; the one at the local hand is in every packet.
 TEST(Interest, WhatIsTouchedIsToldAtFullRateAmongManyThatMove) {
   Crowd crowd(100, 2, 0.0);
   crowd.rig.bodies.objects[50].tool_of = PeerId{1};
   for (int i = 20; i < 80; ++i) crowd.rig.setVelocity(i, Vec3(0, 0, 1e-3));
-  crowd.run(1000);
-  crowd.forget();
-  crowd.run(1000);
+  crowd.runSettled(1000);
   for (std::size_t peer = 0; peer < 2; ++peer)
     EXPECT_NEAR(crowd.computeWait(peer, 50), 1.0 / kRate, 1e-9);
 }
@@ -207,9 +207,7 @@ TEST(Interest, ARoomKeepsItsBudgetAndForgetsNothing) {
   crowd.hands[4].p_W = Vec3(0, 0.05, 0);
   for (const int moving : {3, 50, 51, 90, 140, 200, 255})
     crowd.rig.setVelocity(moving, Vec3(0, 0, 1e-3));
-  crowd.run(1000);
-  crowd.forget();
-  crowd.run(static_cast<int>(kSeconds / kPeriod));
+  crowd.runSettled(static_cast<int>(kSeconds / kPeriod));
   // The bytes of a rare packet's period may have been kept from before.
   EXPECT_LE(crowd.countBits(), kRoom * (kSeconds + kIdlePacketPeriod));
   EXPECT_GE(crowd.countBits(), 0.5 * kRoom * kSeconds);
