@@ -17,7 +17,7 @@ class ToolScheme final : public Scheme {
   std::string_view name() const noexcept override { return "bench_tool"; }
   RemoteUser makeRemoteUser(Island& island, const StandInSettings& stand_in,
                             const PointState& start) const override {
-    return proxies_.makeRemoteUser(island, {stand_in.proxy, gains_}, start);
+    return proxies_.makeRemoteUser(island, {stand_in.share, stand_in.proxy, gains_}, start);
   }
   void follow(Island& island, const RemoteUser& user,
               const PointState& latest) const noexcept override {

@@ -31,7 +31,7 @@ TEST(CoordinationShares, ScaleAStandInAsAWhole) {
   EXPECT_EQ(half.proxy.radius, 0.01);
   EXPECT_EQ(half.coordination.stiffness, 100.0);
   EXPECT_EQ(half.coordination.damping, 15.0);
-  EXPECT_EQ(half.contact_share, 0.5);
+  EXPECT_EQ(half.share, 0.5);
 }
 
 /// A sphere with a share that is 2 mm deep in another one.

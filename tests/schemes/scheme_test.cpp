@@ -31,7 +31,7 @@ struct Presence {
 
   explicit Presence(const char* name) {
     const Scheme& scheme = findScheme(name);
-    user = scheme.makeRemoteUser(island, {{}, {200.0, 30.0}}, {});
+    user = scheme.makeRemoteUser(island, {1.0, {}, {200.0, 30.0}}, {});
     island.prepare();
     scheme.follow(island, user, {Vec3(0.01, 0.0, 0.0), Vec3(0.2, 0.0, 0.0)});
   }

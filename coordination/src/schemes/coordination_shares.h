@@ -30,7 +30,7 @@ struct CoordinationShares {
 /// A stand-in that has the share `share` of a whole user.
 [[nodiscard]] inline StandInSettings makeStandIn(const ProxySettings& whole,
                                                  const CouplerGains& gains, double share) noexcept {
-  StandInSettings part{whole, computeShare(gains, share), share};
+  StandInSettings part{share, whole, computeShare(gains, share)};
   part.proxy.mass *= share;
   part.proxy.damping *= share;
   return part;

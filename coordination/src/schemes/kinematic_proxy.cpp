@@ -14,7 +14,7 @@ class KinematicProxy final : public Scheme {
     IslandBody body;
     body.shape = Sphere{stand_in.proxy.radius};
     body.motion = Motion::kHeld;
-    body.contact_share = stand_in.contact_share;
+    body.contact_share = stand_in.share;
     body.start.p_W = start.p_W;
     body.start.v_W = start.v_W;
     return {island.addBody(body), std::nullopt};

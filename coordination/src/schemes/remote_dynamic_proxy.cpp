@@ -16,7 +16,7 @@ class RemoteDynamicProxy final : public Scheme {
     body.shape = Sphere{proxy.radius};
     body.mass = proxy.mass;
     body.damping = proxy.damping;
-    body.contact_share = stand_in.contact_share;
+    body.contact_share = stand_in.share;
     body.feels_obstacles = true;
     body.start.p_W = start.p_W;
     body.start.v_W = start.v_W;

@@ -120,7 +120,7 @@ void Grips::followPeer(const Peer& peer, Remote& remote, double now, double peri
   if (peer.health.isProxyOut()) return hold.pause();
   const SharedObject& held = bodies_.objects[*hold.state().object];
   if (!held.body.is_held) return hold.drop();
-  const double share = peers_.standIn().contact_share * peer.health.proxyShare();
+  const double share = peers_.standIn().share * peer.health.proxyShare();
   hold.follow(held, period, share, 0.0);
   hand_.energy().countLift(hold.takeWork());
 }

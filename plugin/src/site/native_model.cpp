@@ -42,13 +42,13 @@ void NativeModel::addProxy(BodyIndex body, const SphereBody& proxy,
   proxy.rigid().setActivationState(DISABLE_DEACTIVATION);
   setNativeDamping(proxy.rigid(), stand_in.proxy.damping);
   guide(proxy.rigid());
-  soften(proxy.rigid(), stand_in.contact_share);
+  soften(proxy.rigid(), stand_in.share);
 }
 
 KinematicSphere& NativeModel::addHeldProxy(BodyIndex body, const Vec3& p_W,
                                            const StandInSettings& stand_in) {
   held_.push_back({body, std::make_unique<KinematicSphere>(world_, settings_.proxy.radius, p_W)});
-  soften(held_.back().sphere->rigid(), stand_in.contact_share);
+  soften(held_.back().sphere->rigid(), stand_in.share);
   return *held_.back().sphere;
 }
 

@@ -46,7 +46,7 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
 
 double Peers::findMassShare(const std::optional<PeerId>& tool_of) const noexcept {
   if (!tool_of) return 1.0 / settings_.peers;
-  return *tool_of == settings_.self ? 1.0 : stand_in_.contact_share;
+  return *tool_of == settings_.self ? 1.0 : stand_in_.share;
 }
 
 CouplerSettings Peers::makeCoupler(const SharedObject& object) const noexcept {

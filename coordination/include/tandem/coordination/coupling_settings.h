@@ -13,7 +13,7 @@ struct CouplerGains {
   double damping = 0.0;    ///< [N s/m], >= 0; higher calms the coupling, too high rings with delay
 };
 
-/// How the copies of an object, and the stand-ins of remote users, share K_t and B_t.
+/// Says how the copies of an object, and the stand-ins of remote users, share K_t and B_t.
 enum class CoordinationMode {
   kSum,      ///< each pair of copies is tied by K_t, B_t: stiffness and drag grow with N
   kAverage,  ///< each copy is tied to the mean of all N: K_t/N, B_t/N for each pair
@@ -26,11 +26,11 @@ struct ProxySettings {
   double radius = 0.01;  ///< radius of the sphere [m]
 };
 
-/// What stands for a remote user at this site: the whole user, or a part of it.
+/// A stand-in of a remote user at this site: the whole user, or a part of it.
 struct StandInSettings {
+  double share = 1.0;  ///< of a whole user; it has to scale contacts, the rest has it already
   ProxySettings proxy;
-  CouplerGains coordination;   ///< ties it to the user's delayed state
-  double contact_share = 1.0;  ///< of the gains of its smooth contacts
+  CouplerGains coordination;  ///< ties it to the user's delayed state
 };
 
 /// State of a remote peer, by the age of its last applied state.
