@@ -111,7 +111,7 @@ class Room {
 
   [[nodiscard]] User& user(int i) { return *users_[static_cast<std::size_t>(i)]; }
   static PeerId idOf(int i) { return PeerId{static_cast<std::uint32_t>(i) + 1}; }
-  /// Where a cube is at the start: those of the pairs have others around them.
+  /// The place of a cube at the start: those of the pairs have others around them.
   [[nodiscard]] static Vec3 placeOf(ObjectId id) {
     constexpr ObjectId kPairs = 8;
     const ObjectId row = id < kPairs ? 4 + 8 * (id / 4) : (id - kPairs) / 16;

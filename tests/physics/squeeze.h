@@ -14,7 +14,7 @@
 
 namespace tandem::test {
 
-/// What a Squeeze is made of.
+/// Describes a Squeeze.
 struct SqueezeCase {
   std::string scheme = "remote_dynamic_proxy";
   CoordinationMode mode = CoordinationMode::kAverage;

@@ -235,7 +235,7 @@ TEST(Peers, KeepHoldOfWhatIsToldRarely) {
   EXPECT_EQ(talk.share(kObjects - 1), 1.0);
 }
 
-// What is told no more has no force after four rounds of one object a packet.
+// An object that is told no more has no force after four rounds of one object a packet.
 TEST(Peers, LetGoOfWhatIsToldNoMoreAmongMany) {
   constexpr int kObjects = 20;
   Conversation talk(kObjects);

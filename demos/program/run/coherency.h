@@ -10,7 +10,7 @@ namespace tandem::demos {
 
 class SiteWorld;
 
-/// How far the object copies of two sites were apart.
+/// Distances between the object copies of two sites.
 struct PairCoherency {
   std::size_t one = 0, other = 0;  ///< sites from 0
   double mean = 0.0, max = 0.0;    ///< of several objects the largest distance [m]

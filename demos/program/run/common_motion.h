@@ -7,8 +7,8 @@
 
 namespace tandem::demos {
 
-/// What holds all users back when they move together: means over all sites and the last half of a
-/// run, along the axis.
+/// The force that holds all users back when they move together: means over all sites and the last
+/// half of a run, along the axis.
 struct CommonMotion {
   double speed = 0.0;  ///< of the devices [m/s]
   double force = 0.0;  ///< with which each user is held back: minus the force on the device [N]
@@ -28,8 +28,8 @@ struct FeltShares {
   double rest = 0.0;          ///< contact with no user: the object, or other bodies
 };
 
-/// Whom the device of a recorded site feels. A user is felt while there is contact and the spheres
-/// of device and proxy, each of `radius` [m], overlap.
+/// Tells whom the device of a recorded site feels. A user is felt while there is contact and the
+/// spheres of device and proxy, each of `radius` [m], overlap.
 [[nodiscard]] FeltShares computeFelt(const Recording& site, double radius);
 
 }  // namespace tandem::demos

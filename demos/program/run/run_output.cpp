@@ -8,7 +8,7 @@ namespace {
 
 std::string nameSite(std::size_t site) { return fmt::format("site{}", site + 1); }
 
-/// Who feels whom: for each site its share of time with each other user, and with all else.
+/// Tells who feels whom: each site's share of time with each other user, and with all else.
 nlohmann::json describeFelt(const std::vector<FeltShares>& felt) {
   nlohmann::json all;
   for (std::size_t own = 0; own < felt.size(); ++own) {
@@ -19,7 +19,7 @@ nlohmann::json describeFelt(const std::vector<FeltShares>& felt) {
   return all;
 }
 
-/// What only more than two sites have: the summary of two stays as it was.
+/// Adds what only more than two sites have: the summary of two stays as it was.
 void describeMany(const RunSummary& s, nlohmann::json& j) {
   for (const PairCoherency& pair : s.pairs)
     j["coherency"]["pairs"].push_back(

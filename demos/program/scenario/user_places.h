@@ -4,11 +4,11 @@
 
 namespace tandem::demos {
 
-/// Where a user's device starts in the scene's frame, `site` counted from 0, without the user's own
-/// offset [m]. Without an object the users stand in a row along x, each just in contact with the
-/// next; users 1 and 2 touch in the origin. With one, the first, third and so on stand at its face
-/// at -x, the others at +x. Several at a face form a grid around its middle. In a world: the
-/// origin.
+/// The place in the scene's frame where a user's device starts, `site` counted from 0, without the
+/// user's own offset [m]. Without an object the users stand in a row along x, each just in contact
+/// with the next; users 1 and 2 touch in the origin. With one, the first, third and so on stand at
+/// its face at -x, the others at +x. Several at a face form a grid around its middle. In a world:
+/// the origin.
 [[nodiscard]] Vec3 computeUserPlace(const Scenario& scenario, std::size_t site);
 
 /// The number of users who stand beside `site` at the same face, with that one.

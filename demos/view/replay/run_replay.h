@@ -21,7 +21,7 @@ class RunReplay {
   /// What the user saw at that time [s]. The list has no hand of the user's own.
   [[nodiscard]] SessionLook look(double time);
 
-  /// Where the user's hand, the others' and the objects are in all recorded pictures [m].
+  /// Places of the user's hand, the others' and the objects in all recorded pictures [m].
   [[nodiscard]] std::vector<Vec3> findWays();
 
   [[nodiscard]] int user() const noexcept { return user_; }

@@ -104,7 +104,7 @@ struct UdpMesh::Impl {
   net::PeerGroup mesh;
 };
 
-/// What comes from the relay has either a datagram of a peer in it, or concerns the relay alone.
+/// A datagram of the relay has either one of a peer in it, or concerns the relay alone.
 void UdpMesh::Impl::receive(ByteSpan datagram, const Address& from, double now) noexcept {
   if (!member || from != member->relay()) {
     mesh.receive(datagram, from, now);

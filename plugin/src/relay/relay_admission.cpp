@@ -1,4 +1,4 @@
-// How a member comes into a room.
+// The admission of a member to a room.
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 
 namespace tandem::relay {
 
-/// What became of a received datagram.
+/// The fate of a received datagram.
 enum class Result : std::uint8_t {
   kTaken,       ///< answered or forwarded
   kForm,        ///< no datagram of a relay

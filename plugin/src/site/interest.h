@@ -44,7 +44,7 @@ class Interest {
                                                        double time) noexcept;
 
  private:
-  /// What is kept of one peer, by its place.
+  /// All that is kept of one peer, by its place.
   struct Audience {
     explicit Audience(double packet_rate) noexcept : told(packet_rate) {}
     ToldObjects told;

@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// How near something is to a user's hand, the rarest told first.
+/// Says how near something is to a user's hand, the rarest told first.
 enum class Nearness : std::uint8_t {
   kFar,    ///< seen at most
   kNear,   ///< in the hand's neighbourhood

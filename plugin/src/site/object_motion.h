@@ -7,8 +7,8 @@
 
 namespace tandem {
 
-/// How a shared object has moved here, from one packet's moment to the next. Plain value; real-time
-/// safe.
+/// Watches how a shared object moves here, from one packet's moment to the next. Plain value;
+/// real-time safe.
 class ObjectMotion {
  public:
   explicit ObjectMotion(double radius) noexcept { ball_.radius = radius; }

@@ -31,7 +31,7 @@ class Peers {
   Peers(const SiteSettings& settings, Island& island, Bodies& bodies, EnergyPort& energy,
         SiteLog& log);
 
-  /// What stands for each of the remote users.
+  /// The stand-in of each remote user.
   [[nodiscard]] const StandInSettings& standIn() const noexcept { return stand_in_; }
   /// Part of a body's mass that our copy of an object, or of a tool of this user, has.
   [[nodiscard]] double findMassShare(const std::optional<PeerId>& tool_of) const noexcept;

@@ -5,7 +5,7 @@
 namespace tandem {
 namespace {
 
-/// How often a moving object is told, by its nearness, and one that has come to rest [Hz].
+/// Rates at which a moving object is told, by its nearness, and one that has come to rest [Hz].
 constexpr double kNearRate = 32.0, kFarRate = 8.0, kRestRate = 4.0;
 /// An object is due if it would be late with the next packet: after its period, and the rounding of
 /// packets' times.

@@ -16,7 +16,7 @@ struct PacketRoom {
   double next = 0.0;  ///< time until the peer's next packet, if it gets that for certain [s]
 };
 
-/// What one peer has been told of the shared objects, and what it is to be told next.
+/// Remembers what one peer has been told of the shared objects, and chooses what it is told next.
 ///
 /// An object that moves is due at a rate by its nearness. One that has come to rest is due a few
 /// times more, as packets get lost. The most urgent go first: those that have waited long, moved
