@@ -40,15 +40,15 @@ TEST(IslandDesk, ManyAskersAreServedOneByOneWhileTheDeskOpensAndCloses) {
   std::atomic<bool> stops{false};
   std::thread server([&] {
     while (!stops) {
-      // While the desk is closed the askers do the work; the desk serialises these too.
-      desk.open();
       for (int i = 0; i < 100; ++i) {
         desk.serve();
         std::this_thread::yield();
       }
+      // While the desk is closed the askers do the work; the desk serialises these too.
       desk.close();
       desk.serve();
       std::this_thread::yield();
+      desk.open();
     }
   });
   std::vector<std::thread> askers;

@@ -50,7 +50,8 @@ class IslandDesk {
     return was_ever_open_.load(std::memory_order_acquire);
   }
 
-  /// Opens the desk before the haptic thread begins. Not for the haptic thread.
+  /// Opens a desk that is closed, before the haptic thread begins. It waits for work that runs, so
+  /// that an open desk would wait for a request that only its own thread serves.
   void open() {
     was_ever_open_.store(true, std::memory_order_release);
     const std::lock_guard one_at_a_time(asking_);
