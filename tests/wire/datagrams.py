@@ -45,7 +45,7 @@ def read_header(datagram):
     kind = TYPES[number]
     sealed = kind not in CLEAR_SIZES
     require((session != 0) == (sealed or kind == "ACCEPT"), "session")
-    require(1 <= sender <= 8, "sender")
+    require(1 <= sender <= 64, "sender")
     require((key_epoch != 0) == (sealed or kind in ("OPEN", "ACCEPT")), "key_epoch")
     require(sealed or sequence == 0, "sequence")
     return kind, {"version": version, "session": session, "sender": sender, "key_epoch": key_epoch,
@@ -57,7 +57,7 @@ def read_clear(kind, sender, datagram):
     require(len(datagram) == CLEAR_SIZES[kind], "wrong_size")
     receiver, code, zero, nonce = ROUTE.unpack_from(datagram, HEADER.size)
     body = datagram[HEADER.size + ROUTE.size:]
-    require(1 <= receiver <= 8 and receiver != sender, "receiver")
+    require(1 <= receiver <= 64 and receiver != sender, "receiver")
     if kind == "REFUSE":
         require(1 <= code <= 5, "code")
     else:
@@ -124,7 +124,7 @@ def read_state(payload):
         require(number <= 255, "object_id")
         require(number not in ids, "object_twice")
         require(zero == 0, "zero")
-        require(author <= 8 and (author == 0) == (epoch == 0), "object_epoch")
+        require(author <= 64 and (author == 0) == (epoch == 0), "object_epoch")
         ids.add(number)
         state, offset = read_reals(payload, offset + 8, real, OBJECT_FIELDS)
         require_unit(state["orientation"])

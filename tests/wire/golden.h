@@ -131,7 +131,7 @@ inline StateMessage makeFullState() {
                                   Vec3(100.0, -100.0, i), Vec3(1000.0, -1000.0, i / 3.0)},
                                  {i, PeerId{i}}};
   }
-  message.packet.objects[0].epoch = {~std::uint32_t{0}, PeerId{kMaxWirePeer}};
+  message.packet.objects[0].epoch = {~std::uint32_t{0}, PeerId{8}};
   message.packet.objects[7] = {
       255, {Vec3(0.0, 0.0, 1e-300), Quat(0.0, 0.0, 0.0, -1.0), Vec3::Zero(), Vec3::Zero()}};
   return message;

@@ -68,7 +68,7 @@ class StateGate {
 
   [[nodiscard]] WireRefusal check(const ObjectEpoch& epoch) const noexcept {
     const auto author = static_cast<std::uint32_t>(epoch.author);
-    const bool is_right = author <= kMaxWirePeer && (author == 0) == (epoch.count == 0);
+    const bool is_right = author <= kMaxPeerId && (author == 0) == (epoch.count == 0);
     return is_right ? WireRefusal::kNone : WireRefusal::kObjectEpoch;
   }
 

@@ -36,7 +36,7 @@ WireRefusal findFault(const ClearHeader& header) noexcept {
   const bool keyed = addressed || header.type == MessageType::kOpen;
   const auto sender = static_cast<std::uint32_t>(header.sender);
   if ((header.session != 0) != addressed) return WireRefusal::kSession;
-  if (sender < 1 || sender > kMaxWirePeer) return WireRefusal::kSender;
+  if (sender < 1 || sender > kMaxPeerId) return WireRefusal::kSender;
   if ((header.key_epoch != 0) != keyed) return WireRefusal::kKeyEpoch;
   if (!sealed && header.sequence != 0) return WireRefusal::kSequence;
   return WireRefusal::kNone;

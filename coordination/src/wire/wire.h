@@ -18,7 +18,6 @@ inline constexpr std::uint8_t kWireVersion = 3;
 inline constexpr std::size_t kHeaderSize = 20;  ///< [bytes]
 inline constexpr std::size_t kTagSize = 16;     ///< tag behind a sealed payload [bytes]
 inline constexpr std::size_t kMaxPayloadSize = kMaxDatagramSize - kHeaderSize - kTagSize;
-inline constexpr std::uint32_t kMaxWirePeer = 8;  ///< ids on the wire are 1 to 8
 
 /// Latest time on the wire [us], 35 years; a double in seconds still resolves each microsecond.
 inline constexpr std::int64_t kMaxWireTimeUs = std::int64_t{1} << 50;

@@ -47,7 +47,7 @@ WireRefusal findFault(const Envelope& envelope) noexcept {
   const MessageType type = envelope.header.type;
   const auto sender = static_cast<std::uint32_t>(envelope.header.sender);
   const auto receiver = static_cast<std::uint32_t>(envelope.receiver);
-  if (receiver < 1 || receiver > kMaxWirePeer || receiver == sender) return WireRefusal::kReceiver;
+  if (receiver < 1 || receiver > kMaxPeerId || receiver == sender) return WireRefusal::kReceiver;
   if (type == MessageType::kRefuse) {
     const bool known = envelope.code >= static_cast<std::uint8_t>(RefuseCode::kVersion) &&
                        envelope.code <= static_cast<std::uint8_t>(RefuseCode::kBusy);

@@ -26,8 +26,9 @@ secure::CookieSubject makeSubject(const HandshakeRoute& route) noexcept {
 void checkIds(PeerId self, const std::vector<PeerGroup::Peer>& peers) {
   const auto check = [](PeerId id) {
     const auto number = static_cast<std::uint32_t>(id);
-    if (number < 1 || number > 8)
-      throw std::invalid_argument("peer id " + std::to_string(number) + ": must be 1 to 8");
+    if (number < 1 || number > kMaxPeerId)
+      throw std::invalid_argument("peer id " + std::to_string(number) + ": must be 1 to " +
+                                  std::to_string(kMaxPeerId));
   };
   check(self);
   for (std::size_t i = 0; i < peers.size(); ++i) {

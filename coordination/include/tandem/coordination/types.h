@@ -17,6 +17,8 @@ using Quat = Eigen::Quaterniond;
 
 /// A user together with the computer that runs that user's copy of the virtual environment.
 enum class PeerId : std::uint32_t {};
+/// Live sites have ids from 1 to this.
+inline constexpr std::uint32_t kMaxPeerId = 64;
 
 /// Identity of a shared object, equal at all peers (its place in the scenario).
 using ObjectId = std::uint32_t;

@@ -63,7 +63,7 @@ Setter toInteger(int& target, int least, int most) {
 
 Setter toPeer(PeerId& target) {
   return [&target](const toml::node& node) {
-    const auto value = readInteger(node, 1, 8);
+    const auto value = readInteger(node, 1, static_cast<int>(kMaxPeerId));
     if (value) target = PeerId{static_cast<std::uint32_t>(*value)};
     return value.has_value();
   };
@@ -161,7 +161,7 @@ std::vector<Key> makeKeys(PreloadConfig& config, double& mass, LinkWords& words)
       {"damping", "0 or more [N s/m]", toNumber(config.damping, 0.0, kMost)},
       {"log", "the name of a file", toText(config.log)},
       {"guide", "three numbers of norm 1", toGuide(config)},
-      {"site.self", "a whole number from 1 to 8", toPeer(site.self)},
+      {"site.self", "a whole number from 1 to 64", toPeer(site.self)},
   };
   for (const SiteKey& key : kSiteKeys) keys.push_back(toField(key, site));
   const std::vector<Key> others = {
@@ -170,7 +170,7 @@ std::vector<Key> makeKeys(PreloadConfig& config, double& mass, LinkWords& words)
       {"device.max_force", "above 0 [N]", toNumber(config.device.max_force, tiny, kMost)},
       {"device.start", "three numbers [m]", toVector(config.device.start_W)},
       {"device.force", "three numbers [N]", toVector(config.hand_force_W)},
-      {"link.peer", "a whole number from 1 to 8", toPeer(words.link.peer)},
+      {"link.peer", "a whole number from 1 to 64", toPeer(words.link.peer)},
       {"link.bind", "an address, \"host:port\" or \":port\"", toText(words.bind)},
       {"link.address", "an address, \"host:port\"", toText(words.address)},
       {"link.key", "the name of a file", toText(words.link.key)},
