@@ -76,8 +76,8 @@ TEST(OutputFolder, LastTwoUsersAtOnceLeaveNoLock) {
   };
   for (int i = 0; i < 500; ++i) {
     std::barrier together(2);
-    std::thread other([&] { use(FolderPart::kSite2, together); });
-    use(FolderPart::kSite1, together);
+    std::thread other([&] { use(FolderPart{2}, together); });
+    use(FolderPart{1}, together);
     other.join();
     ASSERT_FALSE(std::filesystem::exists(file)) << "after " << i << " pairs";
   }
@@ -101,15 +101,15 @@ TEST(OutputFolder, KilledProgramLeavesTheEarlierResultAndNoLock) {
 
 TEST(OutputFolder, BothSitesShareIt) {
   const TempFolder folder;
-  const OutputFolder one(folder.path(), "--out x", FolderPart::kSite1);
+  const OutputFolder one(folder.path(), "--out x", FolderPart{1});
   {
-    const OutputFolder two(folder.path(), "--out x", FolderPart::kSite2);
-    for (const FolderPart part : {FolderPart::kAll, FolderPart::kSite1, FolderPart::kSite2})
+    const OutputFolder two(folder.path(), "--out x", FolderPart{2});
+    for (const FolderPart part : {FolderPart::kAll, FolderPart{1}, FolderPart{2}})
       EXPECT_THROW(OutputFolder(folder.path(), "--out x", part), demos::UsageError);
   }
   // The end of one site leaves the other its part.
   EXPECT_THROW(OutputFolder(folder.path(), "--out x"), demos::UsageError);
-  EXPECT_NO_THROW(OutputFolder(folder.path(), "--out x", FolderPart::kSite2));
+  EXPECT_NO_THROW(OutputFolder(folder.path(), "--out x", FolderPart{2}));
 }
 
 TEST(OutputFolder, ResultOfOneKindReplacesTheOther) {
@@ -121,7 +121,7 @@ TEST(OutputFolder, ResultOfOneKindReplacesTheOther) {
     out.publish(mark, others);
   };
   publish(FolderPart::kAll, "summary.json", {"site1.json", "site2.json"});
-  publish(FolderPart::kSite1, "site1.json", {"summary.json"});
+  publish(FolderPart{1}, "site1.json", {"summary.json"});
   EXPECT_EQ(listFolder(folder.path()), (Words{"site1.csv", "site1.json"}));
   publish(FolderPart::kAll, "summary.json", {"site1.json", "site2.json"});
   EXPECT_EQ(listFolder(folder.path()), (Words{"site1.csv", "summary.json"}));

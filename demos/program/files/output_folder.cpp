@@ -23,7 +23,7 @@ const fs::path& makeFolder(const fs::path& folder, const std::string& name) {
 /// Each part has a place of its own for unfinished files.
 std::string nameAside(FolderPart part) {
   const std::string name = ".tandem-unfinished";
-  return part == FolderPart::kAll ? name : name + (part == FolderPart::kSite1 ? "-1" : "-2");
+  return part == FolderPart::kAll ? name : name + "-" + std::to_string(static_cast<int>(part));
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ void OutputLock::open(const std::string& name) {
 
 /// Locks a byte for each site, or all bytes. Such a lock belongs to the open file.
 bool OutputLock::lock(FolderPart part) const noexcept {
-  const off_t start = part == FolderPart::kSite2 ? 1 : 0;
-  return set(F_WRLCK, start, part == FolderPart::kAll ? 0 : 1);  // 0: to the end
+  if (part == FolderPart::kAll) return set(F_WRLCK, 0, 0);  // to the end
+  return set(F_WRLCK, static_cast<off_t>(part), 1);
 }
 
 void OutputLock::unlock() const noexcept { set(F_UNLCK, 0, 0); }

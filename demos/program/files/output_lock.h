@@ -7,8 +7,9 @@
 
 namespace tandem::demos {
 
-/// Part of an output folder that one program writes. Both sites of a live run may share a folder.
-enum class FolderPart { kAll, kSite1, kSite2 };
+/// Part of an output folder that one program writes: all of it, or that of one site of a live run,
+/// whose number is above 0. Sites of a run may share a folder.
+enum class FolderPart : int { kAll = 0 };
 
 /// Keeps other programs from writing the same output until the end of this object or of the
 /// process, however that ends. The system forgets the lock with the process, so none is ever left

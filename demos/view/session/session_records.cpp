@@ -9,18 +9,9 @@
 #include "terminal/usage_error.h"
 
 namespace tandem::view {
-namespace {
-
-/// Windows on two sites may record into one folder.
-demos::FolderPart choosePart(int site) {
-  if (site == 0) return demos::FolderPart::kAll;
-  return site == 1 ? demos::FolderPart::kSite1 : demos::FolderPart::kSite2;
-}
-
-}  // namespace
 
 SessionRecords::SessionRecords(const std::filesystem::path& run, int site)
-    : run_(run), part_(choosePart(site)) {
+    : run_(run), part_{site} {
   open(run_);
 }
 

@@ -12,7 +12,7 @@ namespace tandem::view {
 /// thread at a time.
 class SessionRecords {
  public:
-  /// `site` is 1 or 2 if that one alone is here; 0: both are. Throws UsageError if RUN is not
+  /// `site` is the one that is here alone, from 1; 0: all are. Throws UsageError if RUN is not
   /// writable or in use.
   SessionRecords(const std::filesystem::path& run, int site);
 
