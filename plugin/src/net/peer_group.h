@@ -21,8 +21,8 @@ class PeerGroup {
     bool is_relayed = false;  ///< there is a relay, at makeRelayedAddress(id)
   };
 
-  /// Throws std::invalid_argument for an id outside 1 to kMaxPeerId, a repeated id or our own. Throws it
-  /// also for a configuration that is too long to send. `outlet` must outlive the mesh.
+  /// Throws std::invalid_argument for an id outside 1 to kMaxPeerId, a repeated id or our own.
+  /// Throws it also for a configuration that is too long to send. `outlet` must outlive the mesh.
   PeerGroup(PeerId self, std::vector<Peer> peers, const PeerSession::Common& common,
             Outlet& outlet);
   ~PeerGroup();
