@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import CONTACT, RDP, VC, FolderTest, run_of, site_csv, summary
+from support import CONTACT, RDP, VC, FolderTest, message_of, run_of, site_csv, summary
 
 import numpy as np
 
@@ -34,6 +34,35 @@ def many(count, scheme=RDP, kind="cooperative_manipulation", mode="sum"):
 
 def many_run(count, scheme=RDP, mode="sum"):
     return make_run(many(count, scheme, mode=mode), f"{scheme}{count}", "summary.json")
+
+
+class ManyLiveRuns(FolderTest):
+    def setUp(self):
+        super().setUp()
+        for site in (1, 2, 3):
+            self.write_site(site)
+
+    def write_site(self, site, count=3):
+        name = f"site{site}"
+        own = {key: many(count)[key] for key in ("scenario", name)} | {
+            "loop": {"ticks": 100, "late": site}, "contacts": {name: many(count)["contacts"][name]}}
+        self.write(f"{name}.json", own)
+        self.write(f"{name}.csv", site_csv(0.001 * site, 30 + site))
+
+    def test_join_what_all_sites_know(self):
+        run = load_run(str(self.folder))
+        self.assertTrue(run.is_live)
+        self.assertEqual(run.sites, 3)
+        self.assertAlmostEqual(run.number("coherency.mean_abs"), 0.002)
+        self.assertAlmostEqual(run.number("coherency.pairs.0.mean"), 0.001)
+        self.assertEqual(run.number("contacts.site3.site1"), 0.25)
+        self.assertAlmostEqual(run.number("loop.late_share"), 0.02)
+
+    def test_one_that_is_missing_or_of_another_run_is_named(self):
+        self.write_site(3, count=4)
+        self.assertIn("site3.json: another scenario", message_of(lambda: load_run(str(self.folder))))
+        (self.folder / "site3.json").unlink()
+        self.assertIn("site3.json: cannot", message_of(lambda: load_run(str(self.folder))))
 
 
 class ManyRuns(unittest.TestCase):

@@ -49,7 +49,7 @@ def draw(figures, folder):
 def marks(folders):
     """Identity and age of all summaries; another result in a folder changes them."""
     return [(stat.st_ino, stat.st_mtime_ns) for folder in folders
-            for name in ("summary.json", "site1.json", "site2.json")
+            for name in ("summary.json", *(f"site{site}.json" for site in range(1, 17)))
             if (stat := _stat(os.path.join(folder, name)))]
 
 

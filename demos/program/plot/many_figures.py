@@ -26,11 +26,11 @@ def _users(run):
 def many_motion(run, name):
     """Positions of all users and copies over time, and forces on all users."""
     def signals(tables):
-        t = tables[0]["t"]
+        rows = min(len(table["t"]) for table in tables)  # sites of a live run differ by a few
         yield "devices, x [mm]", 210, [1e3 * table["device_x"] for table in tables]
         if run.has_object:
-            copies = [1e3 * table["object_x"] for table in tables]
-            mean = np.mean([copy[:len(t)] for copy in copies], axis=0)
+            copies = [1e3 * table["object_x"][:rows] for table in tables]
+            mean = np.mean(copies, axis=0)
             yield "copies from mean [mm]", 170, [copy - mean for copy in copies]
         yield "force [N]", 170, [table.norm("force") for table in tables]
 
@@ -45,7 +45,8 @@ def many_motion(run, name):
             is_last = row + 1 == len(rows)
             axes = sheet.panel(LEFT, top, INNER, panel, "", "time [s]" if is_last else "", label)
             for user, curve in zip(_users(run), curves):
-                axes.plot(t[:len(curve)], curve, **_looks(user))
+                shown = min(len(t), len(curve))
+                axes.plot(t[:shown], curve[:shown], **_looks(user))
             set_axis(axes, "x", recorded_time(t), 110, is_last)
             set_axis(axes, "y", span(*curves, least=0.2), 30)
             top += panel + _GAP

@@ -16,7 +16,7 @@ def mode_of(run):
 
 def label_of(run):
     mode = mode_of(run)
-    return scheme_label(run.scheme) + (f", {mode}" if mode else "")
+    return scheme_label(run.scheme) + (f", {mode}" if mode else "") + (", live" if run.is_live else "")
 
 
 def hands_of(run):

@@ -80,7 +80,7 @@ class Report:
             self.list(findings)
 
     def _add_scene(self, run, prefix):
-        if run.bodies:
+        if run.bodies and not run.is_live:
             motion = load_motion(run)
             if can_film():
                 self.figure(Film(run, motion.times, f"{prefix}-film"))

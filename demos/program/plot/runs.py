@@ -15,7 +15,7 @@ COOPERATION, CONTACT, PLAYGROUND = "cooperation", "user-to-user contact", "playg
 _KINDS = {"cooperative_manipulation": COOPERATION, "user_contact": CONTACT}
 
 # Keys in which two sites of one live run may differ; demos/program/scenario/keys.cpp marks them, too.
-_OWN_KEYS = ("title", "site1.", "site2.", "device.", "guard.", "network.delay", "network.jitter",
+_OWN_KEYS = ("title", "site1.", "site2.", "site.", "device.", "guard.", "network.delay", "network.jitter",
              "network.loss", "network.duplicate", "network.reorder", "network.seed", "rates.host",
              "rates.inner", "experiment.duration", "bridge.")
 
@@ -193,15 +193,26 @@ def load_run(folder):
     return make_run(parse_object(read_text(path), path), folder, path)
 
 
+def _pairs(count):
+    return [(i, j) for i in range(count) for j in range(i + 1, count)]
+
+
+def pair_separations(tables):
+    """|object at one site - object at another| of each pair, tick by tick [m]; sites may differ by a
+    few rows."""
+    copies = [table.vectors("object") for table in tables]
+    rows = min(len(copy) for copy in copies)
+    return np.array([np.linalg.norm(copies[i][:rows] - copies[j][:rows], axis=1)
+                     for i, j in _pairs(len(copies))])
+
+
 def separation(tables):
-    """|object at site 1 - object at site 2| tick by tick [m]; a site may have a row more."""
-    ours, theirs = (table.vectors("object") for table in tables)
-    rows = min(len(ours), len(theirs))
-    return np.linalg.norm(ours[:rows] - theirs[:rows], axis=1)
+    """Distance of the two copies that are farthest apart, tick by tick [m]."""
+    return pair_separations(tables).max(axis=0)
 
 
 def is_live_folder(folder):
-    """True if two `tandem peer` have written to this folder, and no `tandem run`."""
+    """True if some `tandem peer` have written to this folder, and no `tandem run`."""
     return os.path.exists(os.path.join(folder, "site1.json")) and \
         not os.path.exists(os.path.join(folder, "summary.json"))
 
@@ -211,20 +222,45 @@ def _shared_settings(site):
             if not key.startswith(_OWN_KEYS)}
 
 
+def _count_sites(root):
+    scenario = root.get("scenario")
+    sites = scenario.get("site") if isinstance(scenario, dict) else None
+    return max(2, len(sites)) if isinstance(sites, list) else 2
+
+
+def _describe_coherency(tables):
+    """With more than two sites, that of each pair, too, as in summary.json."""
+    apart = pair_separations(tables)
+    farthest = apart.max(axis=0)
+    coherency = {"mean_abs": farthest.mean(), "max_abs": farthest.max()}
+    if len(tables) > 2:
+        coherency["pairs"] = [{"i": i + 1, "j": j + 1, "mean": one.mean(), "max": one.max()}
+                              for (i, j), one in zip(_pairs(len(tables)), apart, strict=True)]
+    return coherency
+
+
 def load_live_run(folder):
-    """Joins site1.json and site2.json, and computes from both tables what only both tell."""
-    paths = [os.path.join(folder, f"site{site}.json") for site in (1, 2)]
-    both, other = (parse_object(read_text(path), path) for path in paths)
-    if _shared_settings(both) != _shared_settings(other):
-        raise UsageError(f"{paths[1]}: another scenario than in {paths[0]}; give a folder that "
-                         "both sites of one run wrote to")
-    apart = separation([read_table(os.path.join(folder, f"site{site}.csv")) for site in (1, 2)])
-    sites = [Summary(both, paths[0]), Summary(other, paths[1])]
+    """Joins site1.json and those of all other sites, and computes from all tables what only all
+    tell."""
+    path = os.path.join(folder, "site1.json")
+    whole = parse_object(read_text(path), path)
+    roots, names = [whole], [f"site{site + 1}" for site in range(_count_sites(whole))]
+    for name in names[1:]:
+        other_path = os.path.join(folder, f"{name}.json")
+        other = parse_object(read_text(other_path), other_path)
+        if _shared_settings(whole) != _shared_settings(other) or _count_sites(other) != len(names):
+            raise UsageError(f"{other_path}: another scenario than in {path}; give a folder that "
+                             "all sites of one run wrote to")
+        roots.append(other)
+    sites = [Summary(root, name) for root, name in zip(roots, names, strict=True)]
     ticks, late = (sum(site.number(f"loop.{key}", NAN) for site in sites)
                    for key in ("ticks", "late"))
-    both["loop"] = {"late_share": late / ticks if ticks else NAN}
-    both["site2"] = other.get("site2", {})
-    both["coherency"] = {"mean_abs": apart.mean(), "max_abs": apart.max()}
-    run = make_run(both, folder, folder)
+    for root, name in zip(roots[1:], names[1:], strict=True):
+        whole[name] = root.get(name, {})
+        whole.setdefault("contacts", {}).update(root.get("contacts", {}))
+    whole["loop"] = {"late_share": late / ticks if ticks else NAN}
+    whole["coherency"] = _describe_coherency(
+        [read_table(os.path.join(folder, f"{name}.csv")) for name in names])
+    run = make_run(whole, folder, folder)
     run.is_live = True
     return run

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 namespace tandem::demos {
 namespace {
 
@@ -50,6 +53,13 @@ FeltShares computeFelt(const Recording& site, double radius) {
   felt.rest /= ticks;
   for (double& user : felt.users) user /= ticks;
   return felt;
+}
+
+nlohmann::json describeFelt(const FeltShares& felt, std::size_t own) {
+  nlohmann::json j = {{"object", felt.rest}};
+  for (std::size_t remote = 0; remote < felt.users.size(); ++remote)
+    j[fmt::format("site{}", (remote < own ? remote : remote + 1) + 1)] = felt.users[remote];
+  return j;
 }
 
 }  // namespace tandem::demos

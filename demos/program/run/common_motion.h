@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "tandem/plugin/recording.h"
 
 namespace tandem::demos {
@@ -31,5 +33,8 @@ struct FeltShares {
 /// Tells whom the device of a recorded site feels. A user is felt while there is contact and the
 /// spheres of device and proxy, each of `radius` [m], overlap.
 [[nodiscard]] FeltShares computeFelt(const Recording& site, double radius);
+
+/// The keys of contacts.siteN in summary.json; the site `own` counts from 0.
+[[nodiscard]] nlohmann::json describeFelt(const FeltShares& felt, std::size_t own);
 
 }  // namespace tandem::demos

@@ -8,17 +8,6 @@ namespace {
 
 std::string nameSite(std::size_t site) { return fmt::format("site{}", site + 1); }
 
-/// Tells who feels whom: each site's share of time with each other user, and with all else.
-nlohmann::json describeFelt(const std::vector<FeltShares>& felt) {
-  nlohmann::json all;
-  for (std::size_t own = 0; own < felt.size(); ++own) {
-    nlohmann::json& one = all[nameSite(own)] = {{"object", felt[own].rest}};
-    for (std::size_t remote = 0; remote < felt[own].users.size(); ++remote)
-      one[nameSite(remote < own ? remote : remote + 1)] = felt[own].users[remote];
-  }
-  return all;
-}
-
 /// Adds what only more than two sites have: the summary of two stays as it was.
 void describeMany(const RunSummary& s, nlohmann::json& j) {
   for (const PairCoherency& pair : s.pairs)
@@ -28,7 +17,8 @@ void describeMany(const RunSummary& s, nlohmann::json& j) {
   j["drag"] = {{"force", s.common_motion.force},
                {"speed", s.common_motion.speed},
                {"per_speed", drag ? nlohmann::json(*drag) : nlohmann::json()}};
-  j["contacts"] = describeFelt(s.felt);
+  for (std::size_t own = 0; own < s.felt.size(); ++own)
+    j["contacts"][nameSite(own)] = describeFelt(s.felt[own], own);
 }
 
 /// Files of live sites, which a run replaces.

@@ -1,10 +1,13 @@
 #include "run/site_record.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "run/common_motion.h"
 #include "world/received_object.h"
 #include "world/site_summary.h"
 
@@ -13,8 +16,9 @@ namespace {
 
 Recording makeRecording(const Scenario& scenario, const Site& site, double duration) {
   const auto ticks = static_cast<std::size_t>(std::llround(duration * scenario.site.haptic_rate));
-  const auto arrivals = static_cast<std::size_t>(2.0 * duration * scenario.site.packet_rate) + 64;
-  return {ticks, arrivals, site.objectCount(), site.proxyBody(0) ? 1 : 0};
+  const auto one = static_cast<std::size_t>(2.0 * duration * scenario.site.packet_rate) + 64;
+  const std::size_t arrivals = one * static_cast<std::size_t>(site.remoteCount());
+  return {ticks, arrivals, site.objectCount(), site.proxyBody(0) ? site.remoteCount() : 0};
 }
 
 nlohmann::json describeLoop(const LoopReport& loop) {
@@ -59,7 +63,11 @@ nlohmann::json SiteRecord::summarise(const Scenario& scenario, const LoopReport&
   j["title"] = scenario.title;
   j["scenario"] = describeScenario(putHandsIntoSlot(scenario));
   j["scalar"] = sizeof(btScalar) == 8 ? "float64" : "float";
-  j[fmt::format("site{}", site_ + 1)] = summariseSite(scenario);
+  const std::string own = fmt::format("site{}", site_ + 1);
+  j[own] = summariseSite(scenario);
+  if (scenario.sites.size() > kFewestSites)
+    j["contacts"][own] = describeFelt(computeFelt(recording_, scenario.site.proxy.radius),
+                                      static_cast<std::size_t>(site_));
   j["loop"] = describeLoop(loop);
   j["scene"]["bodies"] = scene_.describeBodies();
   return j;
@@ -74,25 +82,27 @@ nlohmann::json SiteRecord::summariseSite(const Scenario& scenario) const {
   return describeSite(summary);
 }
 
-/// Mean distance of the own copy to the other's as received [m].
+/// Mean distance of the own copy to the others' as received [m].
 double SiteRecord::computeReceivedMean() const {
   if (recording_.objectCount() == 0 || recording_.ticks().empty()) return 0.0;
   auto next = recording_.arrivals().begin();
   const auto end = recording_.arrivals().end();
-  std::uint64_t newest = 0;
-  Vec3 received_W = object_start_W_;
+  const auto others = static_cast<std::size_t>(world_.site().remoteCount());
+  std::vector<std::uint64_t> newest(others);
+  std::vector<Vec3> received_W(others, object_start_W_);
   double sum = 0.0;
   for (std::size_t i = 0; i < recording_.ticks().size(); ++i) {
     for (; next != end && next->arrival.time <= recording_.ticks()[i].time; ++next) {
       const StatePacket& packet = next->arrival.packet;
       const auto first = findObject(packet, 0);
-      if (packet.sequence < newest || !first) continue;
-      newest = packet.sequence;
-      received_W = first->p_W;
+      const auto from = static_cast<std::size_t>(next->remote);
+      if (packet.sequence < newest[from] || !first) continue;
+      newest[from] = packet.sequence;
+      received_W[from] = first->p_W;
     }
-    sum += (recording_.object(i, 0).island.p_W - received_W).norm();
+    for (const Vec3& one_W : received_W) sum += (recording_.object(i, 0).island.p_W - one_W).norm();
   }
-  return sum / static_cast<double>(recording_.ticks().size());
+  return sum / static_cast<double>(recording_.ticks().size() * others);
 }
 
 void SiteRecord::write(const OutputFolder& folder, const nlohmann::json& summary) const {

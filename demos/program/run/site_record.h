@@ -17,7 +17,7 @@ inline constexpr double kLongestRecord = 120.0;
 /// A live site leaves this behind: its ticks, and pictures of its world.
 class SiteRecord {
  public:
-  /// Records `world`, of site 0 or 1, for the first `duration` seconds of its ticks; what comes
+  /// Records `world`, of a site from 0, for the first `duration` seconds of its ticks; what comes
   /// later is left out. Reserves all memory for ticks. `world` must not tick any more when this is
   /// deleted, and must outlive the last call.
   SiteRecord(const Scenario& scenario, int site, SiteWorld& world, double duration);
@@ -48,7 +48,7 @@ class SiteRecord {
   Vec3 object_start_W_ = Vec3::Zero();
 };
 
-/// Publishes what live sites wrote: all of it or, on an error, nothing. `site` is 1 or 2: the one
+/// Publishes what live sites wrote: all of it or, on an error, nothing. `site`, from 1, is the one
 /// whose summary comes last.
 void publishSites(const OutputFolder& folder, int site);
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "replay/recorded_summary.h"
+#include "terminal/usage_error.h"
 
 namespace tandem::view {
 namespace {
@@ -31,6 +33,9 @@ void addSites(RecordedRun& run, const fs::path& summary_file, const fs::path& sc
   }
   for (const int site : sites) {
     const auto at = static_cast<std::size_t>(site);
+    if (at >= run.sites.size())
+      throw demos::UsageError(fmt::format("{}: its scenario has {} sites; give one run's folder",
+                                          summary_file.string(), run.sites.size()));
     RecordedSite& recorded = run.sites[at].emplace();
     recorded.scene = std::move(scenes[at]);
     recorded.hand =
@@ -45,16 +50,17 @@ RecordedRun loadRecordedRun(const fs::path& folder) {
   std::error_code ignored;
   const auto exists = [&](const fs::path& file) { return fs::exists(file, ignored); };
   RecordedRun run;
-  const bool has_site = exists(summaryOf(folder, 0)) || exists(summaryOf(folder, 1));
-  if (exists(folder / "summary.json") || !has_site) {
+  std::vector<int> live_sites;
+  for (int site = 0; site < static_cast<int>(demos::kMostSites); ++site)
+    if (exists(summaryOf(folder, site))) live_sites.push_back(site);
+  if (exists(folder / "summary.json") || live_sites.empty()) {
     // `tandem run` wrote it, in virtual time.
     addSites(run, folder / "summary.json", folder / "scene.csv");
     return run;
   }
   // `tandem peer` wrote it: each site has files of its own. The first site's scenario stays.
-  for (const int site : {1, 0})
-    if (exists(summaryOf(folder, site)))
-      addSites(run, summaryOf(folder, site), folder / fmt::format("scene{}.csv", site + 1), {site});
+  for (const int site : live_sites | std::views::reverse)
+    addSites(run, summaryOf(folder, site), folder / fmt::format("scene{}.csv", site + 1), {site});
   return run;
 }
 
