@@ -36,7 +36,7 @@ TEST(ChangedScenario, TellsWhatTheOtherFollows) {
   const auto item = describeChange(next);
   ASSERT_TRUE(item);
   EXPECT_NO_THROW((void)makeConfiguration({*item}));
-  const auto followed = followChange(makeOwn(0), 1, tell(item->value));
+  const auto followed = followChange(makeOwn(0), tell(item->value));
   ASSERT_TRUE(followed);
   EXPECT_EQ(followed->changes, 4u);
   EXPECT_EQ(makePeerConfiguration(followed->scenario), makePeerConfiguration(wanted));
@@ -51,23 +51,25 @@ TEST(ChangedScenario, SortsBeforeAllKeysOfAScenario) {
     EXPECT_LT(std::string(kChangeKey), item.key);
 }
 
-TEST(ChangedScenario, FollowsTheNewerOneAndOfTwoThatOfSite1) {
-  EXPECT_TRUE(followChange(makeOwn(6), 1, tell(kGood)));
-  EXPECT_FALSE(followChange(makeOwn(7), 1, tell(kGood)));
-  EXPECT_TRUE(followChange(makeOwn(7), 2, tell(kGood)));
-  EXPECT_FALSE(followChange(makeOwn(8), 2, tell(kGood)));
-  EXPECT_FALSE(followChange(makeOwn(0), 2, tell(""))) << "the other has made no change";
-  EXPECT_FALSE(followChange(makeOwn(0), 2, {"object.mass", "1", "2"})) << "another scenario";
+TEST(ChangedScenario, FollowsTheNewerOneAndOfTwoTheFirstByText) {
+  EXPECT_TRUE(followChange(makeOwn(6), tell(kGood)));
+  const std::string earlier = replaceIn(kGood, "1500.0", "1400.0");
+  EXPECT_FALSE(followChange(makeOwn(7), {kChangeKey, earlier, kGood}));
+  EXPECT_TRUE(followChange(makeOwn(7), {kChangeKey, kGood, earlier}));
+  EXPECT_FALSE(followChange(makeOwn(7), {kChangeKey, kGood, kGood}));
+  EXPECT_FALSE(followChange(makeOwn(8), tell(kGood)));
+  EXPECT_FALSE(followChange(makeOwn(0), tell(""))) << "the other has made no change";
+  EXPECT_FALSE(followChange(makeOwn(0), {"object.mass", "1", "2"})) << "another scenario";
 }
 
 TEST(ChangedScenario, RefusesValuesThatNoFileCouldHave) {
   const ChangedScenario own = makeOwn(0);
-  ASSERT_TRUE(followChange(own, 2, tell(kGood)));
+  ASSERT_TRUE(followChange(own, tell(kGood)));
   for (const char* value : {"-1.0", "nan", "inf", "1e300", "[1]", "true", "''", "0x", "{}"})
-    EXPECT_THROW((void)followChange(own, 2, tell(replaceIn(kGood, "1500.0", value))), UsageError)
+    EXPECT_THROW((void)followChange(own, tell(replaceIn(kGood, "1500.0", value))), UsageError)
         << value;
   for (const char* value : {"no_such_scheme", "7", "../../x"})
-    EXPECT_THROW((void)followChange(own, 2, tell(replaceIn(kGood, "kinematic_proxy", value))),
+    EXPECT_THROW((void)followChange(own, tell(replaceIn(kGood, "kinematic_proxy", value))),
                  UsageError)
         << value;
 }
@@ -80,7 +82,7 @@ TEST(ChangedScenario, RefusesTextsThatAreNoChange) {
         replaceIn(kGood, "7 ", "1000000000 "), replaceIn(kGood, "7 ", "99999999999999999999 "),
         replaceIn(kGood, "contact.stiffness", "object.mass"),
         replaceIn(kGood, "contact.damping", "contact.stiffness")})
-    EXPECT_THROW((void)followChange(own, 2, tell(text)), UsageError) << text;
+    EXPECT_THROW((void)followChange(own, tell(text)), UsageError) << text;
 }
 
 TEST(ChangedScenario, ChangesSchemeAndGainsOnly) {

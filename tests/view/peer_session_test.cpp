@@ -40,8 +40,8 @@ class PeerSessionTest : public ::testing::Test {
     for (std::size_t at : {0, 1}) {
       lines_[at].site = static_cast<int>(at) + 1;
       lines_[at].bind = addresses_[at];
-      lines_[at].peer = addresses_[1 - at];
-      lines_[at].key = key_;
+      lines_[at].peers = {addresses_[1 - at]};
+      lines_[at].keys = {key_};
     }
     // One is bound to all addresses, as on two machines.
     lines_[0].bind = addresses_[0].substr(addresses_[0].rfind(':'));
@@ -66,7 +66,7 @@ class PeerSessionTest : public ::testing::Test {
   /// A site of the command line, which follows nothing.
   demos::PeerRun makeRun(int site, const demos::ChangedScenario& changed) {
     return {changed.scenario, site - 1, demos::makeMeshSettings(line(site), changed),
-            demos::makeOtherSite(line(site))};
+            demos::makeOtherSites(line(site), 2)};
   }
   [[nodiscard]] const demos::PeerLine& line(int site) const {
     return lines_[static_cast<std::size_t>(site - 1)];
@@ -170,7 +170,7 @@ TEST_F(PeerSessionTest, GoesBackIfTheOtherDoesNotFollow) {
   std::jthread other([&](const std::stop_token& stop) {
     demos::PeerRun run = makeRun(2, {scenario, 0});
     const auto asks = [&] { return stop.stop_requested(); };
-    if (run.waitForPeer(30.0, asks, [](const auto&) {}))
+    if (run.waitForPeers(30.0, asks, [](const auto&) {}))
       run.run(
           asks, [](const auto&) {}, [](const auto&) {});
   });
@@ -188,9 +188,9 @@ TEST_F(PeerSessionTest, RefusesHostileValuesOfTheOther) {
   for (ConfigurationItem& item : settings.configuration)
     if (item.key == demos::kChangeKey) item.value.replace(item.value.find("2000.0"), 6, "1e300");
   const std::jthread other([&](const std::stop_token& stop) {
-    demos::PeerRun run(scenario, 1, settings, demos::makeOtherSite(line(2)));
+    demos::PeerRun run(scenario, 1, settings, demos::makeOtherSites(line(2), 2));
     try {
-      (void)run.waitForPeer(
+      (void)run.waitForPeers(
           30.0, [&] { return stop.stop_requested(); }, [](const auto&) {});
     } catch (const demos::UsageError&) {
       // Site 1 has another configuration, as it is to have.

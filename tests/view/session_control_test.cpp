@@ -190,8 +190,8 @@ TEST(SessionControl, DoesNotStopAFriendsTime) {
   demos::PeerLine line;
   line.site = 1;
   line.bind = "127.0.0.1:0";
-  line.peer = "127.0.0.1:9";
-  line.key = key;
+  line.peers = {"127.0.0.1:9"};
+  line.keys = {key};
   SessionControl control(loadWorld("cube"), line, {});
   expectRefusals(control, "your friend's hand does not stop", "by Tandem's own contact only",
                  "rail: your friend is in this world");

@@ -8,28 +8,30 @@
 #include "tandem/falcon/monotonic_clock.h"
 
 #include "peer/changed_scenario.h"
-#include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
 
-constexpr double kFollowTime = 5.0;  // within which the other site follows a change [s]
+constexpr double kFollowTime = 5.0;  // within which another site follows a change [s]
 
 /// Explains a refusal in terms of the command line.
 const char* explainRefusal(RefuseCode code) {
   if (code == RefuseCode::kUnknownPeer)
-    return "it does not expect this site; compare --site and --peer on both sides";
+    return "it does not expect this site; compare --site and --peer on all sides";
   return explain(code);
 }
 
 }  // namespace
+
+DisagreementError::DisagreementError(PeerId with, const std::string& what)
+    : UsageError(fmt::format("site {} {}", static_cast<std::uint32_t>(with), what)), site(with) {}
 
 PeerStatus AnswerCheck::readStatus() const { return peers_.status(other_, readMonotonicClock()); }
 
 /// A site that leaves before the start will not be there at the start.
 void AnswerCheck::checkCountdown() const {
   if (readStatus().phase != PeerPhase::kLeft) return;
-  throw Error(fmt::format("site {} left before the start; start both again",
+  throw Error(fmt::format("site {} left before the start; start all again",
                           static_cast<std::uint32_t>(other_)));
 }
 
@@ -38,21 +40,18 @@ void AnswerCheck::checkConfiguration(const PeerStatus& status, double waited) {
   if (is_change && !disagrees_since_) disagrees_since_ = waited;
   if (is_change && waited - *disagrees_since_ < kFollowTime) return;
   if (is_change)
-    throw UsageError(
-        fmt::format("site {} does not follow a change of scheme or gains; start both again",
-                    static_cast<std::uint32_t>(other_)));
+    throw DisagreementError(other_, "does not follow a change of scheme or gains; start all again");
   if (status.difference) {
     const ConfigurationDifference& d = *status.difference;
     const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
-    throw UsageError(
-        fmt::format("site {} has another scenario: {} is {} here and {} there; use "
-                    "the same file and --set on both sides",
-                    static_cast<std::uint32_t>(other_), d.key, show(d.here), show(d.there)));
+    throw DisagreementError(other_,
+                            fmt::format("has another scenario: {} is {} here and {} there; use "
+                                        "the same file and --set on all sides",
+                                        d.key, show(d.here), show(d.there)));
   }
   if (status.left == ByeReason::kConfigurationsDiffer)
-    throw UsageError(fmt::format(
-        "site {} says that it has another scenario; use the same file and --set on both sides",
-        static_cast<std::uint32_t>(other_)));
+    throw DisagreementError(
+        other_, "says that it has another scenario; use the same file and --set on all sides");
 }
 
 void AnswerCheck::check(double waited) {
@@ -62,14 +61,14 @@ void AnswerCheck::check(double waited) {
     throw Error(
         fmt::format("site {} counts down {:.0f} s to the start, at most {:.0f} s are allowed; "
                     "raise --wait, and "
-                    "if that does not help install the same release on both sides",
+                    "if that does not help install the same release on all sides",
                     static_cast<std::uint32_t>(refused->peer), refused->length,
                     std::min(patience_, kLongestCountdown)));
   if (waited < patience_) return;
   const std::string where = status.address ? toString(*status.address) : "its address";
   std::string why = "is it running, is the address right, does a firewall let UDP pass?";
   if (status.is_called_with_another_key)
-    why = "it calls, but with another key; give both sides the same key file";
+    why = "it calls, but with another key; give all sites the same key file";
   if (const auto relay = peers_.relay(readMonotonicClock()); relay && !relay->is_in)
     why = relay->refused.empty() ? "the relay does not answer; is its address right?"
                                  : relay->refused;

@@ -39,7 +39,7 @@ std::vector<std::string> listValues(const Scenario& scenario) {
 
 [[noreturn]] void refuse(const std::string& told) {
   throw UsageError(fmt::format("{} = {}: must be a number and a value of each, {}", kChangeKey,
-                               told, "scheme and gains; install the same release on both sides"));
+                               told, "scheme and gains; install the same release on all sides"));
 }
 
 /// The number before the first space.
@@ -71,13 +71,13 @@ std::vector<std::string> readValues(const std::string& told) {
 
 ChangedScenario proposeChange(const ChangedScenario& own, const Scenario& wanted) {
   if (own.changes >= kMostChanges)
-    throw UsageError("there are too many changes in this session; start both sites again");
+    throw UsageError("there are too many changes in this session; start all sites again");
   ChangedScenario next{changeScenario(own.scenario, listValues(wanted)), own.changes + 1};
   const auto difference =
       findFirstDifference(makePeerConfiguration(next.scenario), makePeerConfiguration(wanted));
   if (difference)
     throw UsageError(fmt::format(
-        "{} = {}: a session with a friend changes scheme and gains only; start both sites again",
+        "{} = {}: a session with a friend changes scheme and gains only; start all sites again",
         difference->key, difference->there));
   return next;
 }
@@ -88,11 +88,12 @@ std::optional<ConfigurationItem> describeChange(const ChangedScenario& own) {
       kChangeKey, fmt::format("{} {}", own.changes, fmt::join(listValues(own.scenario), " "))};
 }
 
-std::optional<ChangedScenario> followChange(const ChangedScenario& own, int site,
+std::optional<ChangedScenario> followChange(const ChangedScenario& own,
                                             const ConfigurationDifference& difference) {
   if (difference.key != kChangeKey || difference.there.empty()) return std::nullopt;
   const std::uint32_t number = readNumber(difference.there);
-  if (number < own.changes || (number == own.changes && site == 1)) return std::nullopt;
+  if (number < own.changes) return std::nullopt;
+  if (number == own.changes && difference.there >= difference.here) return std::nullopt;
   return ChangedScenario{changeScenario(own.scenario, readValues(difference.there)), number};
 }
 

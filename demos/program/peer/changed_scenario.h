@@ -14,7 +14,7 @@ namespace tandem::demos {
 inline constexpr const char* kChangeKey = "agreed.change";
 
 /// A scenario whose scheme and gains the users of a session change while they meet. One user makes
-/// a change, and the other site follows (docs/network.md).
+/// a change, and the other sites follow (docs/network.md).
 struct ChangedScenario {
   Scenario scenario;
   std::uint32_t changes = 0;  ///< so far; 0: it is as at the start
@@ -24,14 +24,14 @@ struct ChangedScenario {
 /// differs in something else that sites must share, or after 999,999,999 changes.
 [[nodiscard]] ChangedScenario proposeChange(const ChangedScenario& own, const Scenario& wanted);
 
-/// The item by which a site tells the other its newest change; empty without one.
+/// The item by which a site tells the others its newest change; empty without one.
 [[nodiscard]] std::optional<ConfigurationItem> describeChange(const ChangedScenario& own);
 
-/// Chooses the scenario that `site` (1 or 2) goes on with, after the other has told a difference:
-/// the newer change wins, and of two with one number that of site 1. Empty if the own one counts,
-/// or if sites differ in something else. The other's text is not trusted: throws UsageError unless
-/// a scenario file could have all of its values.
+/// Chooses the scenario that a site goes on with, after another has told a difference: the newer
+/// change wins, and of two with one number that whose text sorts first, at all sites alike. Empty
+/// if the own one counts, or if sites differ in something else. The other's text is not trusted:
+/// throws UsageError unless a scenario file could have all of its values.
 [[nodiscard]] std::optional<ChangedScenario> followChange(
-    const ChangedScenario& own, int site, const ConfigurationDifference& difference);
+    const ChangedScenario& own, const ConfigurationDifference& difference);
 
 }  // namespace tandem::demos

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <functional>
 #include <string>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,8 @@
 #include "device/device_options.h"
 #include "peer/peer_meeting.h"
 #include "peer/peer_output.h"
+#include "peer/report_line.h"
+#include "peer/site_values.h"
 #include "peer/users_device.h"
 #include "terminal/standard_output.h"
 #include "terminal/usage_error.h"
@@ -30,8 +31,6 @@ struct PeerOptions {
   bool quiet = false;
   DeviceOptions device;  ///< without --device: simulated, by the scenario
 };
-
-constexpr double kRelaySilence = 3.0;  ///< a relay answers once a second [s]
 
 volatile std::sig_atomic_t stop_asked = 0;
 
@@ -50,51 +49,27 @@ void catchSignals(bool has_device) {
   sigaction(SIGPIPE, &action, nullptr);
 }
 
-/// The way to the peer, or the reason why the relay lets nobody in.
-std::string describeWay(const PeerReport& report) {
-  if (!report.relay) return {};
-  if (!report.relay->is_in && !report.relay->refused.empty())
-    return " | relay: " + report.relay->refused;
-  std::string way = report.peer.is_relayed ? " | by the relay" : " | direct";
-  if (report.relay->silence > kRelaySilence)
-    way += fmt::format(", relay silent for {:.0f} s", report.relay->silence);
-  return way;
-}
-
-void print(const PeerReport& report) {
-  const PeerStatus& peer = report.peer;
-  std::string time = report.has_start ? fmt::format("{:8.1f} s", report.time) : "   waiting";
-  // In a run, the arrival of states says more than the state of the connection.
-  const bool is_running = report.time > 0.0 && peer.phase == PeerPhase::kLive;
-  const std::string_view state = is_running ? nameOf(report.link) : name(peer.phase);
-  fmt::print(
-      "{} | {:9} | round trip {:6.1f} ms | wait {:5.1f} ms | jitter {:5.1f} ms | loss "
-      "{:4.1f} % | force {:6.3f} N | coherency {:7.3f} mm{}\n",
-      time, state, 1e3 * peer.round_trip, 1e3 * peer.wait, 1e3 * peer.jitter, 1e2 * peer.loss,
-      report.force, 1e3 * report.coherency, describeWay(report));
-  std::fflush(stdout);
-}
-
 PeerWatch makeWatch(const PeerOptions& options) {
   PeerWatch watch;
   watch.stop = [] { return stop_asked != 0; };
   watch.report = [is_quiet = options.quiet](const PeerReport& one) {
-    if (!is_quiet) print(one);
+    if (is_quiet) return;
+    fmt::print("{}\n", describeReport(one));
+    std::fflush(stdout);
   };
   watch.note = [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); };
   return watch;
 }
 
 void runPeer(const PeerOptions& options) {
-  checkPeerLine(options.line);
   const Scenario scenario = loadScenario(options.scenario, options.overrides);
+  checkPeerLine(options.line, scenario.sites.size());
   checkGrip(options.device, scenario);
   std::optional<OutputFolder> folder;
   if (options.folder)
-    folder.emplace(*options.folder, "--out " + *options.folder,
-                   options.line.site == 1 ? FolderPart::kSite1 : FolderPart::kSite2);
+    folder.emplace(*options.folder, "--out " + *options.folder, FolderPart{options.line.site});
   // A bad one is told before a device moves.
-  (void)readKeyFile(options.line.key);
+  for (const std::string& key : options.line.keys) (void)readKeyFile(parseSiteValue(key).value);
   (void)makeRelayAccess(options.line);
   catchSignals(!options.device.device.empty());
   bool is_ended = false;

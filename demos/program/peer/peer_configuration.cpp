@@ -8,6 +8,9 @@
 namespace tandem::demos {
 namespace {
 
+/// Users in tables of their own, each site's own affair as site1 and site2 are.
+constexpr const char* kSiteTables = "site";
+
 /// Values have at most 255 bytes. Longer ones are compared by a hash.
 std::string shorten(std::string value) {
   if (value.size() <= 200) return value;
@@ -18,7 +21,7 @@ void flatten(const nlohmann::json& node, const std::string& prefix,
              std::vector<ConfigurationItem>& items) {
   for (const auto& [name, value] : node.items()) {
     const std::string key = prefix + name;
-    if (isOwnKey(key)) continue;
+    if (isOwnKey(key) || key == kSiteTables) continue;
     if (value.is_object()) {
       flatten(value, key + ".", items);
     } else {
@@ -30,7 +33,8 @@ void flatten(const nlohmann::json& node, const std::string& prefix,
 }  // namespace
 
 Configuration makePeerConfiguration(const Scenario& scenario) {
-  std::vector<ConfigurationItem> items = {{"units", "SI"}};
+  std::vector<ConfigurationItem> items = {{"units", "SI"},
+                                          {"site.count", std::to_string(scenario.sites.size())}};
   flatten(describeScenario(scenario), "", items);
   return makeConfiguration(std::move(items));
 }

@@ -8,19 +8,50 @@
 #include "tandem/plugin/key_file.h"
 
 #include "peer/peer_configuration.h"
+#include "peer/site_values.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 
+namespace {
+
+/// Of two sites the one with the lower number calls the other.
+void checkWays(const PeerLine& line, int count) {
+  checkSiteValues("--peer", line.peers, line.site, count);
+  for (const std::string& word : line.peers)
+    if (count > 2 && parseSiteValue(word).site == 0)
+      throw UsageError(
+          fmt::format("--peer {}: say which of {} sites it is: --peer N={}", word, count, word));
+  for (int other = line.site + 1; other <= count && line.relay.empty(); ++other)
+    if (!findValue(line.peers, other))
+      throw UsageError(fmt::format(
+          "--peer: site {} calls site {}, and needs its address: --peer {}=HOST:PORT, or --relay",
+          line.site, other, other));
+}
+
+void checkKeys(const PeerLine& line, int count) {
+  checkSiteValues("--key", line.keys, line.site, count);
+  for (int other = 1; other <= count; ++other)
+    if (other != line.site && !findValue(line.keys, other))
+      throw UsageError(fmt::format(
+          "--key: none for site {}: give --key {}=FILE, or --key FILE for all", other, other));
+}
+
+}  // namespace
+
 void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& rules) {
-  arguments.option("--site", line.site, "which site this is: 1 or 2", rules);
+  arguments.option("--site", line.site, "which site this is: 1, 2 and so on", rules);
   arguments.option("--bind", line.bind, "own address, e.g. :7001", rules);
-  arguments.option("--peer", line.peer, "the other site's address, e.g. host:7002");
-  arguments.option("--key", line.key, "key file that both sites share", rules);
-  arguments.option("--relay", line.relay, "a relay where both sites meet, e.g. host:7000");
+  arguments.repeated(
+      "--peer", line.peers,
+      "another site's address, e.g. host:7002; with more than two sites 2=host:7002");
+  arguments.repeated("--key", line.keys,
+                     "key file that all sites share, or 2=FILE: shared with site 2 alone",
+                     rules.is_required);
+  arguments.option("--relay", line.relay, "a relay where all sites meet, e.g. host:7000");
   arguments.option("--relay-key", line.relay_key, "key file of the relay");
-  arguments.option("--room", line.room, "room of the relay, the same for both sites");
-  arguments.option("--wait", line.patience, "seconds to wait for the other site");
+  arguments.option("--room", line.room, "room of the relay, the same for all sites");
+  arguments.option("--wait", line.patience, "seconds to wait for the other sites");
   arguments.option("--playout", line.playout,
                    "on: jitter becomes constant delay; off: states are applied as they come",
                    {.choices = {"on", "off"}});
@@ -28,15 +59,19 @@ void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& ru
                    {.choices = {"float32", "float64"}});
 }
 
-void checkPeerLine(const PeerLine& line) {
-  if (line.peer.empty() && line.relay.empty())
+void checkPeerLine(const PeerLine& line, std::size_t count) {
+  const int last = static_cast<int>(count);
+  if (line.peers.empty() && line.relay.empty())
     throw UsageError("--peer is required, or --relay and --relay-key");
   if (line.relay.empty() != line.relay_key.empty())
     throw UsageError("--relay and --relay-key go together; give both or none");
-  if (line.site != 1 && line.site != 2)
-    throw UsageError(fmt::format("--site {}: must be 1 or 2", line.site));
+  if (line.site < 1 || line.site > last)
+    throw UsageError(
+        fmt::format("--site {}: must be 1 {} {}", line.site, last == 2 ? "or" : "to", last));
   if (!(line.patience > 0.0 && line.patience <= 86400.0))
     throw UsageError("--wait: must be above 0 and at most 86400 s");
+  checkWays(line, last);
+  checkKeys(line, last);
 }
 
 UdpMeshSettings makeMeshSettings(const PeerLine& line, const ChangedScenario& scenario) {
@@ -52,13 +87,20 @@ UdpMeshSettings makeMeshSettings(const PeerLine& line, const ChangedScenario& sc
   return settings;
 }
 
-UdpPeer makeOtherSite(const PeerLine& line) {
-  UdpPeer peer{PeerId{static_cast<std::uint32_t>(3 - line.site)}, std::nullopt,
-               readKeyFile(line.key)};
-  if (!line.peer.empty()) peer.address = resolveAddress(line.peer);
-  if (!peer.key.isLocked())
+std::vector<UdpPeer> makeOtherSites(const PeerLine& line, std::size_t count) {
+  std::vector<UdpPeer> others;
+  bool are_locked = true;
+  for (int site = 1; site <= static_cast<int>(count); ++site) {
+    if (site == line.site) continue;
+    UdpPeer other{PeerId{static_cast<std::uint32_t>(site)}, std::nullopt,
+                  readKeyFile(findValue(line.keys, site).value_or(""))};
+    if (const auto address = findValue(line.peers, site)) other.address = resolveAddress(*address);
+    are_locked &= other.key.isLocked();
+    others.push_back(std::move(other));
+  }
+  if (!are_locked)
     fmt::print(stderr, "tandem: note: the key may be swapped to disk; raise ulimit -l\n");
-  return peer;
+  return others;
 }
 
 std::optional<RelayAccess> makeRelayAccess(const PeerLine& line) {

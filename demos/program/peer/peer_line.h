@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tandem/plugin/udp_mesh.h"
 
@@ -10,15 +11,15 @@
 
 namespace tandem::demos {
 
-/// Which site this is, and how it reaches the other; as written on the command line.
+/// Which site this is, and how it reaches the others; as written on the command line.
 struct PeerLine {
   int site = 0;
   std::string bind;
-  std::string peer;  ///< empty: met through the relay
-  std::string key;
-  std::string relay, relay_key;  ///< address and key file; empty: no relay
-  std::string room = "tandem";   ///< of the relay
-  double patience = 30.0;        ///< time to wait for the other site [s]
+  std::vector<std::string> peers;  ///< addresses of other sites, as SiteValue says
+  std::vector<std::string> keys;   ///< key files, shared with one other site or all
+  std::string relay, relay_key;    ///< address and key file; empty: no relay
+  std::string room = "tandem";     ///< of the relay
+  double patience = 30.0;          ///< time to wait for the other sites [s]
   std::string playout = "on";
   std::string profile = "float32";
 };
@@ -27,19 +28,21 @@ struct PeerLine {
 /// --wire.
 void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& rules);
 
-/// Throws UsageError that names the option and the allowed values.
-void checkPeerLine(const PeerLine& line);
+/// Checks the line of a session of `count` sites. Throws UsageError that names the option and the
+/// allowed values.
+void checkPeerLine(const PeerLine& line, std::size_t count);
 
-/// Settings of the socket. Both sites must run the same scenario, changed alike. Throws as
+/// Settings of the socket. All sites must run the same scenario, changed alike. Throws as
 /// resolveAddress() does.
 [[nodiscard]] UdpMeshSettings makeMeshSettings(const PeerLine& line,
                                                const ChangedScenario& scenario);
 
-/// The other site with the key that both share. Says on stderr if the key may be swapped to disk.
-/// Throws as resolveAddress() and readKeyFile() do.
-[[nodiscard]] UdpPeer makeOtherSite(const PeerLine& line);
+/// The other ones of `count` sites, in the order of their numbers, each with the key that it shares
+/// with this one. Says on stderr if a key may be swapped to disk. Throws as resolveAddress() and
+/// readKeyFile() do.
+[[nodiscard]] std::vector<UdpPeer> makeOtherSites(const PeerLine& line, std::size_t count);
 
-/// Empty without a relay. Throws as makeOtherSite().
+/// Empty without a relay. Throws as makeOtherSites().
 [[nodiscard]] std::optional<RelayAccess> makeRelayAccess(const PeerLine& line);
 
 }  // namespace tandem::demos

@@ -11,7 +11,7 @@
 namespace tandem::demos {
 namespace {
 
-constexpr double kLookPeriod = 0.02;    // between two looks at the other site [s]
+constexpr double kLookPeriod = 0.02;    // between two looks at the other sites [s]
 constexpr double kFollowPeriod = 0.35;  // between two changes that are followed, at least [s]
 
 }  // namespace
@@ -26,10 +26,10 @@ void PeerMeeting::makeRun(const ScenePlaces* places) {
   Scenario from_here = changed.scenario;
   const bool goes_on = places && places->areNear();
   if (goes_on) startHandsAt(*places, from_here);
-  run_ =
-      std::make_unique<PeerRun>(from_here, line_.site - 1, makeMeshSettings(line_, changed),
-                                makeOtherSite(line_), user_.device, user_.wants_grip, user_.purpose,
-                                goes_on ? places->bodies : BodyPlaces{}, makeRelayAccess(line_));
+  run_ = std::make_unique<PeerRun>(from_here, line_.site - 1, makeMeshSettings(line_, changed),
+                                   makeOtherSites(line_, from_here.sites.size()), user_.device,
+                                   user_.wants_grip, user_.purpose,
+                                   goes_on ? places->bodies : BodyPlaces{}, makeRelayAccess(line_));
   line_.bind = toString(run_->peers().bound());
 }
 
@@ -47,11 +47,11 @@ bool PeerMeeting::meetOnce(const PeerWatch& watch) {
   const auto stop = [&] { return watch.stop() || wantsNext(watch); };
   watch.has_world();
   try {
-    if (!run_->waitForPeer(line_.patience, stop, watch.report)) return false;
-  } catch (const UsageError& error) {
+    if (!run_->waitForPeers(line_.patience, stop, watch.report)) return false;
+  } catch (const DisagreementError& error) {
     if (!before_) throw;
-    watch.note(
-        fmt::format("site {} does not follow: scheme and gains are as before", 3 - line_.site));
+    watch.note(fmt::format("site {} does not follow: scheme and gains are as before",
+                           static_cast<std::uint32_t>(error.site)));
     next_ = std::exchange(before_, std::nullopt);
     return false;
   }
@@ -68,10 +68,13 @@ bool PeerMeeting::wantsNext(const PeerWatch& watch) {
   const double now = readMonotonicClock();
   if (now < next_look_) return false;
   next_look_ = now + kLookPeriod;
-  const PeerStatus status = run_->peerStatus();
-  if (takesFollowing(watch, status)) return true;
+  bool has_left = false;
+  for (const PeerStatus& status : run_->statuses()) {
+    if (takesFollowing(watch, status)) return true;
+    has_left |= status.phase == PeerPhase::kLeft;
+  }
   // A site that leaves between the agreement and the start has made a change, or comes again.
-  const bool has_left = !is_running_ && run_->peers().start() && status.phase == PeerPhase::kLeft;
+  has_left &= !is_running_ && run_->peers().start().has_value();
   if (has_left && (user_.purpose != PeerPurpose::kResults || scenario_.changes > 0))
     next_ = scenario_;
   return next_.has_value();
@@ -82,15 +85,16 @@ bool PeerMeeting::takesProposal() {
   if (!proposal_) return false;
   if (!before_) before_ = scenario_;
   next_ = std::exchange(proposal_, std::nullopt);
-  next_->changes = scenario_.changes + 1;  // the other's last one may have come meanwhile
+  next_->changes = scenario_.changes + 1;  // another's last one may have come meanwhile
   return true;
 }
 
 bool PeerMeeting::takesFollowing(const PeerWatch& watch, const PeerStatus& status) {
   if (!status.difference || readMonotonicClock() < followed_at_ + kFollowPeriod) return false;
+  const auto number = static_cast<std::uint32_t>(status.peer);
   std::string refusal;
   try {
-    auto followed = followChange(scenario_, line_.site, *status.difference);
+    auto followed = followChange(scenario_, *status.difference);
     if (!followed) return false;
     if (user_.may_follow) {
       next_ = std::move(followed);
@@ -100,10 +104,10 @@ bool PeerMeeting::takesFollowing(const PeerWatch& watch, const PeerStatus& statu
     }
     refusal = fmt::format(
         "site {} changes scheme or gains, and --out holds one scenario; start "
-        "both again, or leave out --out",
-        3 - line_.site);
+        "all again, or leave out --out",
+        number);
   } catch (const UsageError& error) {
-    refusal = fmt::format("site {} changes scheme or gains: {}", 3 - line_.site, error.what());
+    refusal = fmt::format("site {} changes scheme or gains: {}", number, error.what());
   }
   if (refusal != refusal_) watch.note(refusal);
   refusal_ = refusal;

@@ -16,7 +16,7 @@ struct PeerUser {
   HapticDevice* device = nullptr;    ///< must outlive the meeting; null: simulated
   std::function<bool()> wants_grip;  ///< empty: the scenario says when
   PeerPurpose purpose = PeerPurpose::kResults;
-  bool may_follow = true;  ///< false: a change by the other user ends the meeting with an Error
+  bool may_follow = true;  ///< false: a change by another user ends the meeting with an Error
 };
 
 /// A meeting calls these in the thread of PeerMeeting::live(). `stop` asks to end.
@@ -29,15 +29,15 @@ struct PeerWatch {
   std::function<void()> after_run = [] {};  ///< PeerMeeting::run() is over, with its record
 };
 
-/// A site's meeting with another user: PeerRuns one after the other, with the same socket's
-/// address. Another one begins after a change of scheme or gains by either user, and goes on from
+/// A site's meeting with other users: PeerRuns one after the other, with the same socket's
+/// address. Another one begins after a change of scheme or gains by any user, and goes on from
 /// where hands and bodies are. At most three changes a second are followed.
 class PeerMeeting {
  public:
   /// Throws as PeerRun does.
   PeerMeeting(const Scenario& scenario, const PeerLine& line, PeerUser user);
 
-  /// Waits for the other site and runs, over all changes. False if `stop` asked to end before a
+  /// Waits for the other sites and runs, over all changes. False if `stop` asked to end before a
   /// start. Throws as PeerRun does.
   bool live(const PeerWatch& watch);
   /// For the thread of live().
@@ -46,7 +46,7 @@ class PeerMeeting {
   // For any thread.
 
   /// The user wants another scheme or other gains. Throws UsageError for another wish; then nothing
-  /// changes. If the other site does not follow, what was before is back after 5 s.
+  /// changes. If another site does not follow, what was before is back after 5 s.
   void propose(const Scenario& wanted);
   /// The scenario in force, and the number of changes that led to it.
   [[nodiscard]] ChangedScenario scenario() const;
@@ -63,10 +63,10 @@ class PeerMeeting {
   PeerUser user_;
   std::unique_ptr<PeerRun> run_;
   std::optional<ChangedScenario> next_;    ///< of the next run
-  std::optional<ChangedScenario> before_;  ///< the own change, if the other may not follow it yet
+  std::optional<ChangedScenario> before_;  ///< the own change, if others may not follow it yet
   bool is_running_ = false;
   double next_look_ = 0.0, followed_at_ = 0.0;  ///< [s]
-  std::string refusal_;                         ///< of the other's newest change; empty: none
+  std::string refusal_;                         ///< of another's newest change; empty: none
 
   mutable std::mutex mutex_;  // of the two below
   ChangedScenario scenario_;

@@ -1,15 +1,15 @@
 #include "peer/peer_output.h"
 
+#include <cstdint>
+#include <vector>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace tandem::demos {
 namespace {
 
-nlohmann::json summariseNetwork(const PeerRun& run) {
-  const PeerStatus peer = run.peerStatus();
-  nlohmann::json refused = nlohmann::json::object();
-  for (const RefusedDatagrams& one : run.peers().refused()) refused[one.reason] = one.count;
+nlohmann::json summarisePeer(const PeerStatus& peer) {
   return {{"round_trip", peer.round_trip},
           {"clock_offset", peer.clock_offset},
           {"playout_wait", peer.wait},
@@ -22,8 +22,21 @@ nlohmann::json summariseNetwork(const PeerRun& run) {
             {"unsent", peer.states_unsent},
             {"given", peer.states_given},
             {"stale", peer.states_stale},
-            {"too_late", peer.states_too_late}}},
-          {"datagrams", {{"received", run.peers().received()}, {"refused", refused}}}};
+            {"too_late", peer.states_too_late}}}};
+}
+
+/// The way to each other site has a table of its own, if there are several.
+nlohmann::json summariseNetwork(const PeerRun& run) {
+  const std::vector<PeerStatus> peers = run.statuses();
+  nlohmann::json j;
+  if (peers.size() == 1) j = summarisePeer(peers[0]);
+  if (peers.size() > 1)
+    for (const PeerStatus& peer : peers)
+      j[fmt::format("site{}", static_cast<std::uint32_t>(peer.peer))] = summarisePeer(peer);
+  nlohmann::json refused = nlohmann::json::object();
+  for (const RefusedDatagrams& one : run.peers().refused()) refused[one.reason] = one.count;
+  j["datagrams"] = {{"received", run.peers().received()}, {"refused", refused}};
+  return j;
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #include "peer/peer_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "peer/answer_check.h"
-#include "scenario/site_checks.h"
 #include "terminal/usage_error.h"
 #include "world/received_object.h"
 
@@ -12,29 +11,30 @@ namespace tandem::demos {
 namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
-constexpr double kMostBehind = 0.1;    ///< a site later than this joins a running one [s]
+constexpr double kMostBehind = 0.1;    ///< a site later than this joins running ones [s]
+
+std::vector<PeerId> listIds(const std::vector<UdpPeer>& peers) {
+  std::vector<PeerId> ids;
+  for (const UdpPeer& peer : peers) ids.push_back(peer.id);
+  return ids;
+}
+
+/// The place of a site in a scenario.
+std::size_t placeOf(PeerId id) { return static_cast<std::size_t>(id) - 1; }
 
 }  // namespace
 
-PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings, UdpPeer peer,
-                 HapticDevice* device, std::function<bool()> wants_grip, PeerPurpose purpose,
-                 const BodyPlaces& places, std::optional<RelayAccess> relay)
+PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& settings,
+                 std::vector<UdpPeer> peers, HapticDevice* device, std::function<bool()> wants_grip,
+                 PeerPurpose purpose, const BodyPlaces& places, std::optional<RelayAccess> relay)
     : scenario_(scenario),
       index_(site),
       device_(device),
       wants_grip_(std::move(wants_grip)),
       purpose_(purpose),
       places_(places),
-      other_(peer.id),
-      peers_(
-          settings,
-          [&] {
-            std::vector<UdpPeer> peers;
-            peers.push_back(std::move(peer));
-            return peers;
-          }(),
-          std::move(relay)) {
-  requireTwoSites(scenario, "tandem peer");
+      others_(listIds(peers)),
+      peers_(settings, std::move(peers), std::move(relay)) {
   if (scenario.site.contact_model != ContactModel::kIsland ||
       scenario.site.injection != Injection::kHandoff)
     throw UsageError(
@@ -45,9 +45,11 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
 
 void PeerRun::makeWorld() {
   world_.reset();
-  Link& link = peers_.link(other_);
-  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, link, *device_, places_)
-                   : std::make_unique<SiteWorld>(scenario_, index_, link, places_);
+  std::vector<Link*> all;
+  for (const PeerId other : others_) all.push_back(&peers_.link(other));
+  const PeerLinks links(std::move(all));
+  world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, links, *device_, places_)
+                   : std::make_unique<SiteWorld>(scenario_, index_, links, places_);
   Site& own = world_->site();
   if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
   if (purpose_ == PeerPurpose::kSession) return;
@@ -62,24 +64,33 @@ double PeerRun::duration() const noexcept {
 ScenePlaces PeerRun::places() {
   ScenePlaces places;
   Site& site = world_->site();
-  const auto own = static_cast<std::size_t>(index_);
-  places.hands_W[1 - own] = computeStart(scenario_, makeSceneFrame(scenario_), 1 - index_);
-  places.hands_W[own] = computeStart(scenario_, makeSceneFrame(scenario_), index_);
+  const SceneFrame frame = makeSceneFrame(scenario_);
+  for (std::size_t user = 0; user < scenario_.sites.size(); ++user)
+    places.hands_W.push_back(computeStart(scenario_, frame, static_cast<int>(user)));
   site.betweenTicks([&] {
-    if (site.tickCount() > 0) places.hands_W[own] = site.hip().p_W;
-    if (site.counters().packets_taken > 0) places.hands_W[1 - own] = site.latest(0).user.p_W;
+    if (site.tickCount() > 0) places.hands_W[static_cast<std::size_t>(index_)] = site.hip().p_W;
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+      const StatePacket& latest = site.latest(static_cast<int>(i));
+      if (latest.sequence > 0) places.hands_W[placeOf(others_[i])] = latest.user.p_W;
+    }
   });
   places.bodies = world_->places();
   return places;
 }
 
-PeerStatus PeerRun::peerStatus() const { return peers_.status(other_, readMonotonicClock()); }
+std::vector<PeerStatus> PeerRun::statuses() const {
+  const double now = readMonotonicClock();
+  std::vector<PeerStatus> all;
+  for (const PeerId other : others_) all.push_back(peers_.status(other, now));
+  return all;
+}
 
-bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
-                          const std::function<void(const PeerReport&)>& report) {
+bool PeerRun::waitForPeers(double patience, const std::function<bool()>& stop,
+                           const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
   peers_.agreeOnStart(held, scenario_.site.packet_rate, patience);
-  AnswerCheck answers(peers_, other_, patience);
+  std::vector<AnswerCheck> answers;
+  for (const PeerId other : others_) answers.emplace_back(peers_, other, patience);
   const double began = readMonotonicClock();
   double next_report = began;
   for (;;) {
@@ -98,23 +109,30 @@ bool PeerRun::waitForPeer(double patience, const std::function<bool()>& stop,
       report(makeReport(start ? now - *start : 0.0));
       next_report += kReportPeriod;
     }
-    try {
-      if (start)
-        answers.checkCountdown();
-      else
-        answers.check(now - began);
-    } catch (const UsageError&) {
-      peers_.sayFarewell(ByeReason::kConfigurationsDiffer);
-      throw;
-    } catch (const std::exception&) {
-      peers_.sayFarewell(ByeReason::kProgramEnds);
-      throw;
-    }
+    checkAnswers(answers, now - began);
     peers_.wait(1e-3);
   }
 }
 
-/// The other site has been running for a while: it and its copies fade in.
+/// Says farewell before it throws.
+void PeerRun::checkAnswers(std::vector<AnswerCheck>& answers, double waited) {
+  try {
+    for (AnswerCheck& answer : answers) {
+      if (peers_.start())
+        answer.checkCountdown();
+      else
+        answer.check(waited);
+    }
+  } catch (const UsageError&) {
+    peers_.sayFarewell(ByeReason::kConfigurationsDiffer);
+    throw;
+  } catch (const std::exception&) {
+    peers_.sayFarewell(ByeReason::kProgramEnds);
+    throw;
+  }
+}
+
+/// Other sites have been running for a while: they and their copies fade in.
 void PeerRun::joinLate(double now) {
   peers_.setStart(now + kMostBehind);
   scenario_.site.link_loss.start_live = false;
@@ -155,19 +173,24 @@ void PeerRun::run(const std::function<bool()>& stop,
 double PeerRun::computeCoherency() const noexcept {
   const Site& site = world_->site();
   if (!scenario_.hasObject()) return 0.0;
-  const auto received = findObject(site.latest(0), 0);
-  const Vec3& received_W = received ? received->p_W : object_start_W_;
-  return (site.object(0).p_W - received_W).norm();
+  double farthest = 0.0;
+  for (int remote = 0; remote < site.remoteCount(); ++remote) {
+    const auto received = findObject(site.latest(remote), 0);
+    const Vec3& received_W = received ? received->p_W : object_start_W_;
+    farthest = std::max(farthest, (site.object(0).p_W - received_W).norm());
+  }
+  return farthest;
 }
 
 PeerReport PeerRun::makeReport(double time) {
   PeerReport report;
   report.time = time;
   report.has_start = peers_.start().has_value();
-  report.peer = peerStatus();
+  for (PeerStatus& status : statuses()) report.others.push_back({std::move(status)});
   report.relay = peers_.relay(readMonotonicClock());
   world_->site().betweenTicks([&] {
-    report.link = world_->site().linkState(0);
+    for (std::size_t i = 0; i < report.others.size(); ++i)
+      report.others[i].link = world_->site().linkState(static_cast<int>(i));
     report.force = world_->site().force().norm();
     report.coherency = computeCoherency();
   });

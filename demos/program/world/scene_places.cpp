@@ -20,10 +20,10 @@ bool ScenePlaces::areNear() const {
 
 void startHandsAt(const ScenePlaces& places, Scenario& scenario) {
   const SceneFrame frame = makeSceneFrame(scenario);
-  for (int user : {0, 1}) {
-    const auto at = static_cast<std::size_t>(user);
-    const Vec3 away_W = places.hands_W[at] - computeStart(scenario, frame, user);
-    scenario.sites[at].hand.start_offset += frame.toScene(away_W);
+  for (std::size_t user = 0; user < places.hands_W.size(); ++user) {
+    const Vec3 away_W =
+        places.hands_W[user] - computeStart(scenario, frame, static_cast<int>(user));
+    scenario.sites[user].hand.start_offset += frame.toScene(away_W);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "world/scene.h"
 
@@ -8,8 +8,8 @@ namespace tandem::demos {
 
 /// Hands and bodies are here; another session goes on from there.
 struct ScenePlaces {
-  std::array<Vec3, 2> hands_W = {Vec3::Zero(), Vec3::Zero()};  ///< of both users [m]
-  BodyPlaces bodies;                                           ///< as one site has them
+  std::vector<Vec3> hands_W;  ///< of all users [m]
+  BodyPlaces bodies;          ///< as one site has them
 
   /// False if something is beyond the 1000 m of packets, after a motion that grew without bounds.
   [[nodiscard]] bool areNear() const;

@@ -64,7 +64,7 @@ class ViewCommand final : public Command {
 
  private:
   void showReplay() {
-    if (!line_.peer.empty() || !line_.relay.empty() || !device_.device.empty() ||
+    if (!line_.peers.empty() || !line_.relay.empty() || !device_.device.empty() ||
         !overrides_.empty() || !shares_.empty() || !world_.empty() || record_ || second_)
       throw UsageError(
           "--replay: shows what was recorded; leave WORLD and all options but the window's and "
@@ -79,7 +79,7 @@ class ViewCommand final : public Command {
     settings_.scenario = loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_),
                                       addShares(overrides_, shares_));
     if (record_) settings_.record = *record_;
-    if (line_.site != 0 || !line_.peer.empty() || !line_.relay.empty())
+    if (line_.site != 0 || !line_.peers.empty() || !line_.relay.empty())
       settings_.line = completeLine();
     if (watches_) leaveHand();
     checkGrip(device_, settings_.scenario);
@@ -129,10 +129,10 @@ class ViewCommand final : public Command {
   }
 
   [[nodiscard]] const PeerLine& completeLine() const {
-    const bool has_way = !line_.peer.empty() || !line_.relay.empty();
-    if (line_.site == 0 || line_.bind.empty() || line_.key.empty() || !has_way)
+    const bool has_way = !line_.peers.empty() || !line_.relay.empty();
+    if (line_.site == 0 || line_.bind.empty() || line_.keys.empty() || !has_way)
       throw UsageError("--site, --bind, --key and --peer or --relay belong together");
-    checkPeerLine(line_);
+    checkPeerLine(line_, settings_.scenario.sites.size());
     return line_;
   }
 

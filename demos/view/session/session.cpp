@@ -13,6 +13,24 @@ namespace {
 /// Between two looks, at least [s].
 constexpr double kLookPeriod = 1.0 / 65.0;
 
+LinkState findTroubledLink(const Site& site) {
+  for (int remote = 0; remote < site.remoteCount(); ++remote)
+    if (site.linkState(remote) != LinkState::kLive) return site.linkState(remote);
+  return LinkState::kLive;
+}
+
+std::optional<RigidState> findFarthestCopy(const Site& site) {
+  std::optional<RigidState> farthest;
+  const auto measure = [&](const RigidState& copy) {
+    return (copy.p_W - site.object(0).p_W).norm();
+  };
+  for (int remote = 0; remote < site.remoteCount(); ++remote) {
+    const auto copy = demos::findObject(site.latest(remote), 0);
+    if (copy && (!farthest || measure(*copy) > measure(*farthest))) farthest = copy;
+  }
+  return farthest;
+}
+
 }  // namespace
 
 std::shared_ptr<const SessionLook> Session::look() const {
@@ -74,12 +92,12 @@ std::optional<RigidState> Session::lookAt(Site& site, SessionLook& look) {
   site.betweenTicks([&] {
     look.hip_W = site.hip().p_W;
     look.force_W = site.force();
-    look.link = site.linkState(0);
+    look.link = findTroubledLink(site);
     look.status = site.status();
     look.energy = site.passivity().available();
     if (site.objectCount() == 0) return;
     look.object_W = site.object(0).p_W;
-    received = demos::findObject(site.latest(0), 0);
+    received = findFarthestCopy(site);
   });
   return received;
 }

@@ -21,12 +21,12 @@ struct SessionLook {
   DrawList list;                                      ///< without the user's own hand
   Vec3 hip_W = Vec3::Zero(), force_W = Vec3::Zero();  ///< of the user's hand [m], [N]
   Vec3 object_W = Vec3::Zero();                       ///< of the first object [m]
-  double apart = 0.0;                                 ///< of its two copies [m]
-  LinkState link = LinkState::kLive;
-  std::uint32_t status = 0;  ///< bits of TickStatus since the start
-  double energy = 0.0;       ///< that the hand may still get from the world [J]
-  LoopReport loop;           ///< of the user's own haptic thread
-  bool is_waiting = false;   ///< the other site is not there yet
+  double apart = 0.0;                 ///< of its own copy and the farthest of the others' [m]
+  LinkState link = LinkState::kLive;  ///< to the first other site that is not live
+  std::uint32_t status = 0;           ///< bits of TickStatus since the start
+  double energy = 0.0;                ///< that the hand may still get from the world [J]
+  LoopReport loop;                    ///< of the user's own haptic thread
+  bool is_waiting = false;            ///< the other site is not there yet
 };
 
 /// A session runs behind a window, and makes looks in threads of its own. All calls are for any
@@ -61,7 +61,8 @@ class Session {
   void liveToTheEnd(const std::function<void()>& live);
   /// True if it is time for the next look at `time` [s], which is then counted as made.
   [[nodiscard]] bool isLookDue(double time) noexcept;
-  /// Fills in what a site tells of itself. Gives the first object as the other site last told it.
+  /// Fills in what a site tells of itself. Gives the farthest copy of the first object, as another
+  /// site last told it.
   static std::optional<RigidState> lookAt(Site& site, SessionLook& look);
 
  private:

@@ -133,7 +133,7 @@ void SessionControl::start(const std::optional<demos::ScenePlaces>& places) {
 }
 
 void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places) {
-  demos::requireTwoSites(scenario_, "tandem view");
+  if (!line_) demos::requireTwoSites(scenario_, "tandem view");
   demos::Scenario scenario = scenario_;
   if (places) demos::startHandsAt(*places, scenario);
   if (!LiveSession::hasHapticThreads(scenario))
