@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,8 +58,9 @@ RecordedRun loadRecordedRun(const fs::path& folder) {
     return run;
   }
   // `tandem peer` wrote it: each site has files of its own. The first site's scenario stays.
-  for (const int site : live_sites | std::views::reverse)
-    addSites(run, summaryOf(folder, site), folder / fmt::format("scene{}.csv", site + 1), {site});
+  for (auto site = live_sites.rbegin(); site != live_sites.rend(); ++site)
+    addSites(run, summaryOf(folder, *site), folder / fmt::format("scene{}.csv", *site + 1),
+             {*site});
   return run;
 }
 
