@@ -132,6 +132,7 @@ class RelayedSites {
   RelayPort relay_port;
   std::unique_ptr<relay::Relay> relay;
   std::vector<Site> sites;
+  std::function<void(int id)> act_instead;  ///< of a site's own states; empty: it says those
 
  private:
   [[nodiscard]] double gapOf(const std::vector<Arrival>& given) const {
@@ -162,6 +163,7 @@ class RelayedSites {
     site.member->advance(net.now);
     if (const auto seen = site.member->takeSeen()) site.mesh->hearOf(seen->member, seen->address);
     site.mesh->advance(net.now);
+    if (act_instead) return act_instead(id);
     for (std::uint32_t other = 1; other <= sites.size(); ++other) {
       if (static_cast<int>(other) == id) continue;
       Link& link = site.mesh->link(PeerId{other});
