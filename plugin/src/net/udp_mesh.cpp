@@ -1,15 +1,15 @@
 #include "tandem/plugin/udp_mesh.h"
 
 #include <array>
-#include <chrono>
-#include <stdexcept>
+#include <map>
 
 #include "tandem/plugin/udp_socket.h"
 
 #include "net/peer_group.h"
+#include "net/random.h"
 #include "net/relayed_address.h"
-#include "net/system_address.h"
-#include "relay/relay_member.h"
+#include "relay/make_member.h"
+#include "relay/watch_feed.h"
 
 namespace tandem {
 namespace {
@@ -50,30 +50,11 @@ const char* name(net::Refusal refusal) noexcept {
   return "";
 }
 
-/// The only use of the wall clock. A wrong one costs nothing but speed while under attack.
-double readUtc() noexcept {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
 std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers, bool are_relayed) {
   std::vector<net::PeerGroup::Peer> all;
   for (UdpPeer& peer : peers)
     all.push_back({peer.id, peer.address, std::move(peer.key), are_relayed});
   return all;
-}
-
-std::unique_ptr<relay::RelayMember> makeMember(std::optional<RelayAccess> access, PeerId self,
-                                               std::uint64_t first_nonce, net::Outlet& socket) {
-  if (!access) return nullptr;
-  const auto room = relay::makeRoomName(access->room);
-  if (!room)
-    throw std::invalid_argument("room " + access->room +
-                                ": must be 1 to 32 letters, digits, '.', '_' or '-'");
-  if (access->address.port == 0 || net::isAny(access->address))
-    throw std::invalid_argument("relay " + toString(access->address) +
-                                ": must have a host and a port, such as relay.example:7000");
-  return std::make_unique<relay::RelayMember>(access->address, std::move(access->key), *room, self,
-                                              first_nonce, socket);
 }
 
 }  // namespace
@@ -82,9 +63,14 @@ struct UdpMesh::Impl {
   Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
        std::optional<RelayAccess> access)
       : socket(settings.bind),
-        member(makeMember(std::move(access), settings.self, first_nonce, socket)),
+        member(access ? relay::makeMember(*access, settings.self, first_nonce, socket) : nullptr),
         mesh(settings.self, toMeshPeers(std::move(peers), member != nullptr),
-             {settings.configuration, settings.playout, settings.profile, first_nonce}, outlet()) {}
+             {settings.configuration, settings.playout, settings.profile, first_nonce}, outlet()) {
+    if (!access || !access->watch_key) return;
+    feed.emplace(*access->watch_key, settings.self,
+                 relay::WatchRun{first_nonce, net::drawNumber<std::uint64_t>()}, settings.profile,
+                 hashConfiguration(settings.configuration), *member);
+  }
   ~Impl() {
     if (member) member->leave();
   }
@@ -98,10 +84,12 @@ struct UdpMesh::Impl {
   void receive(ByteSpan datagram, const Address& from, double now) noexcept;
   void advanceMember(double now) noexcept;
 
-  const std::uint64_t first_nonce = net::drawFirstNonce(readUtc());
+  const std::uint64_t first_nonce = relay::drawNonceOfNow();
   net::UdpSocket socket;
   std::unique_ptr<relay::RelayMember> member;  ///< null without a relay
   net::PeerGroup mesh;
+  std::optional<relay::WatchFeed> feed;        ///< empty without a watch key
+  std::map<PeerId, relay::WatchedLink> links;  ///< of a site with spectators; else empty
 };
 
 /// A datagram of the relay has either one of a peer in it, or concerns the relay alone.
@@ -126,7 +114,11 @@ UdpMesh::UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
 
 UdpMesh::~UdpMesh() = default;
 
-Link& UdpMesh::link(PeerId peer) { return impl_->mesh.link(peer); }
+Link& UdpMesh::link(PeerId peer) {
+  Link& link = impl_->mesh.link(peer);
+  if (!impl_->feed) return link;
+  return impl_->links.try_emplace(peer, link, *impl_->feed).first->second;
+}
 
 void UdpMesh::poll(double now) noexcept {
   // One byte more than the longest datagram reveals a longer one.

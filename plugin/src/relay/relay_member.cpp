@@ -63,6 +63,12 @@ void RelayMember::advance(double now) noexcept {
   if (isIn() && now >= next_keep_) sendKeep(now);
 }
 
+void RelayMember::callAs(PeerId self) noexcept {
+  request_.caller.member = static_cast<std::uint16_t>(self);
+  refused_.reset();
+  stage_ = Stage::kIdle;
+}
+
 void RelayMember::startAttempt(double now) noexcept {
   stage_ = Stage::kHello;
   request_.caller.nonce = nonces_.next();

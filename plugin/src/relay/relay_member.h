@@ -36,6 +36,13 @@ class RelayMember final : public net::Outlet {
   /// member's number.
   [[nodiscard]] std::optional<Forwarded> receive(ByteSpan datagram, double now) noexcept;
 
+  /// True if the relay says that another live member has this id; not authentic.
+  [[nodiscard]] bool isIdTaken() const noexcept {
+    return !isIn() && refused_ && refused_->code == Code::kTaken;
+  }
+  /// Asks for the room as another member, 1 to 64, once it is not in it.
+  void callAs(PeerId self) noexcept;
+
   /// Says farewell; several copies, as one may be lost. A later advance() joins again.
   void leave() noexcept;
 

@@ -71,6 +71,9 @@ struct RelayAccess {
   Address address;   ///< of the relay
   SecretKey key;     ///< the relay's, other than those of pairs
   std::string room;  ///< 1 to 32 letters, digits, '.', '_' or '-'
+  /// Shared with spectators, who get 32 states a second (watcher.h); empty: there are none. It
+  /// opens nothing at a site.
+  std::optional<SecretKey> watch_key = std::nullopt;
 };
 
 /// State of the connection to the relay.
