@@ -41,8 +41,8 @@ template void Arguments::option(const std::string&, std::optional<std::uint64_t>
                                 const std::string&, const OptionRules&);
 
 void Arguments::repeated(const std::string& name, std::vector<std::string>& values,
-                         const std::string& help, bool is_required) {
-  app_.add_option(name, values, help)->allow_extra_args(false)->take_all()->required(is_required);
+                         const std::string& help) {
+  app_.add_option(name, values, help)->allow_extra_args(false)->take_all();
 }
 
 void Arguments::several(const std::string& name, std::vector<std::string>& values,

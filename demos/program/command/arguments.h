@@ -34,8 +34,7 @@ class Arguments {
               const OptionRules& rules = {});
 
   /// Declares an option that may be given several times, with one value each.
-  void repeated(const std::string& name, std::vector<std::string>& values, const std::string& help,
-                bool is_required = false);
+  void repeated(const std::string& name, std::vector<std::string>& values, const std::string& help);
   /// Declares positional arguments, at least one.
   void several(const std::string& name, std::vector<std::string>& values, const std::string& help);
   /// Declares an option with three numbers.

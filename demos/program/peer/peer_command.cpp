@@ -16,6 +16,7 @@
 #include "peer/report_line.h"
 #include "peer/site_values.h"
 #include "peer/users_device.h"
+#include "peer/watch_run.h"
 #include "terminal/standard_output.h"
 #include "terminal/usage_error.h"
 
@@ -29,6 +30,7 @@ struct PeerOptions {
   PeerLine line;
   std::optional<std::string> folder;
   bool quiet = false;
+  bool watch = false;
   DeviceOptions device;  ///< without --device: simulated, by the scenario
 };
 
@@ -59,6 +61,22 @@ PeerWatch makeWatch(const PeerOptions& options) {
   };
   watch.note = [](const std::string& note) { fmt::print(stderr, "tandem: note: {}\n", note); };
   return watch;
+}
+
+/// A spectator needs none of these.
+void checkRequired(const PeerOptions& options) {
+  if (options.scenario.empty()) throw UsageError("--scenario is required");
+  if (options.line.site == 0) throw UsageError("--site is required");
+  if (options.line.bind.empty()) throw UsageError("--bind is required");
+  if (options.line.keys.empty()) throw UsageError("--key is required");
+}
+
+void checkWatching(const PeerOptions& options) {
+  if (options.line.site != 0 || !options.scenario.empty() || !options.line.keys.empty() ||
+      !options.line.peers.empty() || !options.device.device.empty())
+    throw UsageError(
+        "--watch: a spectator has no site and no hand; leave out --scenario, --site, --peer, --key "
+        "and --device");
 }
 
 void runPeer(const PeerOptions& options) {
@@ -97,16 +115,23 @@ class PeerCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
     PeerOptions& own = options_;
-    const OptionRules required = {.is_required = true};
-    arguments.option("--scenario", own.scenario, "scenario file (TOML)", required);
+    arguments.option("--scenario", own.scenario, "scenario file (TOML)");
     arguments.repeated("--set", own.overrides, "override a key, as for tandem run");
-    declarePeerLine(arguments, own.line, required);
-    arguments.option("--out", own.folder, "folder for siteN.csv, sceneN.csv and siteN.json");
+    declarePeerLine(arguments, own.line);
+    arguments.flag("--watch", own.watch, "follow the sites of a relay's room without a hand");
+    arguments.option("--out", own.folder,
+                     "folder for siteN.csv, sceneN.csv and siteN.json, or watch.csv");
     declareDeviceOptions(arguments, own.device);
     arguments.flag("--quiet", own.quiet, "print nothing but errors");
   }
 
   ExitStatus run() override {
+    if (options_.watch) {
+      checkWatching(options_);
+      watchSites(options_.line, options_.folder, options_.quiet);
+      return kDone;
+    }
+    checkRequired(options_);
     runPeer(options_);
     return kDone;
   }

@@ -12,7 +12,6 @@
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
-
 namespace {
 
 /// Of two sites the one with the lower number calls the other.
@@ -39,18 +38,19 @@ void checkKeys(const PeerLine& line, int count) {
 
 }  // namespace
 
-void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& rules) {
-  arguments.option("--site", line.site, "which site this is: 1, 2 and so on", rules);
-  arguments.option("--bind", line.bind, "own address, e.g. :7001", rules);
+void declarePeerLine(Arguments& arguments, PeerLine& line) {
+  arguments.option("--site", line.site, "which site this is: 1, 2 and so on");
+  arguments.option("--bind", line.bind, "own address, e.g. :7001");
   arguments.repeated(
       "--peer", line.peers,
       "another site's address, e.g. host:7002; with more than two sites 2=host:7002");
   arguments.repeated("--key", line.keys,
-                     "key file that all sites share, or 2=FILE: shared with site 2 alone",
-                     rules.is_required);
+                     "key file that all sites share, or 2=FILE: shared with site 2 alone");
   arguments.option("--relay", line.relay, "a relay where all sites meet, e.g. host:7000");
   arguments.option("--relay-key", line.relay_key, "key file of the relay");
   arguments.option("--room", line.room, "room of the relay, the same for all sites");
+  arguments.option("--watch-key", line.watch_key,
+                   "key file of the room's spectators, who see this site 32 times a second");
   arguments.option("--wait", line.patience, "seconds to wait for the other sites");
   arguments.option("--playout", line.playout,
                    "on: jitter becomes constant delay; off: states are applied as they come",
@@ -65,6 +65,8 @@ void checkPeerLine(const PeerLine& line, std::size_t count) {
     throw UsageError("--peer is required, or --relay and --relay-key");
   if (line.relay.empty() != line.relay_key.empty())
     throw UsageError("--relay and --relay-key go together; give both or none");
+  if (!line.watch_key.empty() && line.relay.empty())
+    throw UsageError("--watch-key needs --relay: the relay copies states to the spectators");
   if (line.site < 1 || line.site > last)
     throw UsageError(
         fmt::format("--site {}: must be 1 {} {}", line.site, last == 2 ? "or" : "to", last));
@@ -105,7 +107,9 @@ std::vector<UdpPeer> makeOtherSites(const PeerLine& line, std::size_t count) {
 
 std::optional<RelayAccess> makeRelayAccess(const PeerLine& line) {
   if (line.relay.empty()) return std::nullopt;
-  return RelayAccess{resolveAddress(line.relay), readKeyFile(line.relay_key), line.room};
+  RelayAccess access{resolveAddress(line.relay), readKeyFile(line.relay_key), line.room};
+  if (!line.watch_key.empty()) access.watch_key = readKeyFile(line.watch_key);
+  return access;
 }
 
 }  // namespace tandem::demos

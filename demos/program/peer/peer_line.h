@@ -19,14 +19,15 @@ struct PeerLine {
   std::vector<std::string> keys;   ///< key files, shared with one other site or all
   std::string relay, relay_key;    ///< address and key file; empty: no relay
   std::string room = "tandem";     ///< of the relay
+  std::string watch_key;           ///< key file of the spectators; empty: there are none
   double patience = 30.0;          ///< time to wait for the other sites [s]
   std::string playout = "on";
   std::string profile = "float32";
 };
 
-/// Declares --site, --bind, --peer, --key, --relay, --relay-key, --room, --wait, --playout and
-/// --wire.
-void declarePeerLine(Arguments& arguments, PeerLine& line, const OptionRules& rules);
+/// Declares --site, --bind, --peer, --key, --relay, --relay-key, --room, --watch-key, --wait,
+/// --playout and --wire.
+void declarePeerLine(Arguments& arguments, PeerLine& line);
 
 /// Checks the line of a session of `count` sites. Throws UsageError that names the option and the
 /// allowed values.

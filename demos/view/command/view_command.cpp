@@ -41,7 +41,7 @@ class ViewCommand final : public Command {
     arguments.option("--seconds", settings_.window.duration, "close after this time");
     arguments.option("--status", status_, "file of a JSON line every 0.1 s");
     arguments.option("--screenshot", screenshot_, "PNG file of the last frame");
-    declarePeerLine(arguments, line_, {});
+    declarePeerLine(arguments, line_);
     declareDeviceOptions(arguments, device_);
     arguments.flag("--watch", watches_, "without a hand: your user moves as the scenario says");
     arguments.option("--second", second_,
