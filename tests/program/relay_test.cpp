@@ -1,5 +1,6 @@
 // `tandem relay` and sites that meet through it, as processes on loopback.
 
+#include <algorithm>
 #include <csignal>
 #include <future>
 #include <string>
@@ -70,9 +71,37 @@ TEST(RelayProgram, TwoSitesMeetThroughItWithoutAddresses) {
   EXPECT_TRUE(report.contains("rooms"));
 }
 
+// It has no site and no pair's key, and the sites do not wait for it.
+TEST(RelayProgram, ASpectatorFollowsBothSites) {
+  Rig rig;
+  const std::string key = rig.folder / "relay", watch = rig.folder / "watch";
+  ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
+  auto spectator = std::async(std::launch::async, [&] {
+    return runTandem({"peer", "--watch", "--relay", rig.address, "--relay-key", key, "--watch-key",
+                      watch, "--wait", "4", "--out", rig.folder / "seen"});
+  });
+  auto second = std::async(std::launch::async, [&] {
+    return runTandem(rig.site(2, {"--relay-key", key, "--watch-key", watch}));
+  });
+  EXPECT_EQ(runTandem(rig.site(1, {"--relay-key", key, "--watch-key", watch})).status, 0);
+  EXPECT_EQ(second.get().status, 0);
+  const Outcome outcome = spectator.get();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto columns = test::readColumns(rig.folder / "seen/watch.csv");
+  const std::vector<double>& sites = columns.at("site");
+  for (const double site : {1.0, 2.0}) EXPECT_GT(std::ranges::count(sites, site), 10) << site;
+}
+
 void expectLine(const Outcome& outcome, int status, const std::string& word) {
   EXPECT_EQ(outcome.status, status) << outcome.err;
   EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+}
+
+TEST(RelayProgram, ASpectatorsBadInputIsALine) {
+  expectLine(runTandem({"peer", "--watch"}), 2,
+             "--watch needs --relay, --relay-key and --watch-key");
+  expectLine(runTandem({"peer", "--watch", "--site", "1"}), 2, "has no site and no hand");
+  expectLine(runTandem({"peer", "--site", "1"}), 2, "--scenario is required");
 }
 
 TEST(RelayProgram, AWrongKeyIsALine) {
