@@ -144,10 +144,7 @@ PeerStatus UdpMesh::status(PeerId peer, double now) const {
 
 std::optional<RelayConnection> UdpMesh::relay(double now) const {
   if (!impl_->member) return std::nullopt;
-  const relay::RelayMember& member = *impl_->member;
-  RelayConnection connection{member.isIn(), member.silence(now), member.roundTrip(), {}};
-  if (member.refused()) connection.refused = relay::explain(*member.refused());
-  return connection;
+  return relay::describeConnection(*impl_->member, now);
 }
 
 std::uint64_t UdpMesh::received() const noexcept { return impl_->mesh.counts().received; }

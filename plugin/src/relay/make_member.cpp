@@ -22,6 +22,12 @@ std::unique_ptr<RelayMember> makeMember(RelayAccess& access, PeerId self, std::u
                                        first_nonce, socket, is_watcher);
 }
 
+RelayConnection describeConnection(const RelayMember& member, double now) {
+  RelayConnection connection{member.isIn(), member.silence(now), member.roundTrip(), {}};
+  if (member.refused()) connection.refused = explain(*member.refused());
+  return connection;
+}
+
 std::uint64_t drawNonceOfNow() noexcept {
   const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
   return net::drawFirstNonce(std::chrono::duration<double>(since_1970).count());

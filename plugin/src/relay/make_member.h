@@ -14,6 +14,9 @@ namespace tandem::relay {
                                                       std::uint64_t first_nonce,
                                                       net::Outlet& socket, bool is_watcher = false);
 
+/// The state of a member's connection, for a user. Allocates.
+[[nodiscard]] RelayConnection describeConnection(const RelayMember& member, double now);
+
 /// drawFirstNonce() of now. The only use of the wall clock: a wrong one costs speed while under
 /// attack, and spectators of a site whose clock was set back begin anew.
 [[nodiscard]] std::uint64_t drawNonceOfNow() noexcept;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "tandem/coordination/datagram.h"
+#include "tandem/coordination/types.h"
 
 /// \file
 /// Datagrams between a relay and the members of its rooms. docs/relay.md defines the format. All
@@ -15,7 +16,7 @@
 namespace tandem::relay {
 
 inline constexpr std::uint8_t kVersion = 1;
-inline constexpr std::uint16_t kMostMembers = 64;      ///< of a room; member ids are 1 to 64
+inline constexpr std::uint16_t kMostMembers = kMaxPeerId;  ///< of a room, whose ids are peers'
 inline constexpr std::uint16_t kAllWatchers = 0xffff;  ///< as receiver: each watcher of the room
 
 /// First byte after the version.

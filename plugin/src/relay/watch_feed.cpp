@@ -39,7 +39,7 @@ void WatchFeed::note(const StatePacket& packet) noexcept {
   newest_ = packet;
 }
 
-/// Those with news take turns, so that none waits for ever.
+/// Objects with news take turns, so that none waits for ever.
 void WatchFeed::pickObjects() noexcept {
   newest_.object_count = 0;
   for (std::size_t i = 0; i < kMaxSharedObjects && newest_.object_count < kMaxObjectsPerPacket;

@@ -24,7 +24,7 @@ struct WatchRun {
   std::uint64_t random = 0;  ///< no two runs have one key, whatever the clock says
 };
 
-/// What a WATCH says in the clear.
+/// A WATCH says this in the clear.
 struct WatchHeader {
   std::uint16_t sender = 0;
   WatchRun run;

@@ -12,8 +12,8 @@
 
 namespace tandem::relay {
 
-/// What a spectator has heard of the sites of a room. Of each site the newest run and its newest
-/// datagram win; all others are refused. Real-time safe after construction.
+/// A spectator's knowledge of the sites of a room. The newest run of a site and its newest datagram
+/// win; all others are refused. Real-time safe after construction.
 class WatchedRoom {
  public:
   enum class Result { kTaken, kForm, kSender, kOld, kForged, kGate };

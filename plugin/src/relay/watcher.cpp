@@ -29,23 +29,9 @@ SecretKey takeWatchKey(RelayAccess& access) {
   return std::move(*access.watch_key);
 }
 
-const char* name(relay::WatchedRoom::Result result) noexcept {
-  switch (result) {
-    case relay::WatchedRoom::Result::kTaken:
-      return "taken";
-    case relay::WatchedRoom::Result::kForm:
-      return "form";
-    case relay::WatchedRoom::Result::kSender:
-      return "sender";
-    case relay::WatchedRoom::Result::kOld:
-      return "old";
-    case relay::WatchedRoom::Result::kForged:
-      return "forged";
-    case relay::WatchedRoom::Result::kGate:
-      return "gate";
-  }
-  return "";
-}
+/// In the order of WatchedRoom::Result; docs/relay.md explains them.
+constexpr std::array<const char*, relay::WatchedRoom::kResults> kNames = {
+    "taken", "form", "sender", "old", "forged", "gate"};
 
 }  // namespace
 
@@ -98,10 +84,7 @@ std::vector<PeerId> Watcher::heard() const {
 }
 
 RelayConnection Watcher::relay(double now) const {
-  const relay::RelayMember& member = *impl_->member;
-  RelayConnection connection{member.isIn(), member.silence(now), member.roundTrip(), {}};
-  if (member.refused()) connection.refused = relay::explain(*member.refused());
-  return connection;
+  return relay::describeConnection(*impl_->member, now);
 }
 
 std::vector<RefusedDatagrams> Watcher::refused() const {
@@ -109,7 +92,7 @@ std::vector<RefusedDatagrams> Watcher::refused() const {
   for (std::size_t i = 0; i < relay::WatchedRoom::kResults; ++i) {
     const auto result = static_cast<relay::WatchedRoom::Result>(i);
     if (result != relay::WatchedRoom::Result::kTaken && impl_->room.count(result) > 0)
-      all.push_back({name(result), impl_->room.count(result)});
+      all.push_back({kNames[i], impl_->room.count(result)});
   }
   return all;
 }

@@ -10,7 +10,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// What a spectator has heard of one site.
+/// A spectator has heard this of one site.
 struct WatchedSite {
   StatePacket newest;             ///< some of the site's objects; Watcher::object() knows all
   double heard_at = 0.0;          ///< by the clock of Watcher::poll() [s]
