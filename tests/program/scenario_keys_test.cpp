@@ -43,7 +43,7 @@ TEST(ScenarioKeys, StandInTheDocument) {
 }
 
 TEST(ScenarioKeys, ThatAreASitesOwnMayDiffer) {
-  for (const char* own : {"title", "site2.hand_force", "device.mass", "guard.max_slew",
+  for (const char* own : {"title", "site", "site2.hand_force", "device.mass", "guard.max_slew",
                           "network.loss", "rates.inner", "bridge.injection"})
     EXPECT_TRUE(isOwnKey(own)) << own;
   for (const char* shared : {"contact.stiffness", "proxy.radius", "network.rate", "rates.haptic",

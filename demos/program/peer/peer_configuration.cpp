@@ -8,9 +8,6 @@
 namespace tandem::demos {
 namespace {
 
-/// Users in tables of their own, each site's own affair as site1 and site2 are.
-constexpr const char* kSiteTables = "site";
-
 /// Values have at most 255 bytes. Longer ones are compared by a hash.
 std::string shorten(std::string value) {
   if (value.size() <= 200) return value;
@@ -21,7 +18,7 @@ void flatten(const nlohmann::json& node, const std::string& prefix,
              std::vector<ConfigurationItem>& items) {
   for (const auto& [name, value] : node.items()) {
     const std::string key = prefix + name;
-    if (isOwnKey(key) || key == kSiteTables) continue;
+    if (isOwnKey(key)) continue;
     if (value.is_object()) {
       flatten(value, key + ".", items);
     } else {

@@ -14,11 +14,11 @@
 namespace tandem::demos {
 namespace {
 
-/// Of two sites the one with the lower number calls the other.
+/// The lower of two sites calls the other, and needs its address.
 void checkWays(const PeerLine& line, int count) {
   checkSiteValues("--peer", line.peers, line.site, count);
   for (const std::string& word : line.peers)
-    if (count > 2 && parseSiteValue(word).site == 0)
+    if (count > 2 && !parseSiteValue(word).site)
       throw UsageError(
           fmt::format("--peer {}: say which of {} sites it is: --peer N={}", word, count, word));
   for (int other = line.site + 1; other <= count && line.relay.empty(); ++other)

@@ -74,7 +74,7 @@ class PeerRun {
   [[nodiscard]] SiteWorld& world() noexcept { return *world_; }
   [[nodiscard]] double duration() const noexcept;
   [[nodiscard]] const Scenario& scenario() const noexcept { return scenario_; }
-  /// Of the other sites, in the order of their numbers.
+  /// The states of all connections, in the order of the other sites' numbers.
   [[nodiscard]] std::vector<PeerStatus> statuses() const;
   /// The places of hands and bodies now. For the thread of run(), or after it.
   [[nodiscard]] ScenePlaces places();

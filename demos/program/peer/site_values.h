@@ -8,7 +8,7 @@ namespace tandem::demos {
 
 /// A value of an option for one other site, as written: "3=host:7003", or without a number.
 struct SiteValue {
-  int site = 0;  ///< 0: without a number
+  std::optional<int> site;  ///< empty: without a number
   std::string value;
 };
 

@@ -65,12 +65,4 @@ void checkSites(const Scenario& s, const Refuse& refuse) {
   checkPlaces(s, refuse);
 }
 
-void requireTwoSites(const Scenario& scenario, const std::string& who) {
-  if (scenario.sites.size() == kFewestSites) return;
-  throw UsageError(fmt::format(
-      "{}: {} has {} sites; a window plays two of them: give --site, --bind, --peer and --key, or "
-      "use tandem run and tandem view --replay",
-      who, scenario.file.string(), scenario.sites.size()));
-}
-
 }  // namespace tandem::demos

@@ -11,7 +11,4 @@ namespace tandem::demos {
 /// line that names the key.
 void checkSites(const Scenario& scenario, const std::function<void(const std::string&)>& refuse);
 
-/// For what plays two sites only. Throws UsageError, which begins with `who`, if there are more.
-void requireTwoSites(const Scenario& scenario, const std::string& who);
-
 }  // namespace tandem::demos

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "scenario/keys.h"
-#include "scenario/site_checks.h"
 #include "session/own_worlds.h"
 #include "terminal/usage_error.h"
 
@@ -20,6 +19,14 @@ constexpr double kLeastNativeRate = 240.0;
 
 std::string nameContact(const demos::Scenario& scenario) {
   return "contact.model = " + demos::nameOf(scenario.site.contact_model);
+}
+
+void requireTwoSites(const demos::Scenario& scenario) {
+  if (scenario.sites.size() == demos::kFewestSites) return;
+  throw demos::UsageError(fmt::format(
+      "tandem view: {} has {} sites; a window plays two of them: give --site, --bind, --peer and "
+      "--key, or use tandem run and tandem view --replay",
+      scenario.file.string(), scenario.sites.size()));
 }
 
 }  // namespace
@@ -133,7 +140,7 @@ void SessionControl::start(const std::optional<demos::ScenePlaces>& places) {
 }
 
 void SessionControl::makeSession(const std::optional<demos::ScenePlaces>& places) {
-  if (!line_) demos::requireTwoSites(scenario_, "tandem view");
+  if (!line_) requireTwoSites(scenario_);
   demos::Scenario scenario = scenario_;
   if (places) demos::startHandsAt(*places, scenario);
   if (!LiveSession::hasHapticThreads(scenario))
