@@ -17,9 +17,8 @@ using test::HandsByRelay;
 using test::Random;
 using test::VirtualNet;
 
-/// Runs until hands, copies and playout have settled, by the direct way.
+/// Runs until hands, copies and playout have settled.
 void settle(HandsByRelay& hands) {
-  hands.sites.by_relay = false;
   hands.sites.run(15.0);
   ASSERT_EQ(hands.link(1), LinkState::kLive);
   ASSERT_EQ(hands.link(2), LinkState::kLive);
@@ -29,6 +28,7 @@ void settle(HandsByRelay& hands) {
 // The relayed way is 6 ms longer. TANDEM_WAY_SECONDS=3600 runs an hour.
 TEST(HandsByRelay, ChangesOfTheWayOnceASecondAreNotFelt) {
   HandsByRelay hands({.to_relay = 0.008});
+  hands.sites.by_relay = false;
   settle(hands);
   hands.sites.run(20.0);
   const ForceReport quiet = hands.take();
@@ -75,8 +75,7 @@ TEST(HandsByRelay, ARelayThatLiesGivesNoMoreThanAWall) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE(seed);
     HandsByRelay hands({.has_direct = false});
-    hands.sites.run(15.0);
-    (void)hands.take();
+    settle(hands);
     const double apart = hands.apart();
     hands.sites.relay_port.lie = Liar(seed);
     hands.sites.run(20.0);

@@ -14,6 +14,7 @@
 namespace tandem {
 namespace {
 
+using test::expectLine;
 using test::Outcome;
 using test::runTandem;
 using test::TempFolder;
@@ -64,11 +65,6 @@ struct Rig {
   TempFolder folder;
   int port;
 };
-
-void expectLine(const Outcome& outcome, int status, const std::string& words) {
-  EXPECT_EQ(outcome.status, status) << outcome.err;
-  EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-}
 
 TEST(ManyPeers, ThreeProcessesCooperate) {
   const Rig rig(17510);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -61,6 +62,11 @@ Outcome runProgram(const std::string& program, const std::vector<std::string>& a
 
 Outcome runTandem(const std::vector<std::string>& arguments, const Start& start) {
   return runProgram(TANDEM_PROGRAM, arguments, start);
+}
+
+void expectLine(const Outcome& outcome, int status, const std::string& words) {
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
 }
 
 std::string scenarioPath(std::string_view name) {

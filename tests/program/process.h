@@ -31,6 +31,9 @@ struct Start {
 /// The program on float64 Bullet.
 [[nodiscard]] Outcome runTandem(const std::vector<std::string>& arguments, const Start& start = {});
 
+/// Expects this status and these words on stderr.
+void expectLine(const Outcome& outcome, int status, const std::string& words);
+
 /// Path of a scenario that ships with the program.
 [[nodiscard]] std::string scenarioPath(std::string_view name);
 

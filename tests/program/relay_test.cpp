@@ -16,6 +16,7 @@ namespace tandem {
 namespace {
 
 using test::Background;
+using test::expectLine;
 using test::Outcome;
 using test::runTandem;
 using test::TempFolder;
@@ -90,11 +91,6 @@ TEST(RelayProgram, ASpectatorFollowsBothSites) {
   const auto columns = test::readColumns(rig.folder / "seen/watch.csv");
   const std::vector<double>& sites = columns.at("site");
   for (const double site : {1.0, 2.0}) EXPECT_GT(std::ranges::count(sites, site), 10) << site;
-}
-
-void expectLine(const Outcome& outcome, int status, const std::string& word) {
-  EXPECT_EQ(outcome.status, status) << outcome.err;
-  EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
 }
 
 TEST(RelayProgram, ASpectatorsBadInputIsALine) {

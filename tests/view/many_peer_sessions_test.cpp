@@ -13,30 +13,18 @@
 
 #include "session/peer_session.h"
 #include "support/temp_folder.h"
+#include "view/free_addresses.h"
 
 namespace tandem::view {
 namespace {
 
 constexpr std::size_t kCount = 3;
 
-/// Free ports of the loopback, as far as one can know.
-std::vector<std::string> findAddresses() {
-  UdpMeshSettings settings;
-  settings.bind = resolveAddress("127.0.0.1:0");
-  std::vector<std::unique_ptr<UdpMesh>> meshes;
-  std::vector<std::string> addresses;
-  for (std::size_t site = 0; site < kCount; ++site) {
-    meshes.push_back(std::make_unique<UdpMesh>(settings, std::vector<UdpPeer>{}));
-    addresses.push_back(toString(meshes.back()->bound()));
-  }
-  return addresses;
-}
-
 class ManyPeerSessions : public ::testing::Test {
  protected:
   ManyPeerSessions() {
     makeKeyFile(folder_ / "key");
-    const std::vector<std::string> addresses = findAddresses();
+    const std::vector<std::string> addresses = tandem::test::findFreeAddresses(kCount);
     const demos::SceneFrame frame = demos::makeSceneFrame(scenario);
     for (int site = 1; site <= static_cast<int>(kCount); ++site) {
       demos::PeerLine line;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -20,18 +21,11 @@
 #include "replay/run_replay.h"
 #include "support/temp_folder.h"
 #include "terminal/usage_error.h"
+#include "view/free_addresses.h"
 #include "view/own_world.h"
 
 namespace tandem::view {
 namespace {
-
-/// Two free ports of the loopback, as far as one can know.
-std::array<std::string, 2> findAddresses() {
-  UdpMeshSettings settings;
-  settings.bind = resolveAddress("127.0.0.1:0");
-  const UdpMesh first(settings, {}), second(settings, {});
-  return {toString(first.bound()), toString(second.bound())};
-}
 
 class PeerSessionTest : public ::testing::Test {
  protected:
@@ -108,7 +102,7 @@ class PeerSessionTest : public ::testing::Test {
  private:
   tandem::test::TempFolder folder_;
   std::string key_ = folder_ / "key";
-  std::array<std::string, 2> addresses_ = findAddresses();
+  std::vector<std::string> addresses_ = tandem::test::findFreeAddresses(2);
   std::array<demos::PeerLine, 2> lines_;
   std::array<std::unique_ptr<MouseDevice>, 2> mice_;
 };
