@@ -139,7 +139,7 @@ def many_overview(group, name):
         width = (INNER - 2 * gap) / 3
         for p, (title, label, value) in enumerate(panels):
             axes = sheet.panel(LEFT + p * (width + gap), 104, width, 260, title, "users N", label,
-                               46 if p else 56)
+                               54 if p else 56)
             highest = 1e-3
             for key, runs in group.series.items():
                 values = [value(run) for run in runs]
