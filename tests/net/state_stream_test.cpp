@@ -24,6 +24,7 @@ struct Way {
   std::uint64_t datagram = 0;
   std::uint8_t minor = kMinorVersion;
   std::optional<GripState> grip;
+  std::optional<RollCall> roll;
 
   void send(std::uint64_t sequence, std::optional<double> granted) {
     EXPECT_EQ(receive(make(sequence, granted), datagram++), Refusal::kNone);
@@ -35,6 +36,7 @@ struct Way {
     packet.time = now;
     if (granted) packet.energy = {*granted, -0.5};
     packet.grip = grip;
+    packet.roll = roll;
     std::vector<std::uint8_t> bytes(2048);
     bytes.resize(sender.write(packet, minor, now, {bytes.data(), bytes.size()}));
     now += 0.01;
@@ -90,6 +92,16 @@ TEST(StateStream, AnOlderPeerHearsOfNoGrip) {
   EXPECT_EQ(way.make(0, std::nullopt).size(), computeStateSize(WireProfile::kFloat64, 0));
   way.minor = kGripMinor;
   EXPECT_EQ(way.make(1, std::nullopt).size(), computeStateSize(WireProfile::kFloat64, 0, true));
+}
+
+TEST(StateStream, AnOlderPeerHearsOfNoRoll) {
+  Way way;
+  way.roll = RollCall{SiteSet(3), SiteSet(1)};
+  way.minor = kRollMinor - 1;
+  EXPECT_EQ(way.make(0, std::nullopt).size(), computeStateSize(WireProfile::kFloat64, 0));
+  way.minor = kRollMinor;
+  EXPECT_EQ(way.make(1, std::nullopt).size(),
+            computeStateSize(WireProfile::kFloat64, 0, false, true));
 }
 
 // The restarted peer's grants begin at zero. The receiver goes on from those before.

@@ -2,7 +2,8 @@
 
 import struct
 
-from datagrams import BLOCK, BLOCK_FIELDS, CLEAR_SIZES, DEVICE_FIELDS, GRIP_FIELDS, HEADER, NUMBERS, OBJECT_FIELDS, ROUTE
+from datagrams import (BLOCK, BLOCK_FIELDS, CLEAR_SIZES, DEVICE_FIELDS, GRIP_FIELDS, HEADER, NUMBERS, OBJECT_FIELDS, ROLL,
+                       ROUTE)
 
 
 def config_hash_of(items):
@@ -33,6 +34,8 @@ def write_state(f):
     if f["flags"] & 16:
         content += struct.pack("<HHI", f["grip.epoch"], f["grip.object"], f["grip.age_us"])
         content += reals("grip.", GRIP_FIELDS)
+    if f["flags"] & 32:
+        content += ROLL.pack(f["roll.heard"], f["roll.members"], f["roll.age_ms"])
     for i in range(f["object_count"]):
         head = struct.pack("<HBBI", f[f"object.{i}.id"], f[f"object.{i}.epoch_author"], 0, f[f"object.{i}.epoch"])
         content += head + reals(f"object.{i}.", OBJECT_FIELDS)

@@ -14,6 +14,7 @@ CLEAR_SIZES = {"HELLO": 256, "COOKIE": 64, "OPEN": 120, "ACCEPT": 88, "REFUSE": 
 HEADER = struct.Struct("<HBBIHHQ")
 ROUTE = struct.Struct("<HBBQ")
 BLOCK = struct.Struct("<qqQqIIddHBBI")
+ROLL = struct.Struct("<QQI")
 BLOCK_FIELDS = ("send_time_us", "state_time_us", "state_sequence", "echo_send_time_us", "echo_hold_us",
                 "ack_bits", "granted", "holdings", "flags", "profile", "object_count", "config_hash")
 MOTION = {"position": 1e3, "velocity": 1e2, "angular_velocity": 1e3}  # bounds of each component
@@ -103,10 +104,11 @@ def read_state(payload):
     require(block["profile"] <= 1, "profile")
     require(block["object_count"] <= 8, "object_count")
     real, width = ("f", 4) if block["profile"] == 0 else ("d", 8)
-    has_grip = block["flags"] & 16 != 0
-    size = BLOCK.size + 6 * width + has_grip * (8 + 7 * width) + block["object_count"] * (8 + 13 * width)
+    has_grip, has_roll = block["flags"] & 16 != 0, block["flags"] & 32 != 0
+    size = BLOCK.size + 6 * width + block["object_count"] * (8 + 13 * width)
+    size += has_grip * (8 + 7 * width) + has_roll * ROLL.size
     require(len(payload) == size, "wrong_size")
-    require(block["flags"] & ~31 == 0, "flags")
+    require(block["flags"] & ~63 == 0, "flags")
     require(all(0 <= block[name] <= MAX_TIME for name in BLOCK_FIELDS if "_time_us" in name), "time")
     require(all(abs(block[name]) <= 1e9 for name in ("granted", "holdings")), "energy")  # false for a NaN, too
     device, offset = read_reals(payload, BLOCK.size, real, DEVICE_FIELDS)
@@ -118,6 +120,9 @@ def read_state(payload):
         require_unit(grip["orientation"])
         block.update({"grip.epoch": epoch, "grip.object": number, "grip.age_us": age})
         block.update({f"grip.{name}": value for name, value in grip.items()})
+    if has_roll:
+        block.update(zip(("roll.heard", "roll.members", "roll.age_ms"), ROLL.unpack_from(payload, offset)))
+        offset += ROLL.size
     ids = set()
     for i in range(block["object_count"]):
         number, author, zero, epoch = struct.unpack_from("<HBBI", payload, offset)

@@ -78,7 +78,7 @@ inline StateMessage makeState(WireProfile profile) {
   message.echo_hold_us = 7812;
   message.ack_bits = 0xfffffffd;
   message.energy = {0.375, -0.0125};
-  message.flags = profile == WireProfile::kFloat32 ? kStateFlags & ~kStateGrip : 0;
+  message.flags = profile == WireProfile::kFloat32 ? kStateFlags & ~(kStateGrip | kStateRoll) : 0;
   message.profile = profile;
   message.config_hash = 0xdeadbeef;
   message.packet.user = {Vec3(0.1, -0.05, 1000.0), Vec3(-100.0, 0.7, 5e-324)};
@@ -109,6 +109,17 @@ inline StateMessage makeReleasedState() {
   message.packet.grip = GripState{};
   message.packet.grip->epoch = 2;
   message.packet.grip->age = 4294.967295;
+  return message;
+}
+
+/// Values of state_roll.bin.
+inline StateMessage makeRollState() {
+  StateMessage message = makeGripState();
+  message.flags = kStateGrip | kStateRoll;
+  message.profile = WireProfile::kFloat32;
+  message.packet.grip = GripState{};
+  message.packet.object_count = 0;
+  message.packet.roll = RollCall{SiteSet(0x8000000000000046), SiteSet(2), 61.5};
   return message;
 }
 

@@ -144,6 +144,12 @@ void expectState(const Bytes& golden, const ClearHeader& expected_header,
     expectSame(packet.grip->p_BG, expected.packet.grip->p_BG);
     expectSame(packet.grip->q_BG.coeffs(), expected.packet.grip->q_BG.coeffs());
   }
+  ASSERT_EQ(packet.roll.has_value(), expected.packet.roll.has_value());
+  if (packet.roll) {
+    EXPECT_EQ(packet.roll->heard, expected.packet.roll->heard);
+    EXPECT_EQ(packet.roll->members, expected.packet.roll->members);
+    EXPECT_EQ(packet.roll->age, expected.packet.roll->age);
+  }
   ASSERT_EQ(packet.object_count, expected.packet.object_count);
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     const ObjectState& object = packet.objects[i];
@@ -207,6 +213,12 @@ TEST(WireGolden, StateAfterARelease) {
   const ClearHeader header = makeHeader(MessageType::kState, (std::uint64_t{1} << 32) + 45);
   EXPECT_EQ(collectState(header, makeReleasedState()), readGolden("state_grip_released.bin"));
   expectState(readGolden("state_grip_released.bin"), header, makeReleasedState());
+}
+
+TEST(WireGolden, StateWithARoll) {
+  const ClearHeader header = makeHeader(MessageType::kState, (std::uint64_t{1} << 32) + 46);
+  EXPECT_EQ(collectState(header, makeRollState()), readGolden("state_roll.bin"));
+  expectState(readGolden("state_roll.bin"), header, makeRollState());
 }
 
 TEST(WireGolden, StateAtEveryBound) {

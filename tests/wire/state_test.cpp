@@ -36,7 +36,8 @@ TEST(WireState, SizesAreThoseOfTheStandard) {
   EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 1), 224U);
   EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 1, true), 184U);
   EXPECT_EQ(computeStateSize(WireProfile::kFloat64, 0, true), 176U);
-  EXPECT_EQ(kMaxStateSize, 1072U);
+  EXPECT_EQ(computeStateSize(WireProfile::kFloat32, 0, false, true), 108U);
+  EXPECT_EQ(kMaxStateSize, 1092U);
   EXPECT_LE(kMaxStateSize, kMaxPayloadSize);
 }
 
@@ -125,6 +126,9 @@ StateMessage drawState(std::mt19937_64& random, WireProfile profile) {
     grip.p_BG = drawVector(1e3);
     grip.q_BG = Quat(draw(1.0), draw(1.0), draw(1.0), 0.5).normalized();
   }
+  if ((message.flags & kStateRoll) != 0)
+    message.packet.roll =
+        RollCall{SiteSet(random()), SiteSet(random()), static_cast<double>(random() >> 32) / 1e3};
   message.packet.object_count = static_cast<std::uint32_t>(random() % (kMaxObjectsPerPacket + 1));
   const auto first = static_cast<ObjectId>(random());
   for (ObjectId i = 0; i < message.packet.object_count; ++i) {
@@ -159,12 +163,20 @@ TEST_P(WireStateProfiles, WhatGoesInComesOut) {
     StateMessage sent = drawState(random, GetParam());
     const Bytes bytes = encode(sent);
     const bool has_grip = sent.packet.grip.has_value();
-    ASSERT_EQ(bytes.size(), computeStateSize(sent.profile, sent.packet.object_count, has_grip));
+    const bool has_roll = sent.packet.roll.has_value();
+    ASSERT_EQ(bytes.size(),
+              computeStateSize(sent.profile, sent.packet.object_count, has_grip, has_roll));
     auto got = decode(bytes);
     ASSERT_TRUE(got) << name(got.refusal());
     ASSERT_TRUE(isSane(got->packet));
     expectEqualBlocks(*got, sent);
     ASSERT_EQ(got->packet.grip.has_value(), has_grip);
+    ASSERT_EQ(got->packet.roll.has_value(), has_roll);
+    if (has_roll) {
+      EXPECT_EQ(got->packet.roll->heard, sent.packet.roll->heard);
+      EXPECT_EQ(got->packet.roll->members, sent.packet.roll->members);
+      EXPECT_EQ(got->packet.roll->age, sent.packet.roll->age);
+    }
     if (has_grip) {
       EXPECT_EQ(got->packet.grip->epoch, sent.packet.grip->epoch);
       EXPECT_EQ(got->packet.grip->object, sent.packet.grip->object);
@@ -277,9 +289,13 @@ TEST(WireState, SenderKeepsToTheGate) {
       [](StateMessage& m) { m.energy.holdings = std::nan(""); },
       [](StateMessage& m) { m.energy.granted = 1.1e9; },
       [](StateMessage& m) { m.energy.holdings = -1.1e9; },
-      [](StateMessage& m) { m.flags = 32; },
+      [](StateMessage& m) { m.flags = 64; },
       [](StateMessage& m) { m.flags |= kStateGrip; },
       [](StateMessage& m) { m.packet.grip.emplace(); },
+      [](StateMessage& m) { m.flags |= kStateRoll; },
+      [](StateMessage& m) { m.packet.roll.emplace(); },
+      [](StateMessage& m) { m.flags |= kStateRoll, m.packet.roll.emplace().age = -1.0; },
+      [](StateMessage& m) { m.flags |= kStateRoll, m.packet.roll.emplace().age = std::nan(""); },
       [](StateMessage& m) { m.profile = WireProfile{2}; },
       [](StateMessage& m) { m.packet.object_count = kMaxObjectsPerPacket + 1; },
       [](StateMessage& m) { m.packet.objects[0].id = kMaxSharedObjects; },

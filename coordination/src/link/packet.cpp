@@ -27,6 +27,7 @@ bool isSane(const StatePacket& packet) noexcept {
       !(std::isfinite(packet.energy->granted) && std::isfinite(packet.energy->holdings)))
     return false;
   if (packet.grip && !isSane(*packet.grip)) return false;
+  if (packet.roll && !(std::isfinite(packet.roll->age) && packet.roll->age >= 0.0)) return false;
   const auto* const first = packet.objects.data();
   return std::all_of(first, first + packet.object_count,
                      [](const ObjectState& object) { return isSane(object); });

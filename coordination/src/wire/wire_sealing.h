@@ -18,7 +18,7 @@ using AssociatedData = std::array<std::uint8_t, 32>;
 using SealNonce = std::array<std::uint8_t, 12>;
 
 /// Highest minor version that is spoken here.
-inline constexpr std::uint8_t kMinorVersion = 1;
+inline constexpr std::uint8_t kMinorVersion = 2;
 
 /// Terms that each side sends inside its Noise message.
 struct SessionTerms {

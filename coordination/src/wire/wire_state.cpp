@@ -10,17 +10,17 @@
 //   0 send_time_us i64 | state_time_us i64 | state_sequence u64 | echo_send_time_us i64
 //  32 echo_hold_us u32 | ack_bits u32 | granted f64 | holdings f64
 //  56 flags u16 | profile u8 | objects u8 | config_hash u32 | DEVICE {p, v} | GRIP {epoch
-//  u16, object u16, age_us u32, p, q} with the flag | OBJECT {id u16, epoch_author u8, zero u8,
-//  epoch u32, p, q, v, w} ...
+//  u16, object u16, age_us u32, p, q} with the flag | ROLL {heard u64, members u64, age_ms u32}
+//  with its flag | OBJECT {id u16, epoch_author u8, zero u8, epoch u32, p, q, v, w} ...
 namespace tandem {
 namespace {
 
 /// Object of a grip that holds none.
 constexpr std::uint16_t kNoObject = 0xffff;
 
-/// Whole microseconds; the most that fits stands for more.
-std::uint32_t toAge(double seconds) noexcept {
-  return static_cast<std::uint32_t>(std::min(std::round(seconds * 1e6), 4294967295.0));
+/// An age in whole parts of a second; the most that fits stands for more.
+std::uint32_t toAge(double seconds, double parts) noexcept {
+  return static_cast<std::uint32_t>(std::min(std::round(seconds * parts), 4294967295.0));
 }
 
 /// Writes numbers in a profile's width. Values that passed the gate round to finite floats.
@@ -37,7 +37,7 @@ class RecordWriter {
   void write(const GripState& grip) noexcept {
     writer_.write(grip.epoch);
     writer_.write(static_cast<std::uint16_t>(grip.object.value_or(kNoObject)));
-    writer_.write(toAge(grip.age));
+    writer_.write(toAge(grip.age, 1e6));
     write(grip.p_BG);
     write(grip.q_BG.w());
     write(Vec3(grip.q_BG.vec()));
@@ -120,6 +120,11 @@ void writeRecords(const StatePacket& packet, wire::ByteWriter& writer) noexcept 
   RecordWriter<Real> records(writer);
   records.write(packet.user);
   if (packet.grip) records.write(*packet.grip);
+  if (packet.roll) {
+    writer.write(packet.roll->heard.bits());
+    writer.write(packet.roll->members.bits());
+    writer.write(toAge(packet.roll->age, 1e3));
+  }
   for (std::size_t i = 0; i < packet.object_count; ++i) records.write(packet.objects[i]);
 }
 
@@ -139,6 +144,11 @@ WireRefusal readRecords(wire::ByteReader& reader, const wire::StateGate& gate,
     records.read(grip);
     if (const auto fault = gate.check(grip); fault != WireRefusal::kNone) return fault;
     wire::makeUnit(grip.q_BG);
+  }
+  if (packet.roll) {
+    packet.roll->heard = SiteSet(reader.read<std::uint64_t>());
+    packet.roll->members = SiteSet(reader.read<std::uint64_t>());
+    packet.roll->age = static_cast<double>(reader.read<std::uint32_t>()) / 1e3;
   }
   for (std::size_t i = 0; i < packet.object_count; ++i) {
     ObjectState& object = packet.objects[i];
@@ -178,8 +188,10 @@ WireRefusal readState(ByteView payload, const WireLimits& limits, StateMessage& 
   message.profile = static_cast<WireProfile>(profile);
   if (packet.object_count > packet.objects.size()) return WireRefusal::kObjectCount;
   const bool has_grip = (message.flags & kStateGrip) != 0;
+  const bool has_roll = (message.flags & kStateRoll) != 0;
   if (has_grip) packet.grip.emplace();
-  if (payload.size != computeStateSize(message.profile, packet.object_count, has_grip))
+  if (has_roll) packet.roll.emplace();
+  if (payload.size != computeStateSize(message.profile, packet.object_count, has_grip, has_roll))
     return WireRefusal::kWrongSize;
   const wire::StateGate gate(limits);
   if (const auto fault = gate.checkBlock(message, state_time_us); fault != WireRefusal::kNone)
@@ -201,9 +213,11 @@ std::size_t encodeState(const StateMessage& message, ByteSpan out,
   const StatePacket& packet = message.packet;
   const wire::StateGate gate(limits);
   if (gate.check(message) != WireRefusal::kNone || !isSane(packet)) return 0;
-  const bool has_grip = packet.grip.has_value();
-  if (has_grip != ((message.flags & kStateGrip) != 0)) return 0;
-  if (out.size < computeStateSize(message.profile, packet.object_count, has_grip)) return 0;
+  constexpr std::uint16_t kRecords = kStateGrip | kStateRoll;
+  if ((message.flags & kRecords) != flagRecords(packet)) return 0;
+  if (out.size < computeStateSize(message.profile, packet.object_count, packet.grip.has_value(),
+                                  packet.roll.has_value()))
+    return 0;
 
   wire::ByteWriter writer(out);
   writer.write(message.send_time_us);

@@ -19,16 +19,17 @@ enum StateFlag : std::uint16_t {
   kStateFading = 4,   ///< the sender fades, or has faded, its coupling to the receiver
   kStateAccount = 8,  ///< the sender keeps an account of energy: `energy` is valid
   kStateGrip = 16,    ///< a record of the user's grip follows the device: `packet.grip` is there
+  kStateRoll = 32,    ///< a record of who takes part follows that: `packet.roll` is there
 };
 
 inline constexpr std::uint16_t kStateFlags =
-    kStateIdle | kStateLeaving | kStateFading | kStateAccount | kStateGrip;
+    kStateIdle | kStateLeaving | kStateFading | kStateAccount | kStateGrip | kStateRoll;
 
-/// Peers of this minor version and later understand kStateGrip.
-inline constexpr std::uint8_t kGripMinor = 1;
+/// Peers of these minor versions and later understand kStateGrip and kStateRoll.
+inline constexpr std::uint8_t kGripMinor = 1, kRollMinor = 2;
 
 /// Contents of one STATE. `packet.time` and `packet.grip->age` travel in whole microseconds, an age
-/// of more than 4294.967295 s as that.
+/// of more than 4294.967295 s as that. `packet.roll->age` travels in milliseconds, up to 49 days.
 struct StateMessage {
   StatePacket packet;
   std::int64_t send_time_us = 0;       ///< sender's monotonic clock when the datagram leaves
@@ -54,20 +55,27 @@ inline constexpr std::size_t kStateBlockSize = 64;  ///< before the records [byt
 
 /// Size of a payload [bytes].
 [[nodiscard]] constexpr std::size_t computeStateSize(WireProfile profile, std::size_t object_count,
-                                                     bool has_grip = false) noexcept {
+                                                     bool has_grip = false,
+                                                     bool has_roll = false) noexcept {
   const std::size_t real = profile == WireProfile::kFloat32 ? 4 : 8;
-  return kStateBlockSize + 6 * real + (has_grip ? 8 + 7 * real : 0) +
+  return kStateBlockSize + 6 * real + (has_grip ? 8 + 7 * real : 0) + (has_roll ? 20 : 0) +
          object_count * (8 + 13 * real);
 }
 
 inline constexpr std::size_t kMaxStateSize =
-    computeStateSize(WireProfile::kFloat64, kMaxObjectsPerPacket, true);
+    computeStateSize(WireProfile::kFloat64, kMaxObjectsPerPacket, true, true);
 
 /// Seconds as whole microseconds, rounded; negative if not finite or outside 0 to 2^50 us.
 [[nodiscard]] std::int64_t toMicroseconds(double seconds) noexcept;
 
-/// Writes the payload and returns its size; 0 if there is no room, kStateGrip does not say whether
-/// there is a grip, or a receiver with these limits would refuse it. Non-finite and out-of-bounds
+/// The flags of the records that a packet has.
+[[nodiscard]] inline std::uint16_t flagRecords(const StatePacket& packet) noexcept {
+  return static_cast<std::uint16_t>((packet.grip ? kStateGrip : 0) |
+                                    (packet.roll ? kStateRoll : 0));
+}
+
+/// Writes the payload and returns its size; 0 if there is no room, the flags do not say which
+/// records there are, or a receiver with these limits would refuse it. Non-finite and out-of-bounds
 /// values, and quaternions not unit within 1e-6, are never sent. The header carries
 /// `packet.sender`.
 [[nodiscard]] std::size_t encodeState(const StateMessage& message, ByteSpan out,

@@ -20,7 +20,8 @@ std::size_t StateStream::write(const StatePacket& packet, std::uint8_t minor, do
   StateMessage message;
   message.packet = packet;
   if (minor < kGripMinor) message.packet.grip.reset();
-  if (message.packet.grip) message.flags |= kStateGrip;
+  if (minor < kRollMinor) message.packet.roll.reset();
+  message.flags |= flagRecords(message.packet);
   // The time stamp identifies the datagram, so it increases whatever the clock does.
   message.send_time_us = std::max(toMicroseconds(now), last_sent_us_ + 1);
   last_sent_us_ = message.send_time_us;

@@ -19,7 +19,7 @@ class StateStream {
       : playout_(playout), profile_(profile), config_hash_(config_hash) {}
 
   /// Writes the payload of the next STATE. Returns its size, 0 if the state cannot be encoded.
-  /// A peer of an older `minor` version hears of no grip.
+  /// A peer of an older `minor` version hears of no grip, or of no roll.
   [[nodiscard]] std::size_t write(const StatePacket& packet, std::uint8_t minor, double now,
                                   ByteSpan payload) noexcept;
 

@@ -58,7 +58,7 @@ void WatchFeed::send(double now) noexcept {
   StateMessage message;
   message.packet = newest_;
   message.packet.energy.reset();  // the ledger is a matter between two sites
-  if (message.packet.grip) message.flags |= kStateGrip;
+  message.flags |= flagRecords(message.packet);
   if (message.packet.is_idle) message.flags |= kStateIdle;
   message.send_time_us = toMicroseconds(now);
   message.profile = profile_;

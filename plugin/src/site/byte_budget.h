@@ -11,10 +11,11 @@
 namespace tandem {
 
 /// Bytes of one state on its way, of the narrow profile, with the headers of IPv4 and UDP.
-[[nodiscard]] constexpr double computeDatagramBytes(std::size_t objects, bool has_grip) noexcept {
+[[nodiscard]] constexpr double computeDatagramBytes(std::size_t objects, bool has_grip,
+                                                    bool has_roll = false) noexcept {
   constexpr std::size_t kIpAndUdp = 28;
   return static_cast<double>(kIpAndUdp + kHeaderSize + kTagSize +
-                             computeStateSize(WireProfile::kFloat32, objects, has_grip));
+                             computeStateSize(WireProfile::kFloat32, objects, has_grip, has_roll));
 }
 
 /// Bytes that a site may send: they come in evenly, and are kept for a rare packet's period at

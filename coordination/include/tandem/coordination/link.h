@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "tandem/coordination/site_set.h"
 #include "tandem/coordination/types.h"
 
 #pragma GCC visibility push(default)
 namespace tandem {
 
-/// Shared objects in one packet. With eight, the longest datagram has 1108 bytes, below one MTU.
+/// Shared objects in one packet. With eight, the longest datagram has 1128 bytes, below one MTU.
 inline constexpr int kMaxObjectsPerPacket = 8;
 
 /// Shared objects of a site. If they exceed one packet, they take turns.
@@ -83,6 +84,7 @@ struct StatePacket {
   bool is_idle = false;
   std::optional<EnergyReport> energy;  ///< empty: the sender keeps no account
   std::optional<GripState> grip;       ///< empty: the user has held nothing yet
+  std::optional<RollCall> roll;        ///< empty: the number of sites is fixed
   std::uint32_t object_count = 0;
   std::array<ObjectState, kMaxObjectsPerPacket> objects;
 };
@@ -115,6 +117,9 @@ class Link {
   /// therefore applies them at their exact moment. A live link gives the packets it holds, stamped
   /// `from`.
   [[nodiscard]] virtual std::optional<Arrival> receive(double from, double until) noexcept = 0;
+
+  /// True once the peer has said farewell, until it comes again.
+  [[nodiscard]] virtual bool hasLeft() const noexcept { return false; }
 };
 
 }  // namespace tandem
