@@ -103,6 +103,22 @@ TEST_P(IslandShare, WithoutGainsABodyGoesOnAndExtraDampingStopsIt) {
   EXPECT_NEAR(scene.x(scene.proxy), kHalf + kRadius + 0.02 + 0.01 * (1.0 - std::exp(-1.0)), 1e-12);
 }
 
+// Exact maps of before do not fit another mass.
+TEST_P(IslandShare, AnotherMassGoesOnAtTheSameVelocity) {
+  island.setCouplerShare(scene.proxy_tie, 0.0);
+  scene.move(scene.proxy, Vec3::Zero(), Vec3(0.2, 0, 0));
+  scene.run(0.1);
+  island.setMass(scene.proxy, 2.0 * kMass, Vec3::Zero(), 0.0);
+  EXPECT_EQ(island.state(scene.proxy).v_W.x(), 0.2);
+  island.setExternalWrench(scene.proxy, Vec3(0.4, 0, 0), Vec3::Zero());
+  scene.run(0.05);
+  EXPECT_NEAR(island.state(scene.proxy).v_W.x(), 0.2 + 0.05 * 0.4 / (2.0 * kMass), 1e-12);
+  island.setExternalWrench(scene.proxy, Vec3::Zero(), Vec3::Zero());
+  island.setMass(scene.proxy, kMass, Vec3::Zero(), 1.0);
+  scene.run(0.1);
+  EXPECT_NEAR(island.state(scene.proxy).v_W.x(), 0.3 * std::exp(-1.0), 1e-12);
+}
+
 TEST_P(IslandShare, GhostStaysAndIsPassed) {
   island.setGhost(scene.cube, true);
   EXPECT_TRUE(island.isGhost(scene.cube));

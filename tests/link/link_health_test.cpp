@@ -127,6 +127,18 @@ TEST(LinkHealth, CountsAsLiveBeforeTheFirstPacketOrWaitsForIt) {
   EXPECT_EQ(waiting.counters().lost, 0u);
 }
 
+TEST(LinkHealth, AwaitsAPeerThatIsForgotten) {
+  LinkHealth health({}, kPacket);
+  EXPECT_FALSE(health.hear(1.0, false));
+  health.await();
+  health.update(1.001, true);
+  EXPECT_EQ(health.state(), LinkState::kWaiting);
+  EXPECT_TRUE(health.isProxyOut());
+  EXPECT_EQ(health.objectShare() + health.proxyShare(), 0.0);
+  EXPECT_TRUE(health.hear(1.1, false));
+  EXPECT_EQ(health.state(), LinkState::kRejoining);
+}
+
 TEST(LinkHealth, RampsInOverHalfASecondAfterALoss) {
   LinkHealth health = silentFor(2.0);
   EXPECT_TRUE(health.hear(2.0, false));

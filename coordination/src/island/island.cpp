@@ -119,6 +119,19 @@ void Island::setExtraDamping(BodyIndex body, double damping) noexcept {
   impl_->refit(body, true);
 }
 
+void Island::setMass(BodyIndex body, double mass, const Vec3& inertia_B, double damping) noexcept {
+  ModelBody& b = impl_->model.bodies[body];
+  TANDEM_ASSERT(impl_->prepared && mass > 0.0 && inertia_B.minCoeff() >= 0.0 && damping >= 0.0);
+  if (b.settings.mass == mass && b.settings.inertia_B == inertia_B && b.settings.damping == damping)
+    return;
+  IslandBody changed = b.settings;
+  changed.mass = mass;
+  changed.inertia_B = inertia_B;
+  changed.damping = damping;
+  b.takeMass(changed, impl_->model.settings.guide.has_value());
+  impl_->refit(body, true);
+}
+
 void Island::setGhost(BodyIndex body, bool is_ghost) noexcept {
   ModelBody& b = impl_->model.bodies[body];
   TANDEM_ASSERT(impl_->prepared && !b.is_slot && !b.settings.is_rigid &&

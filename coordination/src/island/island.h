@@ -215,6 +215,9 @@ class Island {
   void setContactShare(BodyIndex body, double share) noexcept;
   /// Damping added to the body's own [N s/m], >= 0, until set again.
   void setExtraDamping(BodyIndex body, double damping) noexcept;
+  /// Gives a dynamic body another mass [kg], > 0, principal moments [kg m^2] and own damping
+  /// [N s/m]. It moves on at its velocities.
+  void setMass(BodyIndex body, double mass, const Vec3& inertia_B, double damping) noexcept;
   /// A ghost stays where it is set, whatever the forces, and touches nothing. When it ends, the
   /// body moves on from there at the velocity that was set. Not for slots, prescribed bodies and
   /// bodies with rigid contacts.

@@ -46,22 +46,27 @@ MassFactors computeFactors(const IslandBody& settings) noexcept {
 
 ModelBody ModelBody::make(const IslandBody& settings, bool is_guided) noexcept {
   ModelBody body;
-  body.settings = settings;
   body.state = settings.start;
   body.contact_share = settings.contact_share;
   body.bounding_radius = computeBoundingRadius(settings.shape);
-  if (is_guided) body.settings.linear_factor = body.settings.angular_factor = Vec3::Ones();
-  if (!body.isDynamic()) return body;
-  if (body.settings.hasFactors()) body.factors = computeFactors(settings);
-  body.inverse_mass = body.mobility = body.factors.linear / settings.mass;
-  if (is_guided) return body;
+  body.takeMass(settings, is_guided);
+  return body;
+}
+
+void ModelBody::takeMass(const IslandBody& changed, bool is_guided) noexcept {
+  settings = changed;
+  if (is_guided) settings.linear_factor = settings.angular_factor = Vec3::Ones();
+  if (settings.motion != Motion::kDynamic) return;
+  factors = settings.hasFactors() ? computeFactors(changed) : MassFactors{};
+  inverse_mass = mobility = factors.linear / settings.mass;
+  inverse_inertia_B.setZero();
+  if (is_guided) return;
   for (int axis = 0; axis < 3; ++axis)
     if (settings.inertia_B[axis] > 0.0)
-      body.inverse_inertia_B[axis] = body.factors.angular / settings.inertia_B[axis];
-  const double radius = body.bounding_radius;
-  body.mobility += std::min(body.inverse_inertia_B.maxCoeff() * radius * radius,
-                            body.inverse_inertia_B.dot(computeArms(settings.shape, radius)));
-  return body;
+      inverse_inertia_B[axis] = factors.angular / settings.inertia_B[axis];
+  const double radius = bounding_radius;
+  mobility += std::min(inverse_inertia_B.maxCoeff() * radius * radius,
+                       inverse_inertia_B.dot(computeArms(settings.shape, radius)));
 }
 
 ModelBody ModelBody::makeEmpty(bool is_slot) noexcept {

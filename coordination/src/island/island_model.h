@@ -60,6 +60,9 @@ struct ModelBody {
   /// body does not rotate.
   [[nodiscard]] static ModelBody make(const IslandBody& settings, bool is_guided) noexcept;
 
+  /// Takes mass, inertia, factors and damping of `changed`. Expects checked settings.
+  void takeMass(const IslandBody& changed, bool is_guided) noexcept;
+
   /// Makes an empty slot, or the place of a body that was taken out.
   [[nodiscard]] static ModelBody makeEmpty(bool is_slot) noexcept;
 

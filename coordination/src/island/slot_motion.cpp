@@ -82,6 +82,7 @@ SlotMotion::SlotMotion(const IslandModel& model)
   for (Eigen::Index i = 0; i < n; ++i) {
     const ModelBody& body = model.bodies[movers_[static_cast<std::size_t>(i)]];
     mass(i) = body.settings.mass;
+    mapped_.push_back({body.settings.mass, body.settings.damping});
     base_damping(i, i) = body.settings.damping;
   }
   for (const ModelCoupler& coupler : model.couplers) {
@@ -140,6 +141,8 @@ void SlotMotion::refit(const IslandModel& model) noexcept {
   }
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     const ModelBody& body = model.bodies[movers_[i]];
+    uses_series_ |=
+        body.settings.mass != mapped_[i].mass || body.settings.damping != mapped_[i].damping;
     series_.setInverseMass(i, body.is_ghost ? 0.0 : body.inverse_mass);
   }
 }

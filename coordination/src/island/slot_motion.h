@@ -26,7 +26,7 @@ class SlotMotion {
   /// Allocates. Throws std::invalid_argument beyond kMaxContacts.
   explicit SlotMotion(const IslandModel& model);
 
-  /// Updates for changed shares, ghosts and extra damping. Real-time safe.
+  /// Updates for changed shares, ghosts, masses and damping. Real-time safe.
   void refit(const IslandModel& model) noexcept;
 
   /// Takes over the allowances in the model's memory. Real-time safe.
@@ -58,6 +58,9 @@ class SlotMotion {
   struct Overlap {
     double depth, rate;
   };
+  struct Inertia {
+    double mass, damping;
+  };
   /// Result of trying a step; all but the first leave the state unchanged.
   enum class Step { kTaken, kCrossesEvent, kHidesTouch };
 
@@ -81,9 +84,10 @@ class SlotMotion {
   std::vector<BodyIndex> movers_;  ///< per degree of freedom: its body
   std::vector<Contact> contacts_;
   std::vector<LinearMap> maps_;  ///< per mode
+  std::vector<Inertia> mapped_;  ///< per degree of freedom: of the maps
   LinearSeries series_;          ///< replaces the maps while uses_series_
   bool has_maps_ = true;
-  bool uses_series_ = false;  ///< no maps, or a share, ghost or extra damping is in effect
+  bool uses_series_ = false;  ///< no maps, or something differs from what they were made of
   int coarsest_level_ = 0;    ///< steps are at most T/2^level, so no contact is missed
 
   // Working memory of a step.

@@ -55,9 +55,14 @@ double computeRestDamping(const CouplerGains& gains, double mass, double decay) 
 LinkHealth::LinkHealth(const LinkLossSettings& settings, double packet_period) noexcept
     : settings_(settings), packet_period_(packet_period) {
   scaleAges(packet_period);
-  if (!settings.enabled || settings.start_live) return;
+  if (settings.enabled && !settings.start_live) await();
+}
+
+void LinkHealth::await() noexcept {
+  heard_.reset();
   state_ = LinkState::kWaiting;
   is_out_ = true;
+  fade_ = 1.0;
   object_ramp_.from = proxy_ramp_.from = object_share_ = proxy_share_ = 0.0;
 }
 

@@ -47,6 +47,10 @@ class LinkHealth {
   /// lost or waiting until now.
   bool hear(double time, bool is_idle) noexcept;
 
+  /// Forgets what was heard: the peer is awaited as at a start without it. Counts stay. With link
+  /// loss enabled.
+  void await() noexcept;
+
   /// True if the peer is live and nothing changes by `time`: update() has nothing to do.
   [[nodiscard]] bool staysLive(double time) const noexcept {
     return state_ == LinkState::kLive && !(heard_ && time - *heard_ >= stale_after_);
