@@ -71,6 +71,40 @@ TEST_P(HandOff, CarriesAFreeBodyExactly) {
 }
 INSTANTIATE_TEST_SUITE_P(HostRates, HandOff, ::testing::Values(60.0, 240.0, 1000.0));
 
+// The host's step goes on with another share of the mass: nothing of it looks like a push.
+TEST(HandOff, AnotherMassShareIsNoChangeByTheHost) {
+  BulletRig rig(Vec3(0, -9.81, 0));
+  btRigidBody& cube = rig.addCube(0.3);
+  HapticBody body(rig.world, cube, 0.5);
+  RigidState falling;
+  const auto fall = [&](double dt) {
+    falling.p_W += dt * falling.v_W + 0.5 * dt * dt * Vec3(0, -9.81, 0);
+    falling.v_W += dt * Vec3(0, -9.81, 0);
+  };
+  int step = 0;
+  test::Listener listener(
+      [&](double dt) {
+        const HostChange change = body.takeHostChanges(dt);
+        EXPECT_LT(change.impulse_W.norm(), byWidth(1e-14, 1e-7)) << step;
+        if (step == 3) body.setMassShare(1.0 / 3.0);
+        if (step == 6) body.setMassShare(1.0);
+        fall(dt);
+        body.handOff(falling, dt);
+      },
+      [&](double) {
+        EXPECT_LT(body.restore().impulse_W.norm(), byWidth(1e-14, 1e-7)) << step;
+        ++step;
+      });
+  const HostWorld attached(rig.world, listener);
+  for (int i = 0; i < 10; ++i) {
+    rig.step(1.0 / 60.0);
+    const double share = i < 3 ? 0.5 : i < 6 ? 1.0 / 3.0 : 1.0;
+    EXPECT_NEAR(body.mass(), 0.3 * share, byWidth(1e-15, 1e-7));
+    EXPECT_NEAR(body.gravityForce().y(), -9.81 * 0.3 * share, byWidth(1e-14, 1e-6));
+    EXPECT_TRUE(body.isAsHeld());
+  }
+}
+
 // Even a step that turns the body further than Bullet can integrate ends at the island's pose.
 TEST(HandOff, ReachesPosesBeyondBulletsLargestTurnPerStep) {
   BulletRig rig;

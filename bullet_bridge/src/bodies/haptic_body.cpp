@@ -81,7 +81,11 @@ void HapticBody::checkAttachable(const btDiscreteDynamicsWorld& world, const btR
 
 HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double mass_share,
                        Sleep sleep)
-    : world_(world), body_(body), sleep_(sleep), world_index_(findInWorld(world, &body)) {
+    : world_(world),
+      body_(body),
+      sleep_(sleep),
+      world_index_(findInWorld(world, &body)),
+      mass_share_(mass_share) {
   checkAttachable(world, body, mass_share);
   original_ = {body.getInvMass(),          body.getInvInertiaDiagLocal(), measureWeight(body),
                body.getLinearDamping(),    body.getAngularDamping(),      body.getActivationState(),
@@ -91,7 +95,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
                                 has_additional_damping_);
   if (sleep_ == Sleep::kNever && mayFallAsleep(original_.activation_state)) wake(body);
-  if (mass_share != 1.0) scaleMass(mass_share);
+  if (mass_share != 1.0) scaleMass();
   inverse_mass_ = body.getInvMass();
   inverse_inertia_ = body.getInvInertiaDiagLocal();
   look_ = BodyLook::at(body);
@@ -158,10 +162,27 @@ double HapticBody::angularDamping() const noexcept {
   return static_cast<double>(original_.angular_damping);
 }
 
-void HapticBody::scaleMass(double share) {
-  const auto factor = static_cast<btScalar>(share);
-  body_.setMassProps(body_.getMass() * factor, body_.getLocalInertia() * factor);
+/// Gives the body its share of the mass that the host has given it.
+void HapticBody::scaleMass() noexcept {
+  const auto factor = static_cast<btScalar>(mass_share_);
+  const auto invert = [](btScalar value) { return value != 0 ? btScalar(1) / value : btScalar(0); };
+  const btVector3& inverse = original_.inverse_inertia;
+  const btVector3 inertia(invert(inverse.x()), invert(inverse.y()), invert(inverse.z()));
+  body_.setMassProps(invert(original_.inverse_mass) * factor, inertia * factor);
   body_.updateInertiaTensor();
+}
+
+void HapticBody::setMassShare(double share) noexcept {
+  if (!isInWorld() || !isAsHeld()) return;  // changed by the host: it is about to be held anew
+  mass_share_ = share;
+  const btVector3 weight_before = measureWeight(body_);
+  scaleMass();
+  body_.setGravity(body_.getGravity());
+  inverse_mass_ = look_.inverse_mass = body_.getInvMass();
+  inverse_inertia_ = look_.inverse_inertia = body_.getInvInertiaDiagLocal();
+  weight_ = measureWeight(body_);
+  // Bullet has applied the weight of this step.
+  if (!isAsleep()) body_.applyCentralForce(weight_ - weight_before);
 }
 
 bool HapticBody::isInWorld() const noexcept {

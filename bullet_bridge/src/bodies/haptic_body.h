@@ -54,6 +54,10 @@ class HapticBody final : public HostBody {
   void noteDeletion() noexcept { is_gone_ = true; }
   [[nodiscard]] bool isInWorld() const noexcept override;
   [[nodiscard]] double mass() const noexcept;  ///< of this copy [kg]
+  [[nodiscard]] double massShare() const noexcept { return mass_share_; }
+  /// Pre-tick, after takeHostChanges(), of a body that is not parked: it is another part of the
+  /// host's mass from now on, in (0, 1]. Its velocities stay.
+  void setMassShare(double share) noexcept;
   /// Principal moments of this copy, in B [kg m^2]; 0 about an axis that Bullet keeps fixed.
   [[nodiscard]] Vec3 inertia() const noexcept;
   /// Bullet's factors of accelerations along and about the axes of W; 0 where the host's is no
@@ -181,7 +185,7 @@ class HapticBody final : public HostBody {
     bool asleep = false;  // Bullet received no velocity
   };
 
-  void scaleMass(double share);
+  void scaleMass() noexcept;
   void readShift(HostChange& change) const noexcept;
   void restoreMassProps();
   [[nodiscard]] bool hasWeightOfItsWorld() const noexcept;
@@ -206,6 +210,7 @@ class HapticBody final : public HostBody {
   bool slept_ = false;        // at the last pre-tick
   bool stays_awake_ = false;  // parked: it was DISABLE_DEACTIVATION
   RigidState rest_;           // pose at which it fell asleep
+  double mass_share_;
   btScalar inverse_mass_;
   btVector3 weight_{0, 0, 0};  ///< by our computation, at the start [N]
   btVector3 inverse_inertia_;  // with the mass share
