@@ -37,8 +37,11 @@ class FakeLink final : public Link {
     return arrival;
   }
 
+  [[nodiscard]] bool hasLeft() const noexcept override { return has_left; }
+
   std::deque<Arrival> arrivals;
   std::vector<StatePacket> sent;
+  bool has_left = false;
 };
 
 /// A sane packet of a user at rest at `p_W`.

@@ -21,6 +21,7 @@ struct LinkQueue::Impl {
   SpscRing<Departure> departures{kRoom};
   SpscRing<Arrival> arrivals{kRoom};
   std::atomic<std::uint64_t> lost{0};
+  std::atomic<bool> has_left{false};
 
   void count(bool found_room) noexcept {
     if (!found_room) lost.fetch_add(1, std::memory_order_relaxed);
@@ -50,7 +51,10 @@ void LinkQueue::exchange(Link& link, double now, double until) noexcept {
   }
   while (const auto arrival = link.receive(now, until))
     impl_->count(impl_->arrivals.push(*arrival));
+  impl_->has_left.store(link.hasLeft(), std::memory_order_relaxed);
 }
+
+bool LinkQueue::hasLeft() const noexcept { return impl_->has_left.load(std::memory_order_relaxed); }
 
 std::uint64_t LinkQueue::lost() const noexcept {
   return impl_->lost.load(std::memory_order_relaxed);

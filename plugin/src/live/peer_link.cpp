@@ -92,4 +92,8 @@ std::optional<Arrival> PeerLink::receive(double from, double until) noexcept {
   return queue_.receive(from, until);
 }
 
+bool PeerLink::hasLeft() const noexcept {
+  return has_haptic_thread_ ? queue_.hasLeft() : bridge_.hasLeft();
+}
+
 }  // namespace tandem

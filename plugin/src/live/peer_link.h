@@ -58,6 +58,7 @@ class TimeBridge final : public Link {
   void send(const StatePacket& packet, double now) noexcept override;
   /// The first time after setClock() tells the site's time, too.
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override;
+  [[nodiscard]] bool hasLeft() const noexcept override { return way_.hasLeft(); }
 
  private:
   void sendNumbered(StatePacket packet, double stamp) noexcept;
@@ -94,6 +95,7 @@ class PeerLink final : public Link {
   // Link, by the thread that ticks the site. Real-time safe.
   void send(const StatePacket& packet, double now) noexcept override;
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override;
+  [[nodiscard]] bool hasLeft() const noexcept override;
 
  private:
   TimeBridge bridge_;

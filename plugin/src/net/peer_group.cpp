@@ -58,6 +58,7 @@ class PeerGroup::PeerLink final : public Link {
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override {
     return session_.pop(from, until);
   }
+  [[nodiscard]] bool hasLeft() const noexcept override { return session_.hasLeft(); }
 
  private:
   PeerSession& session_;

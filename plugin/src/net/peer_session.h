@@ -75,6 +75,8 @@ class PeerSession {
   /// Sends farewell ten times, every 10 ms.
   void leave(ByeReason reason, double now) noexcept;
 
+  /// True from the peer's farewell until its next keys.
+  [[nodiscard]] bool hasLeft() const noexcept { return left_.has_value(); }
   [[nodiscard]] PeerStatus status(double now) const;
   /// True for the peer's configured address and the one last heard from.
   [[nodiscard]] bool knows(const Address& address) const noexcept { return paths_.knows(address); }

@@ -58,6 +58,7 @@ class WatchedLink final : public Link {
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override {
     return link_.receive(from, until);
   }
+  [[nodiscard]] bool hasLeft() const noexcept override { return link_.hasLeft(); }
 
  private:
   Link& link_;

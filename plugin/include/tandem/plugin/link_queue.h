@@ -19,6 +19,8 @@ class LinkQueue final : public Link {
   /// For the haptic thread. Packets that find the queue full are lost, as on a network.
   void send(const StatePacket& packet, double now) noexcept override;
   [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override;
+  /// As of the last exchange().
+  [[nodiscard]] bool hasLeft() const noexcept override;
 
   /// For the network thread. Sends the queued packets over `link` and fetches those that arrive
   /// before `until`, both in the site's time [s]. Call it twice a period with `until` two periods
