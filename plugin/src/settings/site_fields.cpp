@@ -122,6 +122,11 @@ std::vector<SiteField> makeFields() {
       field<&S::link_loss, &LinkLossSettings::enabled>(
           "link_loss.enabled", "",
           "a silent peer's gains fade; false: its last state pulls for ever", kFlag, kShared),
+      field<&S::membership, &MembershipSettings::follows>(
+          "membership.follows", "", "N follows who is there; 0: it is fixed", kFlag, kShared),
+      field<&S::membership, &MembershipSettings::leave_after>(
+          "membership.leave_after", "s", "silence after which a peer no longer counts", kPositive,
+          kShared),
       field<&S::passivity, &PassivitySettings::enabled>(
           "passivity.enabled", "",
           "the hand gets no more energy than others and itself put in, and the tank", kFlag, kOwn),

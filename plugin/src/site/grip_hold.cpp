@@ -196,7 +196,7 @@ void GripHold::lift(const SharedObject& object, double period, double sites,
   const double change = period / settings_->grip.lift_time * pull;
   // Copies at other sites may hang on this one, with the weight of the whole object.
   if (!is_limited || change < 0.0)
-    lift_ = std::clamp(lift_ + change, 0.0, settings_->peers * weight);
+    lift_ = std::clamp(lift_ + change, 0.0, weight / object.mass_share);
   hold_.lift_W = sites * lift_ * up_W;
   hold_.load_W = (1.0 - sites) * lift_ * up_W;
 }

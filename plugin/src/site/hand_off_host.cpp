@@ -121,17 +121,25 @@ void HandOffStep::giveBack() {
   site_.objects.giveBack();
 }
 
+/// False if another number of sites shares the body's mass now.
+bool HandOffStep::hasItsShare(const SiteBody& body) noexcept {
+  const HapticBody* rigid = body.bullet->asRigid();
+  return !rigid || rigid->massShare() == body.step.mass_share;
+}
+
 /// Reads how the host changed its bodies for its coming step.
 void HandOffStep::lookAtBodies(double dt) noexcept {
   site_.surroundings.lookAtArms(dt);
   site_.bodies.forEachPresent([&](SiteBody& body) {
     HostBody& bullet = *body.bullet;
+    const bool has_share = hasItsShare(body);
     if (bullet.isParked()) {
-      if (bullet.isUndisturbed() && !bullet.hasMissedWorldGravity()) return;
+      if (has_share && bullet.isUndisturbed() && !bullet.hasMissedWorldGravity()) return;
       site_.rest.unpark(body);
     }
     body.step.is_told = true;
     body.step.change = bullet.takeHostChanges(dt);
+    if (!has_share) bullet.asRigid()->setMassShare(body.step.mass_share);
     body.step.f_gravity_W = bullet.gravityForce();
   });
   site_.surroundings.lookAtDamping();
@@ -229,7 +237,8 @@ void HandOffStep::lookFarther() {
 /// Called at the end of a complete host step: the next one is quiet if all bodies sleep.
 void HandOffStep::fallQuiet() {
   bool all_parked = true;
-  site_.bodies.forEachPresent([&](const SiteBody& body) { all_parked &= body.bullet->isParked(); });
+  site_.bodies.forEachPresent(
+      [&](const SiteBody& body) { all_parked &= body.bullet->isParked() && hasItsShare(body); });
   if (!all_parked || site_.objects.hasLeft()) return;
   // A kinematic body may start to move at any step, and that wakes nothing.
   if (site_.surroundings.isAnythingDriven()) return;

@@ -37,6 +37,7 @@ void HandOffStep::makeUp(double now, double most) noexcept {
     const double start = timeline.time();
     timeline.startTick(start);
     site_.peers.takeInUntil(start, start);
+    site_.peers.followMembers(start);
     site_.peers.followLinks(start, timeline.period(), *this);
     site_.grips.follow(start, timeline.period());
     timeline.keepStart();
@@ -108,6 +109,7 @@ void HandOffStep::passHostChanges(double dt) noexcept {
     if (body.step.is_told && body.step.change.moved) moveBody(body, body.step.change);
   });
   site_.forces.pass(dt, site_.ticksInHostStep());
+  takeMasses();
   site_.surroundings.followDamping();
   const PayWindow window = site_.forces.findWindow(dt, site_.ticksInHostStep());
   if (site_.surroundings.joints().refresh(window)) site_.island.wake();
@@ -147,7 +149,32 @@ void HandOffStep::findEnds() noexcept {
     object.body.step.is_put = true;
     object.body.step.put = site_.peers.findPlace(object);
   }
+  findShares();
   site_.press.findContacts(step_end_);
+}
+
+/// Tells the host's thread which parts of masses its bodies have from its next step on.
+void HandOffStep::findShares() noexcept {
+  if (!site_.settings.membership.follows) return;
+  for (SharedObject& object : site_.bodies.objects)
+    object.body.step.mass_share = site_.peers.findMassShare(object.tool_of);
+  for (Peer& peer : site_.peers) peer.proxy.body.step.mass_share = site_.peers.standIn().share;
+}
+
+/// Follows with the island. Velocities stay, so the copies together keep their momentum.
+void HandOffStep::takeMasses() noexcept {
+  for (SharedObject& object : site_.bodies.objects) {
+    if (!object.body.is_held || !object.body.bullet) continue;
+    if (object.bullet->massShare() == object.mass_share) continue;
+    const IslandBody& body = site_.island.body(object.body.index);
+    const RigidState& state = site_.island.state(object.body.index);
+    site_.hand.energy().countNeighbour(body, state, -1.0);
+    object.mass_share = object.bullet->massShare();
+    readBody(*object.bullet, object.settings);
+    site_.island.setMass(object.body.index, object.settings.mass, object.settings.inertia_B,
+                         body.damping);
+    site_.hand.energy().countNeighbour(body, state, 1.0);
+  }
 }
 
 /// The way out: the island takes solver impulses, neighbours and obstacles.

@@ -40,6 +40,7 @@ class HandOffStep final : public IslandStep {
   bool findChanges() noexcept;
   void renewObjects(double dt);
   void giveBack();
+  [[nodiscard]] static bool hasItsShare(const SiteBody& body) noexcept;
   void lookAtBodies(double dt) noexcept;
   void lookAroundTeleports();
   void handOff(double dt) noexcept;
@@ -54,6 +55,8 @@ class HandOffStep final : public IslandStep {
   void passHostChanges(double dt) noexcept;
   void moveBody(SiteBody& body, const HostChange& change) noexcept;
   void findEnds() noexcept;
+  void findShares() noexcept;
+  void takeMasses() noexcept;
   void goOut(double dt) noexcept;
   void receive(SiteBody& body, double dt) noexcept;
   void takePuts() noexcept;

@@ -32,7 +32,7 @@ void Interest::setSize(std::size_t objects, std::size_t peers) {
   for (Audience& audience : audiences_) audience.told.setCount(objects);
   const std::size_t places = std::min<std::size_t>(objects, kMaxObjectsPerPacket);
   is_bound_ = budget_.binds(static_cast<double>(peers) * settings_.packet_rate *
-                            computeDatagramBytes(places, true));
+                            computeDatagramBytes(places, true, settings_.membership.follows));
   is_choosing_ = is_bound_ || objects > kMaxObjectsPerPacket;
 }
 
@@ -107,7 +107,8 @@ PacketRoom Interest::computeRoom(const Peer& peer, std::size_t sharers) const no
   room.next *= static_cast<double>(isTurnOf(peer, 2 * stride_) ? 2 * stride_ : stride_);
   constexpr double kObject = computeDatagramBytes(1, false) - computeDatagramBytes(0, false);
   const double part = isTurnOf(peer, stride_) ? budget_.left() / static_cast<double>(sharers) : 0.0;
-  const double places = (part - computeDatagramBytes(0, has_grip_)) / kObject;
+  const double places =
+      (part - computeDatagramBytes(0, has_grip_, settings_.membership.follows)) / kObject;
   room.places =
       static_cast<std::size_t>(std::clamp<double>(places, kLeastPlaces, kMaxObjectsPerPacket));
   return room;
@@ -117,7 +118,8 @@ const std::vector<std::size_t>& Interest::choose(const Peer& peer, std::size_t s
                                                  double time) noexcept {
   Audience& audience = audiences_[static_cast<std::size_t>(peer.place)];
   const auto& chosen = audience.told.choose(motions_, computeRoom(peer, sharers), time);
-  if (is_bound_) budget_.spend(computeDatagramBytes(chosen.size(), has_grip_));
+  if (is_bound_)
+    budget_.spend(computeDatagramBytes(chosen.size(), has_grip_, settings_.membership.follows));
   if (isFar(peer) && audience.notices > 0) --audience.notices;
   return chosen;
 }

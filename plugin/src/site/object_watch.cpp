@@ -152,6 +152,7 @@ bool ObjectWatch::hold(SharedObject& object) {
   if (!shape) return false;
   object.hold(world_, *shape);
   object.body.step = {};
+  object.body.step.mass_share = object.mass_share;
   object.body.load = {};
   object.body.load.makeRoom();
   object.body.step.f_gravity_W = object.bullet->gravityForce();

@@ -28,6 +28,7 @@ struct SharedObject {
   ObjectEpoch epoch;        ///< of our copy; for the thread that ticks
   ObjectEpoch said;         ///< what peers are told: `epoch`, once our copy has followed
   bool awaits_put = false;  ///< the next host step puts it where peer `leader` has it
+  bool joins = false;       ///< it goes there with the leader's next state
   int leader = 0;           ///< peer that began `epoch`, or told us
 
   // While the island does not hold it: ObjectWatch.
@@ -48,6 +49,7 @@ struct SharedObject {
   void hold(btDiscreteDynamicsWorld& world, const Shape& shape) {
     bullet = std::make_unique<HapticBody>(world, *rigid, mass_share);
     body.bullet = bullet.get();
+    body.step.mass_share = mass_share;
     bounding_radius = computeBoundingRadius(shape);
     settings.shape = shape;
     settings.damping = damping;

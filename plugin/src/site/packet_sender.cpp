@@ -101,6 +101,7 @@ void PacketSender::send(double time, bool to_all) noexcept {
   packet.time = time;
   packet.user = sent_user_ = limitUser(peers_.frame().toSession(user_W));
   packet.grip = grips_.state(time);
+  packet.roll = peers_.tellRoll(time);
   peers_.sayEpochs();
   interest_.look(user_W, packet.grip, packets_due_, time);
   due_.clear();

@@ -42,9 +42,11 @@ struct Peer {
   Proxy proxy;
   std::vector<Tie> ties;            ///< by object
   std::uint64_t packets_heard = 0;  ///< in any order
+  std::uint64_t counted_at = 0;     ///< `packets_heard` when `is_counted` changed
   std::size_t next_checked = 0;     ///< tie that is asked next whether its object is still sent
 
   // Its link, and the effects of silence.
+  bool is_counted = true;  ///< it and this site count each other: Membership
   LinkHealth health{LinkLossSettings{}, 1.0};
   LinkState acted_on = LinkState::kLive;     ///< state of `health` that was last applied
   std::optional<std::uint64_t> rejoined_by;  ///< packet that ended its last silence
@@ -53,13 +55,13 @@ struct Peer {
   Vec3 searched_W = Vec3::Zero();            ///< where obstacles near the proxy were last searched
 
   /// False for an object that the peer has not sent since the peer or the object came back, or
-  /// since our copy was put elsewhere.
+  /// since our copy was put elsewhere, and while the peer does not take part.
   [[nodiscard]] bool isRenewed(const Tie& tie, const SharedObject& ours) const noexcept {
     const auto is_since = [&](const std::optional<std::uint64_t>& packet) {
       return !packet || (tie.sequence && *tie.sequence >= *packet);
     };
-    return is_since(rejoined_by) && is_since(tie.awaited) && tie.epoch == ours.epoch &&
-           !ours.awaits_put;
+    return is_counted && is_since(rejoined_by) && is_since(tie.awaited) &&
+           tie.epoch == ours.epoch && !ours.awaits_put;
   }
 };
 

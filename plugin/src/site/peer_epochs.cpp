@@ -61,7 +61,7 @@ void Peers::finishPut(SharedObject& object) noexcept {
     peer.is_detouring |= !tie.detour.isOver();
     peer.is_restrained = true;  // so that ticks lead its targets
     island_.setTarget(tie.coupler, tie.computeTarget());
-    island_.setCouplerShare(tie.coupler, peer.health.objectShare());
+    island_.setCouplerShare(tie.coupler, tieShare(peer));
   }
 }
 

@@ -109,7 +109,7 @@ void Peers::followDetours(Peer& peer, double period) noexcept {
 }
 
 void Peers::restrainTies(const Peer& peer) noexcept {
-  const double share = peer.health.objectShare();
+  const double share = tieShare(peer);
   for (std::size_t i = 0; i < peer.ties.size(); ++i) {
     const Tie& tie = peer.ties[i];
     const bool acts = peer.isRenewed(tie, bodies_.objects[i]);
@@ -131,11 +131,12 @@ void Peers::restrainProxy(Peer& peer, HostStep& host_step) noexcept {
     }
     host_step.showProxy(peer);
   }
-  island_.setContactShare(body, health.proxyShare());
+  const double share = health.proxyShare() * shares_.stand_in / base_.stand_in;
+  island_.setContactShare(body, share);
   if (!peer.user.coupler) return;
   const double rest_damping = computeRestDamping(stand_in_.coordination, stand_in_.proxy.mass,
                                                  settings_.link_loss.hold_decay);
-  island_.setCouplerShare(*peer.user.coupler, health.proxyShare());
+  island_.setCouplerShare(*peer.user.coupler, share);
   island_.setExtraDamping(body, is_out ? 0.0 : health.silence() * rest_damping);
 }
 

@@ -22,7 +22,10 @@ Peers::Peers(const SiteSettings& settings, Island& island, Bodies& bodies, Energ
              SiteLog& log)
     : settings_(settings),
       scheme_(settings.scheme ? *settings.scheme : findScheme("remote_dynamic_proxy")),
-      shares_(computeShares(settings.coordination_mode, settings.peers)),
+      membership_(settings.self, settings.membership),
+      base_(computeShares(settings.coordination_mode, countSites())),
+      ramp_(base_, settings.link_loss.ramp_in),
+      shares_(base_),
       stand_in_(makeStandIn(settings.proxy, settings.coordination, shares_.stand_in)),
       island_(island),
       bodies_(bodies),
@@ -35,6 +38,8 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
   peer.place = count();
   peer.link = &link;
   peer.health = LinkHealth(settings_.link_loss, 1.0 / settings_.packet_rate);
+  peer.is_counted = !membership_.follows();
+  if (!peer.is_counted) peer.health.await();
   peer.acted_on = peer.health.state();
   peer.track.jump({start_W, Vec3::Zero()});
   peer.searched_W = start_W;
@@ -45,7 +50,7 @@ Peer Peers::make(PeerId id, Link& link, const Vec3& start_W) {
 }
 
 double Peers::findMassShare(const std::optional<PeerId>& tool_of) const noexcept {
-  if (!tool_of) return 1.0 / settings_.peers;
+  if (!tool_of) return 1.0 / countSites();
   return *tool_of == settings_.self ? 1.0 : stand_in_.share;
 }
 
@@ -55,7 +60,7 @@ CouplerSettings Peers::makeCoupler(const SharedObject& object) const noexcept {
   const double radius_squared = object.settings.inertia_B.maxCoeff() / object.settings.mass;
   const CouplerGains angular =
       settings_.angular_coordination.value_or(computeShare(linear, radius_squared));
-  return {computeShare(linear, shares_.object), computeShare(angular, shares_.object)};
+  return {computeShare(linear, base_.object), computeShare(angular, base_.object)};
 }
 
 double Peers::nextArrival(double now, double until) noexcept {
@@ -125,6 +130,8 @@ void Peers::beginAnew(Peer& peer, const StatePacket& packet) noexcept {
 
 /// Applies a user state that is newer than all before.
 void Peers::hear(Peer& peer, const StatePacket& packet, double time) noexcept {
+  if (!peer.link->hasLeft()) membership_.hear(peer.id, packet.roll, time);
+  if (!peer.is_counted) return;
   LinkHealth& health = peer.health;
   const PointState user{packet.user.p_W, shortenTo(packet.user.v_W, settings_.max_peer_speed)};
   const bool jumped =
@@ -173,7 +180,7 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
     if (tie.sequence && packet.sequence <= *tie.sequence) continue;
     SharedObject& object = bodies_.objects[copy.id];
     const bool was_renewed = peer.isRenewed(tie, object) && !isFoundElsewhere(tie, object, copy);
-    const bool is_reset = isNewer(copy.epoch, object.epoch);
+    const bool is_reset = peer.is_counted && isNewer(copy.epoch, object.epoch);
     if (is_reset) adopt(object, copy, peer.place);
     tie.epoch = copy.epoch;
     tie.sequence = packet.sequence;
@@ -185,7 +192,7 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
       if (was_renewed) island_.setCouplerShare(tie.coupler, 0.0);
     } else if (!was_renewed || is_reset) {
       tie.detour.start(island_.state(object.body.index), copy.state);
-      island_.setCouplerShare(tie.coupler, peer.health.objectShare());
+      island_.setCouplerShare(tie.coupler, tieShare(peer));
       peer.is_restrained = true;  // so that ticks lead its targets
     } else if (jumped) {
       noteJump(peer);
@@ -200,12 +207,17 @@ bool Peers::hearObjects(Peer& peer, const StatePacket& packet, double time) noex
   return has_news;
 }
 
+/// An object that is missing in so many packets is one that the peer does not send.
+std::size_t Peers::findPatience(const Peer& peer) const noexcept {
+  const std::size_t count = peer.ties.size();
+  return count > kMaxObjectsPerPacket ? kRoundsMissed * count : kPacketsMissed;
+}
+
 /// Lets go of objects that the peer no longer sends: it has none, or no state that can be sent. If
 /// they do not fit into one packet, each waits for its turn. Looks at some of them per packet.
 void Peers::letGoOfMissing(Peer& peer) noexcept {
   const std::size_t count = peer.ties.size();
-  const std::size_t patience =
-      count > kMaxObjectsPerPacket ? kRoundsMissed * count : kPacketsMissed;
+  const std::size_t patience = findPatience(peer);
   for (std::size_t i = 0; i < std::min<std::size_t>(count, kMaxObjectsPerPacket); ++i) {
     peer.next_checked = (peer.next_checked + 1) % count;
     Tie& tie = peer.ties[peer.next_checked];

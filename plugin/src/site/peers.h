@@ -6,8 +6,10 @@
 
 #include "coordination/src/schemes/coordination_shares.h"
 #include "site/bodies.h"
+#include "site/membership.h"
 #include "site/peer.h"
 #include "site/session_frame.h"
+#include "site/shares_ramp.h"
 #include "site/site_log.h"
 
 namespace tandem {
@@ -33,6 +35,14 @@ class Peers {
 
   /// The stand-in of each remote user.
   [[nodiscard]] const StandInSettings& standIn() const noexcept { return stand_in_; }
+  /// N, the number of sites that share the objects.
+  [[nodiscard]] int countSites() const noexcept {
+    return membership_.follows() ? membership_.count() : settings_.peers;
+  }
+  /// Who takes part, for the peers; empty if that is fixed.
+  [[nodiscard]] std::optional<RollCall> tellRoll(double now) const noexcept {
+    return membership_.tell(now);
+  }
   /// Part of a body's mass that our copy of an object, or of a tool of this user, has.
   [[nodiscard]] double findMassShare(const std::optional<PeerId>& tool_of) const noexcept;
 
@@ -67,6 +77,8 @@ class Peers {
   /// before a packet is made.
   void sayEpochs() noexcept;
 
+  /// Called once a tick, before followLinks(): counts peers that came, and those that left no more.
+  void followMembers(double now) noexcept;
   /// Called once a tick. `host_step` shows changes of a proxy in Bullet.
   void followLinks(double now, double period, HostStep& host_step) noexcept;
 
@@ -87,6 +99,10 @@ class Peers {
   [[nodiscard]] bool keepAccounts() const noexcept { return keep_accounts_; }
 
  private:
+  /// Of the gains with which ties to a peer's copies were made.
+  [[nodiscard]] double tieShare(const Peer& peer) const noexcept {
+    return peer.health.objectShare() * shares_.object / base_.object;
+  }
   [[nodiscard]] CouplerSettings makeCoupler(const SharedObject& object) const noexcept;
   void takeIn(Peer& peer, Arrival& arrival, double time) noexcept;
   void beginAnew(Peer& peer, const StatePacket& packet) noexcept;
@@ -96,6 +112,7 @@ class Peers {
                                       const ObjectState& copy) const noexcept;
   void noteJump(Peer& peer) noexcept;
   bool hearObjects(Peer& peer, const StatePacket& packet, double time) noexcept;
+  [[nodiscard]] std::size_t findPatience(const Peer& peer) const noexcept;
   void letGoOfMissing(Peer& peer) noexcept;
   void awaitNews(const Peer& peer, Tie& tie) noexcept;
 
@@ -104,6 +121,17 @@ class Peers {
   void adopt(SharedObject& object, const ObjectState& copy, int leader) noexcept;
   [[nodiscard]] bool mayPut(const SharedObject& object) const noexcept;
   [[nodiscard]] bool isLed(const SharedObject& object) const noexcept;
+
+  // peer_members.cpp
+  void beginSharing(double now) noexcept;
+  void moveShares(double now) noexcept;
+  void applyStandIn(const Peer& peer) noexcept;
+  void count(Peer& peer) noexcept;
+  void followJoin() noexcept;
+  void join(SharedObject& object, const Peer& leader) noexcept;
+  [[nodiscard]] bool mayYetTell(const Peer& leader) const noexcept;
+  [[nodiscard]] bool mustJoin(const SharedObject& object, const Peer& leader) const noexcept;
+  [[nodiscard]] Peer* find(PeerId id) noexcept;
 
   // peer_restraint.cpp
   void followLink(Peer& peer, double now, double period, HostStep& host_step) noexcept;
@@ -119,8 +147,11 @@ class Peers {
 
   const SiteSettings& settings_;
   const Scheme& scheme_;
-  const CoordinationShares shares_;
-  const StandInSettings stand_in_;
+  Membership membership_;
+  const CoordinationShares base_;  ///< of which couplers and stand-ins were made
+  SharesRamp ramp_;                ///< to the shares of the present N
+  CoordinationShares shares_;      ///< now
+  StandInSettings stand_in_;       ///< now
   Island& island_;
   Bodies& bodies_;
   EnergyPort& energy_;

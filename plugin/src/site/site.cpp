@@ -64,6 +64,7 @@ btRigidBody& Site::objectBody(ObjectId id) const noexcept {
 int Site::neighbourCount() const noexcept { return impl_->surroundings.neighbourCount(); }
 
 int Site::remoteCount() const noexcept { return impl_->peers.count(); }
+int Site::memberCount() const noexcept { return impl_->peers.countSites(); }
 const RigidState* Site::proxy(int remote) const noexcept {
   const Peer& peer = impl_->peers[remote];
   return peer.user.body ? &impl_->island.state(*peer.user.body) : nullptr;

@@ -53,7 +53,8 @@ struct HandOver {
   bool is_ghost = false;      ///< collides with nothing
   bool is_put = false;        ///< a peer's reset puts it to `put` at the end of the step
   RigidState put;
-  bool may_park = false;  ///< the host's forces are settled
+  bool may_park = false;    ///< the host's forces are settled
+  double mass_share = 1.0;  ///< part of the body's mass that is ours from now on
   // Read by the host's thread on the way out.
   bool stands = false;          ///< it is where it was a step ago
   bool was_parked = false;      ///< parked when Bullet's step ended

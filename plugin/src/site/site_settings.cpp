@@ -25,6 +25,15 @@ void checkNative(const SiteSettings& s) {
         "linear factors do");
 }
 
+/// Only the island can change masses and fade peers while it runs.
+void checkMembership(const SiteSettings& s) {
+  if (s.contact_model != ContactModel::kIsland || s.injection != Injection::kHandoff ||
+      !s.link_loss.enabled)
+    throw std::invalid_argument(
+        "membership.follows = 1: needs contact_model = island, injection = handoff and "
+        "link_loss.enabled = 1; or set it to 0, and `peers` to the number of sites");
+}
+
 }  // namespace
 
 void checkSiteSettings(const SiteSettings& s) {
@@ -43,6 +52,7 @@ void checkSiteSettings(const SiteSettings& s) {
   if (s.guide)
     require(std::abs(s.guide->norm() - 1.0) < 1e-9, "norm of guide", s.guide->norm(), "1");
   if (s.contact_model != ContactModel::kIsland) checkNative(s);
+  if (s.membership.follows) checkMembership(s);
 }
 
 }  // namespace tandem

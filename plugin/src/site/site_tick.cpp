@@ -16,6 +16,7 @@ std::uint32_t Site::Impl::tick(double now, double most_made_up) noexcept {
 
   // Packets.
   peers.takeInUntil(now, now);
+  peers.followMembers(now);
   peers.followLinks(now, timeline.period(), *host_step);
   grips.follow(now, timeline.period());
 

@@ -65,6 +65,7 @@ struct SiteCounters {
   std::uint64_t objects_reset = 0;       ///< times that the host put a shared object elsewhere
   std::uint64_t peers_restarted = 0;     ///< times that a peer counted its packets from 0 again
   std::uint64_t resets_followed = 0;     ///< times that a peer's host did so
+  std::uint64_t members_changed = 0;     ///< times that N changed: SiteSettings::membership
   std::uint64_t grips_broken = 0;        ///< times that the local hand's grip was pulled too hard
 };
 
@@ -259,6 +260,8 @@ class Site {
   /// Peers follow it there, but do not move it. For the thread that steps the world.
   [[nodiscard]] bool isHeld(ObjectId id) const noexcept;
   [[nodiscard]] int remoteCount() const noexcept;
+  /// N at the latest tick: sites that share the objects, this one too. SiteSettings::membership.
+  [[nodiscard]] int memberCount() const noexcept;
   /// Null if the scheme has no body for a remote user.
   [[nodiscard]] const RigidState* proxy(int remote) const noexcept;
   [[nodiscard]] btRigidBody* proxyBody(int remote) const noexcept;

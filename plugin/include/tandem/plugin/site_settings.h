@@ -60,10 +60,18 @@ struct ToolSettings {
   double max_force = 40.0;     ///< [N]; times r: limit of the torque [N m]
 };
 
+/// How the number N of sites follows who is there.
+struct MembershipSettings {
+  /// N counts the sites that all of them hear; each begins alone. False: N is SiteSettings::peers,
+  /// also while somebody is silent. Needs the island, hand-off and LinkLossSettings::enabled.
+  bool follows = false;
+  double leave_after = 30.0;  ///< silence after which a peer that said no farewell has left [s]
+};
+
 /// Settings of a site. Site's constructor checks them.
 struct SiteSettings {
   PeerId self{1};
-  int peers = 2;                ///< N: a shared object has N copies of mass m/N
+  int peers = 2;                ///< N: a shared object has N copies of mass m/N; see `membership`
   double haptic_rate = 1000.0;  ///< device loop [Hz]; higher renders stiffer contact
   double packet_rate = 128.0;   ///< states sent per second [Hz], at most the haptic rate
   /// Sent to all peers together, with IP headers and as `float32` [bit/s]; 0: no limit. If it is
@@ -103,6 +111,7 @@ struct SiteSettings {
   /// Reaction to a silent remote peer. With a native contact model gains change once per host step.
   /// Rigid contact has no gain; it ends when the proxy is lost.
   LinkLossSettings link_loss;
+  MembershipSettings membership;
   /// Limit of the energy that the hand gets from the connection. Needs hand-off and an account at
   /// all sites.
   PassivitySettings passivity;
