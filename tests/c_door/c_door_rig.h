@@ -112,7 +112,9 @@ struct LoneDoorProxy : DoorSite {
 struct FreeDoorCube : DoorSite {
   TandemBody cube = TANDEM_NO_BODY;
 
-  explicit FreeDoorCube(TandemWorld* in, double mass = 0.2) : DoorSite(in, makeSettings()) {
+  explicit FreeDoorCube(TandemWorld* in, double mass = 0.2,
+                        const TandemSiteSettings& settings = makeSettings())
+      : DoorSite(in, settings) {
     TandemBodySettings body = tandem_default_body_settings();
     body.mass = mass;
     ok(tandem_world_add_body(world, &body, &cube));

@@ -15,7 +15,8 @@ constexpr double kWeight = 9.81;  // [N/kg]
 
 /// A hand that lifts a cube of 0.2 kg off nothing: it falls unless it is held.
 struct HeldCube : FreeDoorCube {
-  HeldCube() : FreeDoorCube(makeWorld()) {
+  explicit HeldCube(const TandemSiteSettings& settings = makeSettings())
+      : FreeDoorCube(makeWorld(), 0.2, settings) {
     const double gravity[3] = {0.0, 0.0, -kWeight};
     ok(tandem_world_set_gravity(world, gravity));
     hold(Vec3(0.0, 0.0, 0.03));
@@ -70,6 +71,29 @@ TEST(DoorGrip, IsRefusedWithTheReason) {
   EXPECT_EQ(tandem_site_grab(cube.site, 0, nullptr), TANDEM_CANNOT);
   EXPECT_EQ(tandem_site_grab(nullptr, 0, nullptr), TANDEM_INVALID_ARGUMENT);
   EXPECT_EQ(tandem_site_release(nullptr), TANDEM_INVALID_ARGUMENT);
+}
+
+// Sites that follow who is there tell each other, by the caller's packets too.
+TEST(DoorRoll, GoesWithPackets) {
+  TandemSiteSettings settings = HeldCube::makeSettings();
+  settings.membership_follows = 1;
+  HeldCube cube(settings);
+  ok(tandem_site_connect(cube.site, 2, cube.link, kFarAway, nullptr));
+  cube.steps(2, Vec3(0.0, 0.0, 0.03));
+  TandemPacket packet{};
+  int there = 0;
+  ok(tandem_link_pop(cube.link, &packet, &there));
+  ASSERT_TRUE(there);
+  EXPECT_EQ(packet.roll_heard, 1u);
+  EXPECT_EQ(packet.roll_members, 1u);
+  packet.sender = 2;
+  packet.roll_heard = 3;
+  packet.roll_members = 2;
+  ok(tandem_link_push(cube.link, &packet));
+  cube.steps(4, Vec3(0.0, 0.0, 0.03));
+  do ok(tandem_link_pop(cube.link, &packet, &there));
+  while (there);
+  EXPECT_EQ(packet.roll_members, 3u);
 }
 
 // What one site's packet tells of a grip, another site takes in.

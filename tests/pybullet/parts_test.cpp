@@ -86,6 +86,21 @@ TEST(PacketDoubles, GiveThePacketBack) {
   EXPECT_EQ(back.object_epoch_authors[7], 7U);
 }
 
+TEST(PacketDoubles, GiveARollBack) {
+  for (const int has_grip : {0, 1}) {
+    TandemPacket packet{};
+    packet.has_grip = has_grip;
+    packet.roll_heard = 0x8000000100000003U;
+    packet.roll_members = 1U;
+    packet.roll_age = 0.25;
+    const TandemPacket back = toPacket(toDoubles(packet));
+    EXPECT_EQ(back.has_grip, has_grip);
+    EXPECT_EQ(back.roll_heard, packet.roll_heard);
+    EXPECT_EQ(back.roll_members, packet.roll_members);
+    EXPECT_EQ(back.roll_age, 0.25);
+  }
+}
+
 TEST(PacketDoubles, RefuseWhatIsNone) {
   const std::vector<double> good = toDoubles(TandemPacket{});
   for (const auto& [at, value] : {std::pair{0, -1.0},

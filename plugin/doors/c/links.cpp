@@ -64,6 +64,8 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
     grip.q_BG = Quat(q[3], q[0], q[1], q[2]);
     grip.age = packet.grip_age;
   }
+  if (packet.roll_heard != 0)
+    read.roll = RollCall{SiteSet(packet.roll_heard), SiteSet(packet.roll_members), packet.roll_age};
   return read;
 }
 
@@ -83,6 +85,11 @@ static_assert(TANDEM_MAX_OBJECTS_PER_PACKET == kMaxObjectsPerPacket);
     written.objects[i] = c_door::toC(packet.objects[i].state);
     written.object_epochs[i] = packet.objects[i].epoch.count;
     written.object_epoch_authors[i] = static_cast<std::uint32_t>(packet.objects[i].epoch.author);
+  }
+  if (packet.roll) {
+    written.roll_heard = packet.roll->heard.bits();
+    written.roll_members = packet.roll->members.bits();
+    written.roll_age = packet.roll->age;
   }
   if (!packet.grip) return written;
   written.has_grip = 1;

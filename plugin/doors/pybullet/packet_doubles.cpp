@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kHead = 13;
 constexpr std::size_t kPerObject = 16;
 constexpr std::size_t kGrip = 10;
+constexpr std::size_t kRoll = 5;  // two sets of 64 bits, each as low and high half; an age
 
 /// Checks that `value` is a whole number in [0, most].
 double toWhole(double value, double most, const char* what) {
@@ -24,6 +25,42 @@ double toWhole(double value, double most, const char* what) {
 
 constexpr double kMostId = 4294967295.0;
 constexpr double kMostSequence = 9007199254740992.0;  // 2^53: doubles count up to it
+
+/// The size of what follows the objects tells which parts there are.
+bool hasPart(std::size_t size, std::size_t part, std::size_t other) {
+  return size == part || size == part + other;
+}
+
+void appendGrip(const TandemPacket& packet, std::vector<double>& doubles) {
+  const bool holds = packet.grip_object != TANDEM_NO_OBJECT;
+  doubles.push_back(static_cast<double>(packet.grip_epoch));
+  doubles.push_back(holds ? static_cast<double>(packet.grip_object) : -1.0);
+  doubles.insert(doubles.end(), packet.grip_position, packet.grip_position + 3);
+  doubles.insert(doubles.end(), packet.grip_orientation, packet.grip_orientation + 4);
+  doubles.push_back(packet.grip_age);
+}
+
+void readGrip(const double* at, TandemPacket& packet) {
+  packet.grip_epoch = static_cast<std::uint32_t>(toWhole(at[0], 65535.0, "a grip's epoch"));
+  packet.grip_object = at[1] == -1.0
+                           ? TANDEM_NO_OBJECT
+                           : static_cast<std::uint32_t>(toWhole(at[1], kMostId, "a grip's object"));
+  std::copy_n(at + 2, 3, packet.grip_position);
+  std::copy_n(at + 5, 4, packet.grip_orientation);
+  packet.grip_age = at[9];
+}
+
+void appendSet(std::uint64_t set, std::vector<double>& doubles) {
+  doubles.push_back(static_cast<double>(set & 0xffffffffU));
+  doubles.push_back(static_cast<double>(set >> 32U));
+}
+
+std::uint64_t readSet(const double* at) {
+  const auto half = [&](int i) {
+    return static_cast<std::uint64_t>(toWhole(at[i], kMostId, "half of a set of sites"));
+  };
+  return half(0) | half(1) << 32U;
+}
 
 }  // namespace
 
@@ -48,13 +85,12 @@ std::vector<double> toDoubles(const TandemPacket& packet) {
     doubles.push_back(static_cast<double>(packet.object_epochs[i]));
     doubles.push_back(static_cast<double>(packet.object_epoch_authors[i]));
   }
-  if (packet.has_grip == 0) return doubles;
-  const bool holds = packet.grip_object != TANDEM_NO_OBJECT;
-  doubles.push_back(static_cast<double>(packet.grip_epoch));
-  doubles.push_back(holds ? static_cast<double>(packet.grip_object) : -1.0);
-  append(packet.grip_position, 3);
-  append(packet.grip_orientation, 4);
-  doubles.push_back(packet.grip_age);
+  if (packet.has_grip != 0) appendGrip(packet, doubles);
+  if (packet.roll_heard != 0) {
+    appendSet(packet.roll_heard, doubles);
+    appendSet(packet.roll_members, doubles);
+    doubles.push_back(packet.roll_age);
+  }
   return doubles;
 }
 
@@ -73,9 +109,11 @@ TandemPacket toPacket(const std::vector<double>& doubles) {
   packet.energy_holdings = *at++;
   packet.object_count = static_cast<std::size_t>(
       toWhole(*at++, TANDEM_MAX_OBJECTS_PER_PACKET, "the number of objects"));
-  const std::size_t without_grip = kHead + kPerObject * packet.object_count;
-  packet.has_grip = doubles.size() == without_grip + kGrip ? 1 : 0;
-  if (packet.has_grip == 0 && doubles.size() != without_grip) {
+  const std::size_t needed = kHead + kPerObject * packet.object_count;
+  const std::size_t rest = doubles.size() - std::min(needed, doubles.size());
+  packet.has_grip = hasPart(rest, kGrip, kRoll) ? 1 : 0;
+  const bool has_roll = hasPart(rest, kRoll, kGrip);
+  if (doubles.size() != needed + (packet.has_grip ? kGrip : 0) + (has_roll ? kRoll : 0)) {
     throw Refusal(kBadCommand, "push: " + std::to_string(doubles.size()) +
                                    " doubles are not what its number of objects needs");
   }
@@ -91,14 +129,13 @@ TandemPacket toPacket(const std::vector<double>& doubles) {
         static_cast<std::uint32_t>(toWhole(at[15], kMostId, "an epoch's author"));
     at += kPerObject;
   }
-  if (packet.has_grip == 0) return packet;
-  packet.grip_epoch = static_cast<std::uint32_t>(toWhole(at[0], 65535.0, "a grip's epoch"));
-  packet.grip_object = at[1] == -1.0
-                           ? TANDEM_NO_OBJECT
-                           : static_cast<std::uint32_t>(toWhole(at[1], kMostId, "a grip's object"));
-  std::copy_n(at + 2, 3, packet.grip_position);
-  std::copy_n(at + 5, 4, packet.grip_orientation);
-  packet.grip_age = at[9];
+  if (packet.has_grip != 0) readGrip(at, packet);
+  if (packet.has_grip != 0) at += kGrip;
+  if (has_roll) {
+    packet.roll_heard = readSet(at);
+    packet.roll_members = readSet(at + 2);
+    packet.roll_age = at[4];
+  }
   return packet;
 }
 

@@ -48,9 +48,10 @@ Reading = namedtuple("Reading", "force hip hip_velocity ticks status state_hash 
 #: A state that manual links carry between sites; `objects`: (id, State, epoch) each, an epoch being its
 #: number and its author; both are 0 until a site puts the object elsewhere. The energies [J] are the sender's
 #: part of its ledger with the receiver; NaN: it keeps no account. `grip`: a Hold, or None before the
-#: sender's user has held anything.
+#: sender's user has held anything. `roll`: (heard, members, age), sets of sites as bits, bit i for id
+#: i + 1, and the age of the sender's site [s], or None while the number of sites is fixed.
 Packet = namedtuple("Packet", "sender is_idle sequence time position velocity energy_granted "
-                              "energy_holdings objects grip", defaults=(None,))
+                              "energy_holdings objects grip roll", defaults=(None, None))
 
 #: What a packet's sender holds. `epoch` counts grabs and releases; `object` is None while nothing is held;
 #: `position` and `orientation` of the hand in the object's frame; `age` of the last change [s].
@@ -117,6 +118,11 @@ class Link:
         if packet.grip is not None:
             epoch, number, position, orientation, age = packet.grip
             numbers += [epoch, -1 if number is None else number, *position, *orientation, age]
+        if packet.roll is not None:
+            heard, members, age = packet.roll
+            for sites in (heard, members):
+                numbers += [sites & 0xffffffff, sites >> 32]
+            numbers.append(age)
         self._site._send_doubles("push", numbers, link=self.number)
 
     def pop(self):
@@ -125,8 +131,11 @@ class Link:
         if not numbers:
             return None
         sender, is_idle, sequence, time = numbers[:4]
-        objects, grip, end = [], None, 13 + 16 * int(numbers[12])
-        if len(numbers) > end:
+        objects, grip, roll, end = [], None, None, 13 + 16 * int(numbers[12])
+        if len(numbers) - end in (5, 15):
+            low, high, low_members, high_members = (int(half) for half in numbers[-5:-1])
+            roll = (low | high << 32, low_members | high_members << 32, numbers[-1])
+        if len(numbers) - end >= 10:
             epoch, number = int(numbers[end]), int(numbers[end + 1])
             grip = Hold(epoch, None if number < 0 else number, tuple(numbers[end + 2:end + 5]),
                         tuple(numbers[end + 5:end + 9]), numbers[end + 9])
@@ -134,7 +143,7 @@ class Link:
             epoch = (int(numbers[at + 14]), int(numbers[at + 15]))
             objects.append((int(numbers[at]), _state_of(numbers[at + 1:at + 14]), epoch))
         return Packet(int(sender), bool(is_idle), int(sequence), time, tuple(numbers[4:7]),
-                      tuple(numbers[7:10]), numbers[10], numbers[11], objects, grip)
+                      tuple(numbers[7:10]), numbers[10], numbers[11], objects, grip, roll)
 
 
 class Site:

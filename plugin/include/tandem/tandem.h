@@ -364,6 +364,11 @@ typedef struct TandemPacket {
   double grip_position[3];    /* on the object, from its centre of mass, in its frame [m] */
   double grip_orientation[4]; /* x, y, z, w of the world in the object's frame, as wanted */
   double grip_age;            /* from the last grab or release to `time` [s] */
+  /* Sites, bit i for id i + 1, that the sender hears, and among which it shares its objects. Both
+     are 0 unless TandemSiteSettings.membership_follows is 1. */
+  uint64_t roll_heard;
+  uint64_t roll_members;
+  double roll_age; /* of the sender's site [s] */
 } TandemPacket;
 
 /* Creates a link whose packets the caller carries. It holds up to 256 packets each way; more are
@@ -489,9 +494,11 @@ typedef struct TandemSiteSettings {
   double inner_step;  /* integration step of non-linear motion [s] */
   int max_neighbours; /* most host bodies that the island holds at a time */
   int link_loss;      /* gains fade when a remote falls silent; 0: its last state pulls for ever */
-  int passivity;      /* keeps an energy account */
-  double max_slew;    /* limit of the device force's rise [N/s] */
-  double fault_slew;  /* rate at which the force fades after a fault [N/s] */
+  int membership_follows;        /* N follows who is there; `peers` counts for nothing then */
+  double membership_leave_after; /* silence after which a peer no longer counts [s] */
+  int passivity;                 /* keeps an energy account */
+  double max_slew;               /* limit of the device force's rise [N/s] */
+  double fault_slew;             /* rate at which the force fades after a fault [N/s] */
   /* The hand's grip: tandem_site_grab(). */
   double grip_stiffness;     /* K [N/m] */
   double grip_damping_ratio; /* of the spring with hand and object */
