@@ -157,6 +157,9 @@ for users in 3 4 8; do
   stand_in_a_row "$users" remote_dynamic_proxy
 done
 
+step "Users come and go"
+run many-come-and-go users_come_and_go.toml
+
 if [[ -f "$scenarios/playground.toml" ]]; then
   step "The playground: a free cube among boxes, floor and gravity"
   run playground playground.toml

@@ -1,9 +1,12 @@
 // More than two `tandem peer` as processes on loopback.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <future>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -88,6 +91,39 @@ TEST(ManyPeers, ThreeProcessesCooperate) {
   }
   const auto first = nlohmann::json::parse(test::readFile(out + "/site1.json"));
   EXPECT_GT(first["site1"]["force"]["mean"].get<double>(), 1.0);
+}
+
+/// The last N of a site's report lines, and the largest.
+std::pair<std::string, char> findMembers(const std::string& out) {
+  const std::string mark = "| N = ";
+  std::string last;
+  char most = '0';
+  for (std::size_t at = out.find(mark); at != std::string::npos; at = out.find(mark, at + 1)) {
+    last = out.substr(at, mark.size() + 1);
+    most = std::max(most, last.back());
+  }
+  return {last, most};
+}
+
+// Nobody waits for anybody. The first one is there before all others and after them.
+TEST(ManyPeers, UsersComeAndGo) {
+  const Rig rig(17550);
+  const auto stay = [&](int number, double begin, const char* duration) {
+    return std::async(std::launch::async, [&rig, number, begin, duration] {
+      std::this_thread::sleep_for(std::chrono::duration<double>(begin));
+      return runTandem(rig.site(
+          number, {"--set", "coordination.follows_users=true", "--set", "site1.hand_force=[0,0,0]",
+                   "--set", std::string("experiment.duration=") + duration}));
+    });
+  };
+  auto first = stay(1, 0.0, "9"), second = stay(2, 1.5, "5"), third = stay(3, 2.5, "2.5");
+  const Outcome outcome = first.get();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(second.get().status, 0);
+  EXPECT_EQ(third.get().status, 0);
+  const auto [last, most] = findMembers(outcome.out);
+  EXPECT_EQ(most, '3') << outcome.out;
+  EXPECT_EQ(last, "| N = 1") << outcome.out;
 }
 
 // The difference names the number of users before any key of a user.

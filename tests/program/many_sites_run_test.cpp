@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
 #include "demos/program/run/run_output.h"
 #include "demos/program/scenario/scenario.h"
 #include "support/temp_folder.h"
@@ -55,6 +57,24 @@ TEST(ManySitesRun, TheDragOfCommonMotionIsThatOfTheDelay) {
   EXPECT_NEAR(measured["per_speed"].get<double>(), drag, 0.01 * drag);
   // The hands' forces go into the drag and the devices' own damping.
   EXPECT_NEAR(measured["force"].get<double>() + 5.0 * measured["speed"].get<double>(), 1.0, 0.01);
+}
+
+// The third user is there for a second. Before and after, the two share the cube by halves.
+TEST(ManySitesRun, UsersComeAndGo) {
+  Finished finished(
+      "experiment1.toml",
+      {"site=[{hand_force=[2, 0, 0]}, {hand_force=[-2, 0, 0]}, {comes=1, goes=2}]",
+       "coordination.mode=average", "coordination.follows_users=true", "experiment.duration=3"});
+  const auto site = [&](int s) -> Site& { return finished.run.world(s).site(); };
+  for (const int s : {0, 1}) {
+    EXPECT_EQ(site(s).memberCount(), 2);
+    EXPECT_EQ(site(s).counters().members_changed, 3u);
+    EXPECT_EQ(site(s).status(), kTickOk);
+    const double mass = 1.0 / static_cast<double>(site(s).objectBody(0).getInvMass());
+    EXPECT_NEAR(mass, finished.scenario.object_mass / 2.0, 1e-6);
+  }
+  EXPECT_EQ(site(2).memberCount(), 1);
+  EXPECT_EQ(site(2).counters().members_changed, 2u);
 }
 
 TEST(ManySitesRun, CoherencyIsThatOfTheFarthestPair) {

@@ -157,5 +157,17 @@ TEST(UserPlaces, ThatDoNotFitAreRefused) {
   EXPECT_EQ(parse(makeSites(16), {"proxy.radius=0.008"}).sites.size(), 16u);
 }
 
+TEST(ManySites, UsersComeAndGoWhereThatIsFollowed) {
+  const std::string follows = "[coordination]\nfollows_users = true\n";
+  const Scenario scenario = parse(follows + "[[site]]\n[[site]]\ncomes = 1\ngoes = 2.5\n");
+  EXPECT_TRUE(scenario.site.membership.follows);
+  EXPECT_EQ(scenario.sites[1].comes, 1.0);
+  EXPECT_EQ(scenario.sites[1].goes, 2.5);
+  expectRefused("[[site]]\n[[site]]\ncomes = 1\n", {},
+                {"site2.comes", "coordination.follows_users"});
+  expectRefused(follows + "[[site]]\n[[site]]\ncomes = 2\ngoes = 1\n", {},
+                {"site2.goes = 1", "after site2.comes = 2"});
+}
+
 }  // namespace
 }  // namespace tandem::demos

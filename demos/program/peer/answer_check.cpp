@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kFollowTime = 5.0;  // within which another site follows a change [s]
 
+bool disagreesAboutChange(const PeerStatus& status) {
+  return status.difference && status.difference->key == kChangeKey;
+}
+
 /// Explains a refusal in terms of the command line.
 const char* explainRefusal(RefuseCode code) {
   if (code == RefuseCode::kUnknownPeer)
@@ -26,6 +30,20 @@ const char* explainRefusal(RefuseCode code) {
 DisagreementError::DisagreementError(PeerId with, const std::string& what)
     : UsageError(fmt::format("site {} {}", static_cast<std::uint32_t>(with), what)), site(with) {}
 
+std::optional<std::string> describeDifference(const PeerStatus& status) {
+  if (status.difference && !disagreesAboutChange(status)) {
+    const ConfigurationDifference& d = *status.difference;
+    const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
+    return fmt::format(
+        "has another scenario: {} is {} here and {} there; use the same file and --set on all "
+        "sides",
+        d.key, show(d.here), show(d.there));
+  }
+  if (status.left == ByeReason::kConfigurationsDiffer)
+    return "says that it has another scenario; use the same file and --set on all sides";
+  return std::nullopt;
+}
+
 PeerStatus AnswerCheck::readStatus() const { return peers_.status(other_, readMonotonicClock()); }
 
 /// A site that leaves before the start will not be there at the start.
@@ -36,22 +54,13 @@ void AnswerCheck::checkCountdown() const {
 }
 
 void AnswerCheck::checkConfiguration(const PeerStatus& status, double waited) {
-  const bool is_change = status.difference && status.difference->key == kChangeKey;
+  const bool is_change = disagreesAboutChange(status);
   if (is_change && !disagrees_since_) disagrees_since_ = waited;
   if (is_change && waited - *disagrees_since_ < kFollowTime) return;
   if (is_change)
     throw DisagreementError(other_, "does not follow a change of scheme or gains; start all again");
-  if (status.difference) {
-    const ConfigurationDifference& d = *status.difference;
-    const auto show = [](const std::string& value) { return value.empty() ? "missing" : value; };
-    throw DisagreementError(other_,
-                            fmt::format("has another scenario: {} is {} here and {} there; use "
-                                        "the same file and --set on all sides",
-                                        d.key, show(d.here), show(d.there)));
-  }
-  if (status.left == ByeReason::kConfigurationsDiffer)
-    throw DisagreementError(
-        other_, "says that it has another scenario; use the same file and --set on all sides");
+  if (const auto difference = describeDifference(status))
+    throw DisagreementError(other_, *difference);
 }
 
 void AnswerCheck::check(double waited) {

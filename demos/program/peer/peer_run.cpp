@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "terminal/usage_error.h"
 #include "world/received_object.h"
 
@@ -89,6 +91,10 @@ bool PeerRun::waitForPeers(double patience, const std::function<bool()>& stop,
                            const std::function<void(const PeerReport&)>& report) {
   const PointState held{computeStart(scenario_, makeSceneFrame(scenario_), index_), Vec3::Zero()};
   peers_.agreeOnStart(held, scenario_.site.packet_rate, patience);
+  if (scenario_.site.membership.follows) {
+    joinLate(readMonotonicClock());
+    return true;
+  }
   std::vector<AnswerCheck> answers;
   for (const PeerId other : others_) answers.emplace_back(peers_, other, patience);
   const double began = readMonotonicClock();
@@ -132,7 +138,7 @@ void PeerRun::checkAnswers(std::vector<AnswerCheck>& answers, double waited) {
   }
 }
 
-/// Other sites have been running for a while: they and their copies fade in.
+/// Other sites have been running for a while, or come later: they and their copies fade in.
 void PeerRun::joinLate(double now) {
   peers_.setStart(now + kMostBehind);
   scenario_.site.link_loss.start_live = false;
@@ -162,12 +168,23 @@ void PeerRun::run(const std::function<bool()>& stop,
       if (after_step) after_step(time, loop);
       if (time < next_report) continue;
       report(makeReport(time));
+      noteDifferences(note);
       next_report += kReportPeriod;
     }
     loop.stop();
     loop_ = loop.report();
   }
   peers_.sayFarewell(stop() ? ByeReason::kUserLeaves : ByeReason::kProgramEnds);
+}
+
+/// A site that comes while this one runs takes no part if it has another scenario.
+void PeerRun::noteDifferences(const std::function<void(const std::string&)>& note) {
+  for (const PeerStatus& status : statuses()) {
+    const auto difference = describeDifference(status);
+    if (!difference || std::ranges::find(noted_, status.peer) != noted_.end()) continue;
+    noted_.push_back(status.peer);
+    note(fmt::format("site {} {}", static_cast<std::uint32_t>(status.peer), *difference));
+  }
 }
 
 double PeerRun::computeCoherency() const noexcept {
@@ -192,6 +209,7 @@ PeerReport PeerRun::makeReport(double time) {
     for (std::size_t i = 0; i < report.others.size(); ++i)
       report.others[i].link = world_->site().linkState(static_cast<int>(i));
     report.force = world_->site().force().norm();
+    if (scenario_.site.membership.follows) report.members = world_->site().memberCount();
     report.coherency = computeCoherency();
   });
   return report;

@@ -25,6 +25,7 @@ struct OtherSite {
 /// Values shown to the user once a second.
 struct PeerReport {
   double time = 0.0;  ///< site time [s]; negative before the start, when no force is felt
+  int members = 0;    ///< sites that share the object; 0: as many as the scenario has
   bool has_start = false;
   std::vector<OtherSite> others;         ///< in the order of their numbers, at least one
   std::optional<RelayConnection> relay;  ///< empty without a relay
@@ -53,7 +54,8 @@ class PeerRun {
           std::function<bool()> wants_grip = {}, PeerPurpose purpose = PeerPurpose::kResults,
           const BodyPlaces& places = {}, std::optional<RelayAccess> relay = std::nullopt);
 
-  /// Waits until all other sites are there and know the start, or until one runs already. Throws
+  /// Waits until all other sites are there and know the start, or until one runs already. With
+  /// `coordination.follows_users` it waits for nobody. Throws
   /// DisagreementError if one has another configuration, or does not agree to a change within 5 s.
   /// Throws tandem::Error if one does not answer within `patience` [s], counts down for longer, or
   /// leaves before the start. Returns false if `stop` asked to end.
@@ -84,6 +86,7 @@ class PeerRun {
   void checkAnswers(std::vector<AnswerCheck>& answers, double waited);
   void joinLate(double now);
   [[nodiscard]] PeerReport makeReport(double time);
+  void noteDifferences(const std::function<void(const std::string&)>& note);
   [[nodiscard]] double computeCoherency() const noexcept;
 
   Scenario scenario_;
@@ -98,6 +101,7 @@ class PeerRun {
   std::unique_ptr<SiteRecord> record_;
   Vec3 object_start_W_ = Vec3::Zero();
   LoopReport loop_;
+  std::vector<PeerId> noted_;  ///< sites of which the user knows that they have another scenario
 };
 
 }  // namespace tandem::demos

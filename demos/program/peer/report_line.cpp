@@ -21,6 +21,10 @@ bool isLive(const PeerReport& report, const OtherSite& other) {
          (report.time <= 0.0 || other.link == LinkState::kLive);
 }
 
+std::string describeMembers(const PeerReport& report) {
+  return report.members == 0 ? std::string() : fmt::format(" | N = {}", report.members);
+}
+
 std::string describeOthers(const PeerReport& report) {
   const auto& others = report.others;
   if (others.size() == 1) return fmt::format("{:9}", nameState(report, others[0]));
@@ -61,9 +65,10 @@ std::string describeWay(const PeerReport& report) {
 std::string describeReport(const PeerReport& report) {
   const std::string time = report.has_start ? fmt::format("{:8.1f} s", report.time) : "   waiting";
   return fmt::format(
-      "{} | {} | round trip {:6.1f} ms | wait {:5.1f} ms | jitter {:5.1f} ms | loss {:4.1f} % | "
+      "{} | {}{} | round trip {:6.1f} ms | wait {:5.1f} ms | jitter {:5.1f} ms | loss {:4.1f} % | "
       "force {:6.3f} N | coherency {:7.3f} mm{}",
-      time, describeOthers(report), 1e3 * findLargest(report, &PeerStatus::round_trip),
+      time, describeOthers(report), describeMembers(report),
+      1e3 * findLargest(report, &PeerStatus::round_trip),
       1e3 * findLargest(report, &PeerStatus::wait), 1e3 * findLargest(report, &PeerStatus::jitter),
       1e2 * findLargest(report, &PeerStatus::loss), report.force, 1e3 * report.coherency,
       describeWay(report));

@@ -1,5 +1,7 @@
 #include "run/site_links.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "tandem/coordination/simulated_link.h"
@@ -9,18 +11,40 @@
 namespace tandem::demos {
 namespace {
 
+/// Time in which both sites of a pair are connected [s].
+struct Stay {
+  double from = 0.0, until = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool has(double time) const noexcept { return time >= from && time < until; }
+};
+
+Stay computeStay(const SiteScenario& one, const SiteScenario& other) {
+  const Stay all;
+  return {std::max(one.comes.value_or(all.from), other.comes.value_or(all.from)),
+          std::min(one.goes.value_or(all.until), other.goes.value_or(all.until))};
+}
+
 /// An end of two simulated links, of which each carries one way.
 class TwoWayEnd final : public Link {
  public:
-  TwoWayEnd(std::unique_ptr<SimulatedLink> out, std::unique_ptr<SimulatedLink> in)
-      : out_(std::move(out)), in_(std::move(in)) {}
-  void send(const StatePacket& packet, double now) noexcept override { out_->send(packet, now); }
-  [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override {
-    return in_->receive(from, until);
+  TwoWayEnd(std::unique_ptr<SimulatedLink> out, std::unique_ptr<SimulatedLink> in, Stay stay)
+      : out_(std::move(out)), in_(std::move(in)), stay_(stay) {}
+  void send(const StatePacket& packet, double now) noexcept override {
+    if (stay_.has(now)) out_->send(packet, now);
   }
+  /// Drops what comes after the farewell.
+  [[nodiscard]] std::optional<Arrival> receive(double from, double until) noexcept override {
+    now_ = from;
+    auto arrival = in_->receive(from, until);
+    while (arrival && !stay_.has(arrival->time)) arrival = in_->receive(from, until);
+    return arrival;
+  }
+  [[nodiscard]] bool hasLeft() const noexcept override { return now_ >= stay_.until; }
 
  private:
   std::unique_ptr<SimulatedLink> out_, in_;
+  Stay stay_;
+  double now_ = 0.0;
 };
 
 /// Spreads the bits of a number evenly (the finaliser of splitmix64).
@@ -54,10 +78,11 @@ void SiteLinks::join(const Scenario& scenario, std::size_t one, std::size_t othe
   };
   auto [there_out, there_in] = make(one, other);
   auto [back_in, back_out] = make(other, one);
+  const Stay stay = computeStay(scenario.sites[one], scenario.sites[other]);
   ends_[one * count_ + other] =
-      std::make_unique<TwoWayEnd>(std::move(there_out), std::move(back_in));
+      std::make_unique<TwoWayEnd>(std::move(there_out), std::move(back_in), stay);
   ends_[other * count_ + one] =
-      std::make_unique<TwoWayEnd>(std::move(back_out), std::move(there_in));
+      std::make_unique<TwoWayEnd>(std::move(back_out), std::move(there_in), stay);
 }
 
 PeerLinks SiteLinks::of(int site) const {

@@ -118,6 +118,8 @@ Keys makeCouplingKeys() {
            "whether each copy of an object is tied to every other one, or to the "
            "[mean of all](users.md)"},
           {"sum", "average"}, [](auto& s) -> auto& { return s.site.coordination_mode; }),
+      siteFlagKey("coordination.follows_users", "membership.follows",
+                  " ([users](users.md#who-takes-part))"),
       siteKey("coordination.stiffness"),
       siteKey("coordination.damping"),
       numberKey({"coordination.angular_stiffness", "turns cube copies towards each other",

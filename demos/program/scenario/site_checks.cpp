@@ -42,6 +42,17 @@ void checkDelays(const Scenario& s, const Refuse& refuse) {
                         from + 1, to + 1, computeDelay(s, from, to), s.duration));
 }
 
+void checkStay(const Scenario& s, const SiteScenario& site, const std::string& name,
+               const Refuse& refuse) {
+  if (!site.comes && !site.goes) return;
+  if (!s.site.membership.follows)
+    refuse(name + (site.comes ? ".comes" : ".goes") +
+           ": needs coordination.follows_users = true, so that the others share the object anew");
+  if (site.goes && *site.goes <= site.comes.value_or(0.0))
+    refuse(fmt::format("{}.goes = {}: must be after {}.comes = {}", name, *site.goes, name,
+                       site.comes.value_or(0.0)));
+}
+
 void checkPlaces(const Scenario& s, const Refuse& refuse) {
   if (s.isWorld() || !s.hasObject()) return;
   const double least = computeLeastFace(s);
@@ -61,6 +72,8 @@ void checkSites(const Scenario& s, const Refuse& refuse) {
                        kFewestSites, kMostSites));
   for (std::size_t i = 0; i < s.sites.size(); ++i)
     checkHand(s, s.sites[i].hand, fmt::format("site{}", i + 1), refuse);
+  for (std::size_t i = 0; i < s.sites.size(); ++i)
+    checkStay(s, s.sites[i], fmt::format("site{}", i + 1), refuse);
   checkDelays(s, refuse);
   checkPlaces(s, refuse);
 }

@@ -97,6 +97,12 @@ Keys makeDeviceKeys() {
       optionalKey(
           {"delay", "added to `network.delay` on each way from and to this site", "s", "", "0"},
           kNotNegative, &Site::delay),
+      optionalKey({"comes", "the user is connected from then on; until then alone", "s",
+                   "needs `coordination.follows_users`; for `tandem run`", "the start"},
+                  kNotNegative, &Site::comes),
+      optionalKey({"goes", "the user says farewell then, and goes on alone", "s",
+                   "after `comes`; needs the same", "never"},
+                  kPositive, &Site::goes),
   };
 }
 

@@ -40,7 +40,8 @@ struct SiteScenario {
   HandScenario hand;
   std::optional<double> device_mass, device_damping, device_encoder_resolution, device_max_force;
   std::optional<double> contact_stiffness, contact_damping;
-  std::optional<double> delay;  ///< added to that of each way from and to this site [s]
+  std::optional<double> delay;        ///< added to that of each way from and to this site [s]
+  std::optional<double> comes, goes;  ///< the user is connected from then until then [s]
 
   /// The site's device, where a scenario's devices are `usual`.
   [[nodiscard]] DeviceScenario makeDevice(const DeviceScenario& usual) const {
