@@ -47,6 +47,7 @@ class RelayRig {
     one.heard.clear();
     one.member.reset();
     one.port = std::make_unique<VirtualNet::Port>(net, address);
+    by_ip_[address.ip] = &one;
     one.member = std::make_unique<relay::RelayMember>(
         relayAddress(), makeKey(key), *relay::makeRoomName(room), PeerId{id},
         net::drawFirstNonce(net.now), *one.port, is_watcher);
@@ -64,11 +65,7 @@ class RelayRig {
     net.deliverUntil(net.now + period, [&](VirtualNet::Datagram& datagram) {
       const ByteSpan bytes{datagram.bytes.data(), datagram.bytes.size()};
       if (datagram.to == relayAddress() && relay) relay->receive(bytes, datagram.from, net.now);
-      for (auto& [number, one] : members)
-        if (one.member && one.port->address == datagram.to && datagram.from == relayAddress())
-          if (const auto said = one.member->receive(bytes, net.now))
-            one.heard.emplace_back(said->from,
-                                   Bytes(said->inner.data, said->inner.data + said->inner.size));
+      if (datagram.from == relayAddress()) deliver(datagram.to, bytes);
     });
     if (relay) relay->advance(net.now);
     for (auto& [number, one] : members)
@@ -85,6 +82,16 @@ class RelayRig {
   std::unique_ptr<relay::Relay> relay;
 
  private:
+  void deliver(const Address& to, ByteSpan bytes) {
+    const auto at = by_ip_.find(to.ip);
+    if (at == by_ip_.end() || !at->second->member || at->second->port->address != to) return;
+    Member& one = *at->second;
+    if (const auto said = one.member->receive(bytes, net.now))
+      one.heard.emplace_back(said->from,
+                             Bytes(said->inner.data, said->inner.data + said->inner.size));
+  }
+
+  std::map<decltype(Address::ip), Member*> by_ip_;  ///< each has an own one
   VirtualNet::Port port_;
   RelaySettings settings_;
 };
