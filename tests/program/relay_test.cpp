@@ -93,10 +93,65 @@ TEST(RelayProgram, ASpectatorFollowsBothSites) {
   for (const double site : {1.0, 2.0}) EXPECT_GT(std::ranges::count(sites, site), 10) << site;
 }
 
+/// A spectator's line with the files of the rig.
+std::vector<std::string> watchLine(Rig& rig, const std::string& watch_key,
+                                   const std::vector<std::string>& more) {
+  std::vector<std::string> line = {"peer",        "--watch",     "--relay",
+                                   rig.address,   "--relay-key", rig.folder / "relay",
+                                   "--watch-key", watch_key};
+  line.insert(line.end(), more.begin(), more.end());
+  return line;
+}
+
+/// Both sites of experiment1.toml, seen by spectators with the key `watch`.
+void runWatchedSites(Rig& rig, const std::string& watch) {
+  const std::vector<std::string> more = {
+      "--relay-key", rig.folder / "relay", "--watch-key", watch, "--set", "contact.stiffness=2000"};
+  auto second = std::async(std::launch::async, [&] { return runTandem(rig.site(2, more)); });
+  EXPECT_EQ(runTandem(rig.site(1, more)).status, 0);
+  EXPECT_EQ(second.get().status, 0);
+}
+
+// Scheme, gains and users may change while sites meet, so they are not compared.
+TEST(RelayProgram, ASpectatorsScenarioIsComparedWithThatOfTheSites) {
+  Rig rig;
+  const std::string watch = rig.folder / "watch", file = test::scenarioPath("experiment1.toml");
+  ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
+  const auto follow = [&](const std::vector<std::string>& more) {
+    return std::async(std::launch::async,
+                      [line = watchLine(rig, watch, more)] { return runTandem(line); });
+  };
+  auto fits = follow({"--scenario", file, "--wait", "4"});
+  auto differs = follow({"--scenario", file, "--set", "object.size=0.05"});
+  runWatchedSites(rig, watch);
+  EXPECT_EQ(fits.get().status, 0);
+  expectLine(differs.get(), 2, "has another scenario; use the file and --set that the sites have");
+}
+
+TEST(RelayProgram, AWrongWatchKeyIsALine) {
+  Rig rig;
+  const std::string watch = rig.folder / "watch";
+  ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
+  auto spectator = std::async(std::launch::async,
+                              [&] { return runTandem(watchLine(rig, rig.folder / "pair", {})); });
+  runWatchedSites(rig, watch);
+  expectLine(spectator.get(), 1, "--watch-key opens no state of this room");
+}
+
+TEST(RelayProgram, ASpectatorThatHearsNobodySaysWhy) {
+  Rig rig;
+  const std::string key = rig.folder / "pair";
+  expectLine(runTandem(watchLine(rig, key, {"--wait", "1"})), 1,
+             "no site was heard for 1 s: do the sites have --watch-key and this room?");
+  EXPECT_EQ(rig.relay->finish(SIGINT).status, 0);
+  expectLine(runTandem(watchLine(rig, key, {"--wait", "1"})), 1, "the relay does not answer");
+}
+
 TEST(RelayProgram, ASpectatorsBadInputIsALine) {
   expectLine(runTandem({"peer", "--watch"}), 2,
              "--watch needs --relay, --relay-key and --watch-key");
   expectLine(runTandem({"peer", "--watch", "--site", "1"}), 2, "has no site and no hand");
+  expectLine(runTandem({"peer", "--watch", "--set", "title=a"}), 2, "--set: needs --scenario");
   expectLine(runTandem({"peer", "--site", "1"}), 2, "--scenario is required");
 }
 

@@ -29,6 +29,7 @@ TEST(Watcher, FollowsASiteWhosePeerIsNotThere) {
   RelayServer relay({resolveAddress("127.0.0.1:0")}, makeKey(0x17));
   UdpMeshSettings settings;
   settings.bind = resolveAddress("127.0.0.1:0");
+  settings.watch_hash = 77;
   std::vector<UdpPeer> peers;
   peers.push_back({PeerId{2}, std::nullopt, makeKey(1)});
   UdpMesh site(settings, std::move(peers), accessTo(relay));
@@ -51,6 +52,7 @@ TEST(Watcher, FollowsASiteWhosePeerIsNotThere) {
   ASSERT_TRUE(seen());
   for (const Watcher& one : watchers) {
     EXPECT_EQ(one.latest(PeerId{1})->newest.user.p_W.x(), 0.25);
+    EXPECT_EQ(one.latest(PeerId{1})->config_hash, 77u);
     EXPECT_EQ(one.heard(), std::vector{PeerId{1}});
     EXPECT_TRUE(one.relay(now).is_in);
     EXPECT_TRUE(one.refused().empty());

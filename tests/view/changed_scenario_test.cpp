@@ -43,6 +43,18 @@ TEST(ChangedScenario, TellsWhatTheOtherFollows) {
   EXPECT_EQ(describeChange(*followed)->value, item->value) << "so that both then agree";
 }
 
+TEST(ChangedScenario, SpectatorsHashIsOfWhatStays) {
+  const Scenario own = makeOwn(0).scenario;
+  const auto hash = [&](const std::string& value) {
+    return hashWatchedScenario(changeScenario(own, {value}));
+  };
+  for (const char* changes : {"experiment.scheme=kinematic_proxy", "contact.damping=2",
+                              "coordination.stiffness=100", "site=[{}, {}, {}]", "title=other"})
+    EXPECT_EQ(hash(changes), hashWatchedScenario(own)) << changes;
+  for (const char* stays : {"object.size=0.05", "object.mass=0.3", "experiment.axis=[0, 1, 0]"})
+    EXPECT_NE(hash(stays), hashWatchedScenario(own)) << stays;
+}
+
 TEST(ChangedScenario, SaysNothingBeforeTheFirstChange) { EXPECT_FALSE(describeChange(makeOwn(0))); }
 
 // Peers tell their first difference only while they do not know all.

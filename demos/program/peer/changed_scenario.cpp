@@ -1,5 +1,6 @@
 #include "peer/changed_scenario.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <sstream>
@@ -24,6 +25,12 @@ constexpr std::array<std::array<const char*, 2>, 5> kKeys = {{{"experiment", "sc
                                                               {"contact", "damping"},
                                                               {"coordination", "stiffness"},
                                                               {"coordination", "damping"}}};
+
+bool mayChange(const std::string& key) {
+  return key.rfind("site.", 0) == 0 || std::ranges::any_of(kKeys, [&](const auto& words) {
+           return key == fmt::format("{}.{}", words[0], words[1]);
+         });
+}
 
 /// The values as overrides, such as "contact.damping=5.0".
 std::vector<std::string> listValues(const Scenario& scenario) {
@@ -80,6 +87,12 @@ ChangedScenario proposeChange(const ChangedScenario& own, const Scenario& wanted
         "{} = {}: a session with a friend changes scheme and gains only; start all sites again",
         difference->key, difference->there));
   return next;
+}
+
+std::uint32_t hashWatchedScenario(const Scenario& scenario) {
+  Configuration items = makePeerConfiguration(scenario);
+  std::erase_if(items, [](const ConfigurationItem& item) { return mayChange(item.key); });
+  return hashConfiguration(items);
 }
 
 std::optional<ConfigurationItem> describeChange(const ChangedScenario& own) {

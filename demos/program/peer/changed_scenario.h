@@ -24,6 +24,10 @@ struct ChangedScenario {
 /// differs in something else that sites must share, or after 999,999,999 changes.
 [[nodiscard]] ChangedScenario proposeChange(const ChangedScenario& own, const Scenario& wanted);
 
+/// Hash of what sites tell their spectators of the scenario: all that sites must share but what may
+/// change in a session, which is scheme, gains and users.
+[[nodiscard]] std::uint32_t hashWatchedScenario(const Scenario& scenario);
+
 /// The item by which a site tells the others its newest change; empty without one.
 [[nodiscard]] std::optional<ConfigurationItem> describeChange(const ChangedScenario& own);
 

@@ -72,11 +72,20 @@ void checkRequired(const PeerOptions& options) {
 }
 
 void checkWatching(const PeerOptions& options) {
-  if (options.line.site != 0 || !options.scenario.empty() || !options.line.keys.empty() ||
-      !options.line.peers.empty() || !options.device.device.empty())
+  if (options.line.site != 0 || !options.line.keys.empty() || !options.line.peers.empty() ||
+      !options.device.device.empty())
     throw UsageError(
-        "--watch: a spectator has no site and no hand; leave out --scenario, --site, --peer, --key "
-        "and --device");
+        "--watch: a spectator has no site and no hand; leave out --site, --peer, --key and "
+        "--device");
+  if (options.scenario.empty() && !options.overrides.empty())
+    throw UsageError("--set: needs --scenario, which --watch compares with that of the sites");
+}
+
+void watch(const PeerOptions& options) {
+  checkWatching(options);
+  std::optional<Scenario> scenario;
+  if (!options.scenario.empty()) scenario = loadScenario(options.scenario, options.overrides);
+  watchSites(options.line, scenario ? &*scenario : nullptr, options.folder, options.quiet);
 }
 
 void runPeer(const PeerOptions& options) {
@@ -127,8 +136,7 @@ class PeerCommand final : public Command {
 
   ExitStatus run() override {
     if (options_.watch) {
-      checkWatching(options_);
-      watchSites(options_.line, options_.folder, options_.quiet);
+      watch(options_);
       return kDone;
     }
     checkRequired(options_);

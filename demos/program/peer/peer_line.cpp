@@ -86,6 +86,7 @@ UdpMeshSettings makeMeshSettings(const PeerLine& line, const ChangedScenario& sc
   if (const auto change = describeChange(scenario)) items.push_back(*change);
   items.push_back({"wire.profile", line.profile});
   settings.configuration = makeConfiguration(std::move(items));
+  settings.watch_hash = hashWatchedScenario(scenario.scenario);
   return settings;
 }
 

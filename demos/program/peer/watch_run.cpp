@@ -12,10 +12,10 @@
 #include "tandem/plugin/watcher.h"
 
 #include "files/output_folder.h"
+#include "peer/watch_check.h"
 #include "terminal/standard_output.h"
 #include "terminal/status_line.h"
 #include "terminal/stop_signals.h"
-#include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
@@ -83,21 +83,17 @@ std::string describe(const Watcher& watcher, double now) {
   return line + fmt::format("coherency {:.3f} mm", 1e3 * measureCoherency(watcher, sites));
 }
 
-RelayAccess makeWatchAccess(const PeerLine& line) {
-  if (line.relay.empty() || line.relay_key.empty() || line.watch_key.empty())
-    throw UsageError("--watch needs --relay, --relay-key and --watch-key");
-  return *makeRelayAccess(line);
-}
-
 /// Follows the sites; knows which states it has seen.
 class WatchRun {
  public:
-  WatchRun(const PeerLine& line, std::optional<WatchFile>& file)
+  WatchRun(const PeerLine& line, const Scenario* scenario, std::optional<WatchFile>& file)
       : watcher_(makeWatchAccess(line), line.bind.empty() ? Address{} : resolveAddress(line.bind)),
+        check_(scenario, line.patience, started_),
         file_(file) {}
 
   void look(double now) {
     watcher_.poll(now);
+    check_.check(watcher_, now);
     for (const PeerId id : watcher_.heard()) {
       const WatchedSite& site = *watcher_.latest(id);
       std::uint64_t& seen = seen_[static_cast<std::uint32_t>(id) - 1];
@@ -111,24 +107,26 @@ class WatchRun {
   [[nodiscard]] const Watcher& watcher() const noexcept { return watcher_; }
 
  private:
+  double started_ = readMonotonicClock();
   Watcher watcher_;
+  WatchCheck check_;
   std::optional<WatchFile>& file_;
   std::array<std::uint64_t, kMaxPeerId> seen_{};  ///< states of each site
-  double started_ = readMonotonicClock();
-  std::optional<double> last_;  ///< newest state of any site [s]
+  std::optional<double> last_;                    ///< newest state of any site [s]
 };
 
 }  // namespace
 
-void watchSites(const PeerLine& line, const std::optional<std::string>& folder, bool is_quiet) {
+void watchSites(const PeerLine& line, const Scenario* scenario,
+                const std::optional<std::string>& folder, bool is_quiet) {
   std::optional<WatchFile> file;
   if (folder) file.emplace(*folder);
-  WatchRun run(line, file);
+  WatchRun run(line, scenario, file);
   const StopSignals stop;
   double next_report = readMonotonicClock() + kReportPeriod;
   {
     StatusLine status(is_quiet);
-    for (double now = readMonotonicClock(); run.silence(now) < line.patience;
+    for (double now = readMonotonicClock(); !run.hasHeard() || run.silence(now) < line.patience;
          now = readMonotonicClock()) {
       run.look(now);
       if (now >= next_report) {
@@ -138,11 +136,6 @@ void watchSites(const PeerLine& line, const std::optional<std::string>& folder, 
       if (stop.isAskedWithin(kLookPeriod)) break;
     }
   }
-  if (!run.hasHeard() && !stop.isAsked())
-    throw Error(
-        fmt::format("no site was heard for {} s; do the sites have --watch-key and this "
-                    "room, and the same key files?",
-                    line.patience));
   if (file && run.hasHeard()) file->publish();
   finishOutput();
 }

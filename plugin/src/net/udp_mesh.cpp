@@ -69,7 +69,7 @@ struct UdpMesh::Impl {
     if (!access || !access->watch_key) return;
     feed.emplace(*access->watch_key, settings.self,
                  relay::WatchRun{first_nonce, net::drawNumber<std::uint64_t>()}, settings.profile,
-                 hashConfiguration(settings.configuration), *member);
+                 settings.watch_hash.value_or(hashConfiguration(settings.configuration)), *member);
   }
   ~Impl() {
     if (member) member->leave();

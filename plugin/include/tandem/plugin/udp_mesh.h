@@ -90,6 +90,9 @@ struct UdpMeshSettings {
   Configuration configuration;  ///< must be equal at all sites
   PlayoutSettings playout;
   WireProfile profile = WireProfile::kFloat32;
+  /// Told to spectators in place of the configuration's hash, such as one that stays while gains
+  /// change.
+  std::optional<std::uint32_t> watch_hash = std::nullopt;
 };
 
 /// Number of datagrams that were dropped for one reason. coordination/STANDARD.md lists the

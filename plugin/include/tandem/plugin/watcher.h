@@ -14,7 +14,7 @@ namespace tandem {
 struct WatchedSite {
   StatePacket newest;             ///< some of the site's objects; Watcher::object() knows all
   double heard_at = 0.0;          ///< by the clock of Watcher::poll() [s]
-  std::uint32_t config_hash = 0;  ///< of the site's configuration
+  std::uint32_t config_hash = 0;  ///< the site's UdpMeshSettings::watch_hash
   std::uint64_t states = 0;       ///< taken so far
 };
 
