@@ -1,6 +1,7 @@
 #include "session/scene_look.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tandem::view {
@@ -32,9 +33,9 @@ Colour chooseColour(const demos::SceneBody& body) {
   return body.is_static ? kObstacleColour : kNeighbourColour;
 }
 
-BodyLooks nameBodies(const demos::SiteWorld& world) {
+BodyLooks nameBodies(const std::vector<demos::SceneBody>& bodies) {
   BodyLooks looks;
-  for (const demos::SceneBody& body : world.bodies())
+  for (const demos::SceneBody& body : bodies)
     if (body.body) looks[body.body] = {body.name, chooseColour(body)};
   return looks;
 }
@@ -54,6 +55,16 @@ void addArrow(DrawList& list, const Vec3& from_W, const Vec3& way_W, const Colou
 
 }  // namespace
 
+Colour chooseUserColour(int user) {
+  constexpr std::array<Colour, 6> kColours = {{kOwnColour,
+                                               kOtherColour,
+                                               {0.0F, 0.62F, 0.45F},
+                                               {0.80F, 0.47F, 0.65F},
+                                               {0.34F, 0.71F, 0.91F},
+                                               {0.25F, 0.25F, 0.27F}}};
+  return kColours[static_cast<std::size_t>(user) % kColours.size()];
+}
+
 void addHand(DrawList& list, const std::shared_ptr<const ShapeMesh>& ball, const Vec3& p_W,
              const Vec3& f_W, const Colour& colour) {
   Solid solid;
@@ -65,7 +76,8 @@ void addHand(DrawList& list, const std::shared_ptr<const ShapeMesh>& ball, const
   addArrow(list, p_W, kArrowPerNewton * f_W, colour);
 }
 
-double addGhost(DrawList& list, const std::string& name, const RigidState& there) {
+double addGhost(DrawList& list, const std::string& name, const RigidState& there,
+                const Colour& colour) {
   const auto here = std::find_if(list.solids.begin(), list.solids.end(),
                                  [&](const Solid& solid) { return solid.name == name; });
   if (here == list.solids.end()) return 0.0;
@@ -75,7 +87,7 @@ double addGhost(DrawList& list, const std::string& name, const RigidState& there
   ghost.p_WB = there.p_W;
   ghost.q_WB = there.q_WB;
   ghost.is_ghost = true;
-  ghost.colour = kOtherColour;
+  ghost.colour = colour;
   list.solids.push_back(std::move(ghost));
   return apart;
 }
@@ -87,19 +99,19 @@ double addGhosts(DrawList& list, const demos::SiteWorld& other) {
   return apart;
 }
 
-SceneLook::SceneLook(demos::SiteWorld& world) : world_(world), world_look_(nameBodies(world)) {}
+SceneLook::SceneLook(demos::SiteWorld& world) : SceneLook(world.world(), world.bodies()) {}
 
-DrawList SceneLook::look(const WorldDetails& details) {
-  DrawList list = world_look_.look(world_.world(), details);
-  // A body without a name is the hand in Bullet's own contact. Hands are drawn on their own.
-  std::erase_if(list.solids, [&](const Solid& solid) { return !hasName(solid.name); });
-  for (Solid& solid : list.solids) solid.has_grid |= solid.name == kFloor;
-  return list;
+SceneLook::SceneLook(btDiscreteDynamicsWorld& world, const std::vector<demos::SceneBody>& bodies)
+    : world_(world), world_look_(nameBodies(bodies)) {
+  for (const demos::SceneBody& body : bodies) names_.insert(body.name);
 }
 
-bool SceneLook::hasName(const std::string& name) const {
-  return std::ranges::any_of(world_.bodies(),
-                             [&](const demos::SceneBody& body) { return body.name == name; });
+DrawList SceneLook::look(const WorldDetails& details) {
+  DrawList list = world_look_.look(world_, details);
+  // A body without a name is the hand in Bullet's own contact. Hands are drawn on their own.
+  std::erase_if(list.solids, [&](const Solid& solid) { return !names_.contains(solid.name); });
+  for (Solid& solid : list.solids) solid.has_grid |= solid.name == kFloor;
+  return list;
 }
 
 std::shared_ptr<const ShapeMesh> makeBall(double radius) {

@@ -15,6 +15,15 @@
 
 namespace tandem::view {
 
+/// A user of a session, as a spectator sees one.
+struct UserLook {
+  int user = 0;                       ///< from 0
+  Vec3 hand_W = Vec3::Zero();         ///< [m]
+  double age = 0.0;                   ///< since the newest state [s]
+  bool is_live = false;               ///< that was a short while ago
+  bool has_another_scenario = false;  ///< than the spectator: nothing of this user is shown
+};
+
 /// A session at one moment, for a picture and a panel.
 struct SessionLook {
   double time = 0.0;                                  ///< of the sites [s]
@@ -27,6 +36,8 @@ struct SessionLook {
   double energy = 0.0;                ///< that the hand may still get from the world [J]
   LoopReport loop;                    ///< of the user's own haptic thread
   bool is_waiting = false;            ///< the other site is not there yet
+  std::vector<UserLook> users;        ///< all who were heard, for a spectator
+  std::optional<int> followed;        ///< the one whose copies a spectator sees, from 0
 };
 
 /// A session runs behind a window, and makes looks in threads of its own. All calls are for any
