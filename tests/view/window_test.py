@@ -162,6 +162,38 @@ def meet_a_friend(tandem, worlds, display, folder):
     refuse(tandem, display.environment, 2, "give --site 1", "--replay", folder / "met", "--site", "2")
 
 
+def watch_a_room(tandem, worlds, display, folder):
+    """A class in a window follows two users, of whom the first leaves, and never says anything to them."""
+    for key in ("relay", "pair", "watch", "other"):
+        subprocess.run([tandem, "key", "new", folder / key], check=True, stdout=subprocess.DEVNULL)
+    port = free_ports()[0]
+    relay = subprocess.Popen([tandem, "relay", "--bind", f"127.0.0.1:{port}", "--key", folder / "relay", "--quiet"])
+    room = ["--relay", f"127.0.0.1:{port}", "--relay-key", folder / "relay"]
+    users = [subprocess.Popen([tandem, "peer", "--scenario", worlds / "crate.toml", "--set", "experiment.duration=60",
+                               "--site", site, "--bind", "127.0.0.1:0", "--key", folder / "pair", *room,
+                               "--watch-key", folder / "watch", "--quiet"]) for site in ("1", "2")]
+    watch = ["--watch", *room, "--watch-key"]
+    view = View(tandem, display, folder, "crate", *watch, folder / "watch", "--screenshot", folder / "room.png")
+    first = view.wait_for("both users", lambda note: [user["live"] for user in note.get("users", [])] == [True] * 2)
+    check(first["followed"] == 1, "user 1 is followed at first")
+    view.wait_for("a hand that moves", lambda note: note["hip"][0] - first["hip"][0] > 0.01)
+    display.press("2")
+    view.wait_for("user 2's copies", lambda note: note["followed"] == 2)
+    users[0].terminate()
+    view.wait_for("a silent user", lambda note: not note["users"][0]["live"] and note["users"][1]["live"])
+    refuse(tandem, display.environment, 1, "--watch-key opens no state", "crate", *watch, folder / "other")
+    refuse(tandem, display.environment, 2, "has another scenario", "cube", *watch, folder / "watch")
+    refuse(tandem, display.environment, 2, "leave out --peer", "crate", *watch, folder / "watch", "--device", "emulated")
+    refuse(tandem, display.environment, 2, "a spectator has no --site", "crate", *watch, folder / "watch", "--site", "1")
+    refuse(tandem, display.environment, 2, "--watch needs --relay", "crate", "--watch", "--watch-key", folder / "watch")
+    display.press("Escape")
+    check(view.end() == 0, "Escape ends watching with status 0")
+    check((folder / "room.png").read_bytes()[:4] == b"\x89PNG", "a screenshot of a room")
+    for process in (*users, relay):
+        process.terminate()
+        check(process.wait(timeout=PATIENCE) == 0, "users and relay end with status 0")
+
+
 def record_until_a_signal(tandem, display, folder):
     """SIGTERM in the middle of a push leaves a whole record, and SIGKILL none."""
     for name, is_kind in (("killed", False), ("ended", True)):
@@ -249,6 +281,7 @@ def main():
                                   timeout=PATIENCE, check=True)
             check("status 0" in host.stdout, f"a host's own world in a window: {host.stdout}")
             meet_a_friend(tandem, worlds, display, folder)
+            watch_a_room(tandem, worlds, display, folder)
             record_until_a_signal(tandem, display, folder)
             replay_a_run(tandem, worlds, display, folder)
             subprocess.run([tandem, "run", worlds / "cube.toml", "--set", "experiment.duration=1", "--out",

@@ -16,6 +16,7 @@
 #include "terminal/stop_signals.h"
 #include "terminal/usage_error.h"
 #include "window/replay_run.h"
+#include "window/spectator_run.h"
 #include "window/view_run.h"
 
 namespace tandem::demos {
@@ -43,7 +44,9 @@ class ViewCommand final : public Command {
     arguments.option("--screenshot", screenshot_, "PNG file of the last frame");
     declarePeerLine(arguments, line_);
     declareDeviceOptions(arguments, device_);
-    arguments.flag("--watch", watches_, "without a hand: your user moves as the scenario says");
+    arguments.flag("--watch", watches_,
+                   "without a hand: your user moves as the scenario says; with --relay and "
+                   "--watch-key, but no --site: follow the users of its room");
     arguments.option("--second", second_,
                      "user 2's device at this machine: as --device, with its firmware and limits");
   }
@@ -56,6 +59,8 @@ class ViewCommand final : public Command {
     if (screenshot_) settings_.window.screenshot = *screenshot_;
     if (replay_) {
       showReplay();
+    } else if (isSpectator()) {
+      showRoom();
     } else {
       showSession();
     }
@@ -75,9 +80,29 @@ class ViewCommand final : public Command {
     run.run([&] { return signals.isAskedWithin(0.0); });
   }
 
+  /// With --site, --watch is a player without a hand.
+  [[nodiscard]] bool isSpectator() const {
+    return watches_ && line_.site == 0 && !(line_.relay.empty() && line_.watch_key.empty());
+  }
+
+  void showRoom() {
+    if (!line_.peers.empty() || !line_.keys.empty() || !device_.device.empty() || record_ ||
+        second_)
+      throw UsageError(
+          "--watch: a spectator has no site and no hand; leave out --peer, --key, --device, "
+          "--second and --record");
+    const StopSignals signals;
+    view::SpectatorRun run(settings_.window, loadWorld(), line_);
+    run.run([&] { return signals.isAskedWithin(0.0); });
+  }
+
+  [[nodiscard]] Scenario loadWorld() const {
+    return loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_),
+                        addShares(overrides_, shares_));
+  }
+
   void showSession() {
-    settings_.scenario = loadScenario(view::findWorld(world_.empty() ? kUsualWorld : world_),
-                                      addShares(overrides_, shares_));
+    settings_.scenario = loadWorld();
     if (record_) settings_.record = *record_;
     if (line_.site != 0 || !line_.peers.empty() || !line_.relay.empty())
       settings_.line = completeLine();
@@ -131,7 +156,8 @@ class ViewCommand final : public Command {
   [[nodiscard]] const PeerLine& completeLine() const {
     const bool has_way = !line_.peers.empty() || !line_.relay.empty();
     if (line_.site == 0 || line_.bind.empty() || line_.keys.empty() || !has_way)
-      throw UsageError("--site, --bind, --key and --peer or --relay belong together");
+      throw UsageError(
+          "--site, --bind, --key and --peer or --relay belong together; a spectator has no --site");
     checkPeerLine(line_, settings_.scenario.sites.size());
     return line_;
   }

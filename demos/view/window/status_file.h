@@ -11,7 +11,8 @@
 namespace tandem::view {
 
 /// A file with one JSON object a line, every 0.1 s, for programs that drive the window: time,
-/// world, scheme, contact, paused, speed, force, hip, object, apart, status, skipped, frames.
+/// world, scheme, contact, paused, speed, force, hip, object, apart, status, skipped, frames. For a
+/// spectator also followed, a site, and users.
 class StatusFile {
  public:
   /// Throws Error if the file cannot be written.
