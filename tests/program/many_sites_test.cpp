@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "demos/program/peer/peer_configuration.h"
 #include "demos/program/scenario/scenario.h"
 #include "demos/program/scenario/site_delays.h"
 #include "demos/program/scenario/user_places.h"
@@ -45,6 +46,23 @@ TEST(ManySites, TwoTablesAreSitesOneAndTwo) {
   const Scenario listed =
       parse("[[site]]\nhand_force = [5, 0, 0]\n[[site]]\nstart_offset = [0.01, 0, 0]\n");
   EXPECT_EQ(describeScenario(listed), describeScenario(numbered));
+}
+
+// Each site's contact gains are felt by the others, by way of the objects. A hand is a user's own.
+TEST(ManySites, AgreeOnTheContactGainsOfEachSite) {
+  for (const int count : {2, 3}) {
+    const Configuration here = makePeerConfiguration(parse(makeSites(count)));
+    const auto differs = [&](const Words& overrides) {
+      const auto there = makePeerConfiguration(parse(makeSites(count), overrides));
+      return findFirstDifference(here, there);
+    };
+    const auto difference = differs({"site2.contact_stiffness=400"});
+    ASSERT_TRUE(difference) << count;
+    EXPECT_EQ(difference->key, "site2.contact_stiffness");
+    EXPECT_EQ(difference->there, "400.0");
+    EXPECT_TRUE(differs({"site1.contact_damping=3"}));
+    EXPECT_FALSE(differs({"site2.hand_force=[1, 0, 0]", "site1.device_mass=0.3"}));
+  }
 }
 
 TEST(ManySites, AreReadBackAsTheyWereDescribed) {

@@ -27,7 +27,7 @@ constexpr std::array<std::array<const char*, 2>, 5> kKeys = {{{"experiment", "sc
                                                               {"coordination", "damping"}}};
 
 bool mayChange(const std::string& key) {
-  return key.rfind("site.", 0) == 0 || std::ranges::any_of(kKeys, [&](const auto& words) {
+  return key.rfind("site", 0) == 0 || std::ranges::any_of(kKeys, [&](const auto& words) {
            return key == fmt::format("{}.{}", words[0], words[1]);
          });
 }

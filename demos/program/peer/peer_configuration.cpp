@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "scenario/site_keys.h"
+#include "scenario/table_keys.h"
+
 namespace tandem::demos {
 namespace {
 
@@ -27,12 +30,21 @@ void flatten(const nlohmann::json& node, const std::string& prefix,
   }
 }
 
+/// The scenario, with its sites by their numbers whether a list or two tables has them.
+nlohmann::json describeByNumber(const Scenario& scenario) {
+  nlohmann::json all = describeScenario(scenario);
+  for (std::size_t i = 0; i < scenario.sites.size(); ++i)
+    all[fmt::format("site{}", i + 1)] = showTable(siteKeys(), scenario.sites[i]);
+  all.erase("site");
+  return all;
+}
+
 }  // namespace
 
 Configuration makePeerConfiguration(const Scenario& scenario) {
   std::vector<ConfigurationItem> items = {{"units", "SI"},
                                           {"site.count", std::to_string(scenario.sites.size())}};
-  flatten(describeScenario(scenario), "", items);
+  flatten(describeByNumber(scenario), "", items);
   return makeConfiguration(std::move(items));
 }
 
