@@ -1,11 +1,13 @@
 // Scenarios with more than two sites: tables [[site]], places of users, delays, refusals.
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "demos/program/import/file_scenario.h"
 #include "demos/program/peer/peer_configuration.h"
 #include "demos/program/scenario/scenario.h"
 #include "demos/program/scenario/site_delays.h"
@@ -185,6 +187,28 @@ TEST(ManySites, UsersComeAndGoWhereThatIsFollowed) {
                 {"site2.comes", "coordination.follows_users"});
   expectRefused(follows + "[[site]]\n[[site]]\ncomes = 2\ngoes = 1\n", {},
                 {"site2.goes = 1", "after site2.comes = 2"});
+}
+
+// A world file in place of a scenario says nothing of hands.
+TEST(ManySites, HandsBeginApartBesideTheBodyOfAWorldFile) {
+  Scenario scenario =
+      parse(makeSites(10) +
+                "[world]\nfloor = true\n[[body]]\nname = \"arm\"\nmass = 0.5\nshared = true\n" +
+                "size = [0.2, 0.04, 0.04]\nposition = [1, 0, 0.02]\n",
+            {"experiment.kind=world", "experiment.guide=false", "site4.start_offset=[3, 0, 1]"});
+  placeUsers(scenario);
+  const Vec3 middle(1.0, 0.0, 0.02);
+  const double radius = scenario.site.proxy.radius;
+  for (std::size_t i = 0; i < scenario.sites.size(); ++i) {
+    const Vec3& place = scenario.sites[i].hand.start_offset;
+    EXPECT_GE(place.z(), middle.z()) << i;
+    EXPECT_GT(std::abs(place.x() - middle.x()), 0.1 + radius) << i;
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT((place - scenario.sites[j].hand.start_offset).norm(), 2.0 * radius)
+          << i << ' ' << j;
+  }
+  EXPECT_EQ(scenario.sites[3].hand.start_offset, Vec3(3.0, 0.0, 1.0));
+  EXPECT_EQ(scenario.sites[0].hand.start_offset.x(), 1.0 - (0.1 + radius + 0.02));
 }
 
 }  // namespace

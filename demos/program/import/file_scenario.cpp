@@ -8,6 +8,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "scenario/user_places.h"
 #include "terminal/usage_error.h"
 #include "world/scene_world.h"
 
@@ -61,9 +62,14 @@ void placeUsers(Scenario& scenario) {
   const Vec3 high = scene.frame().toScene(fromBullet(high_W));
   const Vec3 half = 0.5 * (high - low).cwiseAbs(), middle = 0.5 * (low + high);
   const double distance = half.x() + scenario.site.proxy.radius + kGap;
-  for (const std::size_t i : {0, 1})
+  for (std::size_t i = 0; i < scenario.sites.size(); ++i) {
+    // There may be a floor, so the lowest row of hands is as high as the body's middle.
+    const double row = computePlaceBeside(scenario, i, 0.0).z();
+    const double lowest = computePlaceBeside(scenario, i % 2, 0.0).z();
+    const Vec3 beside = computePlaceBeside(scenario, i, distance);
     if (Vec3& place = scenario.sites[i].hand.start_offset; place == Vec3::Zero())
-      place = middle + (i == 0 ? -distance : distance) * Vec3::UnitX();
+      place = middle + Vec3(beside.x(), beside.y(), row - lowest);
+  }
   if (scenario.camera.distance > 0.0) return;
   scenario.camera.target = middle;
   scenario.camera.distance = 0.3 + 5.0 * half.maxCoeff();

@@ -25,11 +25,15 @@ Vec3 computeUserPlace(const Scenario& scenario, std::size_t site) {
   const double radius = scenario.site.proxy.radius;
   if (!scenario.hasObject())
     return (2.0 * static_cast<double>(site) - 1.0) * radius * Vec3::UnitX();
+  return computePlaceBeside(scenario, site, radius + 0.5 * scenario.object_size);
+}
+
+Vec3 computePlaceBeside(const Scenario& scenario, std::size_t site, double distance) {
   const std::size_t count = countBeside(scenario, site), columns = countColumns(count);
   const std::size_t rows = (count + columns - 1) / columns, place = site / 2;
-  const double side = site % 2 == 0 ? -1.0 : 1.0, step = kSpacing * radius;
+  const double side = site % 2 == 0 ? -1.0 : 1.0, step = kSpacing * scenario.site.proxy.radius;
   const std::size_t in_row = std::min(columns, count - place / columns * columns);
-  return {side * (radius + 0.5 * scenario.object_size), step * placeInLine(place % columns, in_row),
+  return {side * distance, step * placeInLine(place % columns, in_row),
           step * placeInLine(place / columns, rows)};
 }
 

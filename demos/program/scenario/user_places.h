@@ -11,6 +11,9 @@ namespace tandem::demos {
 /// the origin.
 [[nodiscard]] Vec3 computeUserPlace(const Scenario& scenario, std::size_t site);
 
+/// The same beside any object whose middle is the origin: `distance` from it along x [m].
+[[nodiscard]] Vec3 computePlaceBeside(const Scenario& scenario, std::size_t site, double distance);
+
 /// The number of users who stand beside `site` at the same face, with that one.
 [[nodiscard]] std::size_t countBeside(const Scenario& scenario, std::size_t site);
 
