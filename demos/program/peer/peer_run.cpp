@@ -1,6 +1,5 @@
 #include "peer/peer_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -52,8 +51,6 @@ void PeerRun::makeWorld() {
   const PeerLinks links(std::move(all));
   world_ = device_ ? std::make_unique<SiteWorld>(scenario_, index_, links, *device_, places_)
                    : std::make_unique<SiteWorld>(scenario_, index_, links, places_);
-  Site& own = world_->site();
-  if (scenario_.hasObject()) object_start_W_ = own.object(0).p_W;
   if (purpose_ == PeerPurpose::kSession) return;
   record_ = std::make_unique<SiteRecord>(
       scenario_, index_, *world_, purpose_ == PeerPurpose::kResults ? duration() : kLongestRecord);
@@ -190,13 +187,8 @@ void PeerRun::noteDifferences(const std::function<void(const std::string&)>& not
 double PeerRun::computeCoherency() const noexcept {
   const Site& site = world_->site();
   if (!scenario_.hasObject()) return 0.0;
-  double farthest = 0.0;
-  for (int remote = 0; remote < site.remoteCount(); ++remote) {
-    const auto received = findObject(site.latest(remote), 0);
-    const Vec3& received_W = received ? received->p_W : object_start_W_;
-    farthest = std::max(farthest, (site.object(0).p_W - received_W).norm());
-  }
-  return farthest;
+  const auto farthest = findFarthestCopy(site);
+  return farthest ? (site.object(0).p_W - farthest->p_W).norm() : 0.0;
 }
 
 PeerReport PeerRun::makeReport(double time) {

@@ -99,7 +99,6 @@ class PeerRun {
   LivePeers peers_;
   std::unique_ptr<SiteWorld> world_;
   std::unique_ptr<SiteRecord> record_;
-  Vec3 object_start_W_ = Vec3::Zero();
   LoopReport loop_;
   std::vector<PeerId> noted_;  ///< sites of which the user knows that they have another scenario
 };

@@ -19,18 +19,6 @@ LinkState findTroubledLink(const Site& site) {
   return LinkState::kLive;
 }
 
-std::optional<RigidState> findFarthestCopy(const Site& site) {
-  std::optional<RigidState> farthest;
-  const auto measure = [&](const RigidState& copy) {
-    return (copy.p_W - site.object(0).p_W).norm();
-  };
-  for (int remote = 0; remote < site.remoteCount(); ++remote) {
-    const auto copy = demos::findObject(site.latest(remote), 0);
-    if (copy && (!farthest || measure(*copy) > measure(*farthest))) farthest = copy;
-  }
-  return farthest;
-}
-
 }  // namespace
 
 std::shared_ptr<const SessionLook> Session::look() const {
@@ -97,7 +85,7 @@ std::optional<RigidState> Session::lookAt(Site& site, SessionLook& look) {
     look.energy = site.passivity().available();
     if (site.objectCount() == 0) return;
     look.object_W = site.object(0).p_W;
-    received = findFarthestCopy(site);
+    received = demos::findFarthestCopy(site);
   });
   return received;
 }
