@@ -44,7 +44,7 @@ struct Way {
   }
   /// `number` is the datagram's under the present keys; empty means the previous keys.
   Refusal receive(const std::vector<std::uint8_t>& bytes, std::optional<std::uint64_t> number) {
-    if (number) receiver.note(*number, now);
+    if (number) receiver.note(*number);
     return receiver.read({bytes.data(), bytes.size()}, PeerId{2}, number, true, now).refusal;
   }
   /// All states that arrived.

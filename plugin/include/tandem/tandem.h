@@ -434,7 +434,7 @@ typedef struct TandemPeerStatus {
   TandemPeerPhase phase;
   double silence;    /* [s] */
   double round_trip; /* [s] */
-  double loss;       /* lost fraction of the peer's packets, 0 to 1 */
+  double loss;       /* lost fraction of the peer's states, 0 to 1 */
 } TandemPeerStatus;
 
 /* [carry] */

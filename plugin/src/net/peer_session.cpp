@@ -225,7 +225,7 @@ Outcome PeerSession::onSealed(const ClearHeader& header, ByteSpan datagram, cons
     if (!has_heard_present_) previous_until_ = now + kPreviousKeys;
     has_heard_present_ = true;
     sequence = header.sequence;
-    stream_.note(*sequence, now);
+    stream_.note(*sequence);
     if (*sequence >= newest_sequence_) {
       newest_sequence_ = *sequence;
       paths_.note(from, now);

@@ -6,7 +6,6 @@
 namespace tandem::net {
 namespace {
 
-constexpr double kLossPeriod = 1.0;  // [s]
 constexpr double kMicro = 1e-6;
 
 double toSeconds(std::int64_t microseconds) noexcept {
@@ -46,6 +45,7 @@ Outcome StateStream::read(ByteView payload, PeerId sender, std::optional<std::ui
                           bool is_agreed, double now) noexcept {
   auto message = decodeState(payload, sender);
   if (!message) return message.refusal();
+  if (sequence) loss_.noteState(message->packet.sequence, now);
   if (!sequence && has_begun_anew_) return Refusal::kExpired;
   if (sequence && (!has_news_ || *sequence > newest_)) {
     has_news_ = true;
@@ -95,12 +95,12 @@ void StateStream::startKeys() noexcept {
   newest_ = 0;
   is_first_of_keys_ = true;
   has_begun_anew_ = false;
-  loss_received_ = 0;
+  loss_.begin();
   unheard_since_.reset();
 }
 
-void StateStream::note(std::uint64_t sequence, double now) noexcept {
-  countLoss(sequence, now);
+void StateStream::note(std::uint64_t sequence) noexcept {
+  loss_.noteDatagram(sequence);
   if (!top_) top_ = sequence;
   if (sequence > *top_) {
     const std::uint64_t ahead = sequence - *top_;
@@ -114,18 +114,6 @@ void StateStream::note(std::uint64_t sequence, double now) noexcept {
 std::uint32_t StateStream::computeAckBits() const noexcept {
   const std::uint64_t behind = *top_ - newest_ + 1;
   return behind < 64 ? static_cast<std::uint32_t>(came_ >> behind) : 0;
-}
-
-void StateStream::countLoss(std::uint64_t sequence, double now) noexcept {
-  if (loss_received_ == 0) {
-    loss_first_ = sequence;
-    loss_since_ = now;
-  }
-  ++loss_received_;
-  if (now - loss_since_ < kLossPeriod || sequence < loss_first_) return;
-  const double sent = static_cast<double>(sequence - loss_first_ + 1);
-  loss_ = std::clamp(1.0 - static_cast<double>(loss_received_) / sent, 0.0, 1.0);
-  loss_received_ = 0;
 }
 
 }  // namespace tandem::net

@@ -6,6 +6,7 @@
 #include "coordination/src/link/playout.h"
 #include "coordination/src/link/round_trip.h"
 #include "coordination/src/wire/wire_state.h"
+#include "net/loss_meter.h"
 #include "net/refusal.h"
 
 namespace tandem::net {
@@ -24,7 +25,7 @@ class StateStream {
                                   ByteSpan payload) noexcept;
 
   /// Notes any opened datagram, for acknowledgements and loss.
-  void note(std::uint64_t sequence, double now) noexcept;
+  void note(std::uint64_t sequence) noexcept;
 
   /// Takes an opened STATE, after note(). `sequence` is that of its datagram, empty under replaced
   /// keys. A state under replaced keys is dropped if the peer has restarted since. Unless
@@ -47,11 +48,10 @@ class StateStream {
 
   [[nodiscard]] const RoundTrip& trip() const noexcept { return trip_; }
   [[nodiscard]] const Playout& playout() const noexcept { return playout_; }
-  /// Fraction of the peer's datagrams lost in the last second, 0 to 1.
-  [[nodiscard]] double loss() const noexcept { return loss_; }
+  /// Fraction of the peer's states lost in the last second, 0 to 1.
+  [[nodiscard]] double loss() const noexcept { return loss_.loss(); }
 
  private:
-  void countLoss(std::uint64_t sequence, double now) noexcept;
   [[nodiscard]] std::uint32_t computeAckBits() const noexcept;
 
   Playout playout_;
@@ -79,8 +79,7 @@ class StateStream {
   bool has_state_ = false;
   double granted_ = 0.0, granted_offset_ = 0.0;  ///< by the state with the highest sequence [J]
 
-  double loss_ = 0.0, loss_since_ = 0.0;
-  std::uint64_t loss_first_ = 0, loss_received_ = 0;
+  LossMeter loss_;
 };
 
 }  // namespace tandem::net

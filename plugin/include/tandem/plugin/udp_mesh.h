@@ -44,8 +44,8 @@ struct PeerStatus {
   double clock_offset = 0.0;          ///< peer's clock - own [s], if both ways take equal time
   double wait = 0.0;                  ///< delay added by playout [s]
   double jitter = 0.0;                ///< 99 % of the packets stay within it [s]
-  double loss = 0.0;                  ///< lost fraction of the peer's packets, 0 to 1
-  std::uint16_t key_epoch = 0;        ///< handshakes so far
+  double loss = 0.0;            ///< lost fraction of the peer's states in the last second, 0 to 1
+  std::uint16_t key_epoch = 0;  ///< handshakes so far
   std::uint64_t states_sent = 0;
   std::uint64_t states_unsent = 0;    ///< not encodable, such as beyond 1000 m
   std::uint64_t states_given = 0;     ///< passed to the site
