@@ -32,6 +32,7 @@ std::vector<Case> siteCases() {
       siteCase("Self", "self = 0: must be 1 or more", [](auto& s) { s.self = 0; }),
       siteCase("Peers", "peers = 0: must be 1 to 64", [](auto& s) { s.peers = 0; }),
       siteCase("Rate", "haptic_rate = nan", [](auto& s) { s.haptic_rate = kNan; }),
+      siteCase("Budget", "packet_budget = -1: must be", [](auto& s) { s.packet_budget = -1.0; }),
       siteCase("Contact", "contact.stiffness = -1", [](auto& s) { s.contact.stiffness = -1.0; }),
       siteCase("Scheme", "remote_dynamic_proxy", [](auto& s) { s.scheme = "telepathy"; }),
       siteCase("NoScheme", "scheme is null", [](auto& s) { s.scheme = nullptr; }),

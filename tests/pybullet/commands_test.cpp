@@ -160,6 +160,13 @@ TEST(Site, IsNotOpenWhenItWasRefused) {
   host.command("site");
 }
 
+TEST(Site, TakesABudgetOfPackets) {
+  PluginHost host;
+  host.command(kFarHand);
+  EXPECT_NE(host.refusal("site packet_budget=-1").find("packet_budget = -1"), std::string::npos);
+  host.command("site packet_budget=1e6");
+}
+
 TEST(Order, IsSaidWhereItIsWrong) {
   PluginHost host;
   host.engine.add(makeStubCube());

@@ -46,6 +46,7 @@ inline constexpr SiteWord kSiteWords[] = {
     word<&TandemSiteSettings::peers>("peers"),
     word<&TandemSiteSettings::haptic_rate>("haptic_rate"),
     word<&TandemSiteSettings::packet_rate>("packet_rate"),
+    word<&TandemSiteSettings::packet_budget>("packet_budget"),
     word<&TandemSiteSettings::thins_when_idle>("thins_when_idle", "thins_when_idle", true),
     word<&TandemSiteSettings::host_step>("host_step"),
     word<&TandemSiteSettings::contact, &TandemGains::stiffness>("contact.stiffness"),

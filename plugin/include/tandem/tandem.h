@@ -473,6 +473,7 @@ typedef struct TandemSiteSettings {
   int peers;                /* N: each of N copies of a shared object carries m/N */
   double haptic_rate;       /* [Hz] */
   double packet_rate;       /* states sent per second [Hz] */
+  double packet_budget;     /* sent to all peers together [bit/s]; far ones get less; 0: no limit */
   int thins_when_idle;      /* fewer packets while nothing moves */
   double host_step;         /* first step expected of the host [s]; 0: learnt from it */
   TandemGains contact;      /* K_vc, B_vc */
