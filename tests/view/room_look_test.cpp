@@ -78,6 +78,16 @@ TEST_F(RoomLookTest, FollowsTheFirstWhoIsHeardUntilAnotherIsWanted) {
   EXPECT_EQ(room.look(1.0, 3).followed, 3);
 }
 
+// Bullet's bounds cover where it thinks that the body was, too.
+TEST_F(RoomLookTest, DrawsBoundsWhereTheObjectIs) {
+  tell(0, 1.0, 5.0, 0.5);
+  WorldDetails details;
+  details.bounds = true;
+  const SessionLook look = room.look(1.0, 0, details);
+  ASSERT_FALSE(look.list.lines.empty());
+  for (const Line& line : look.list.lines) EXPECT_GT(line.from_W.x(), 0.4);
+}
+
 TEST_F(RoomLookTest, FadesASilentUserAndBringsHimBack) {
   tell(0, 1.0, 0.0, 0.01);
   tell(1, 2.0, 0.0, 0.0);

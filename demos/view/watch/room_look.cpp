@@ -66,7 +66,8 @@ SessionLook RoomLook::look(double now, std::optional<int> wanted, const WorldDet
 void RoomLook::placeObjects(const WatchedTrack& track, double now) {
   for (std::size_t id = 0; id < shared_.size(); ++id)
     if (const auto state = track.object(static_cast<ObjectId>(id), now))
-      shared_[id].body->setWorldTransform(btTransform(toBullet(state->q_WB), toBullet(state->p_W)));
+      shared_[id].body->setCenterOfMassTransform(
+          btTransform(toBullet(state->q_WB), toBullet(state->p_W)));
 }
 
 void RoomLook::fadeObjects(DrawList& list) const {
