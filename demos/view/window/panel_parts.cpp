@@ -10,6 +10,11 @@ constexpr float kWidth = 330.0F, kMargin = 10.0F;  // [pixel]
 
 }  // namespace
 
+PictureSize shownSize() {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  return {static_cast<int>(size.x), static_cast<int>(size.y)};
+}
+
 void beginPanel(const demos::Scenario& scenario) {
   ImGui::SetNextWindowPos({kMargin, kMargin}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kWidth, 0.0F});

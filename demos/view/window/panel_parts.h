@@ -2,11 +2,15 @@
 
 #include <span>
 
+#include "gl/projection.h"
 #include "scenario/scenario.h"
 
 // Parts of panels that all windows share. They need Dear ImGui's frame.
 
 namespace tandem::view {
+
+/// The size of the window's content.
+[[nodiscard]] PictureSize shownSize();
 
 /// Begins the panel at the upper left, with the scenario's title. ImGui::End() ends it.
 void beginPanel(const demos::Scenario& scenario);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr HelpLine kHelp[] = {{"1 to 9", "the copies of this user"},
                               {"Tab", "those of the next one"},
+                              {"Home", "all users in the picture"},
                               {"right button", "turn the view; wheel: zoom"},
                               {"middle button", "shift the view"},
                               {"F1", "this help"},
@@ -69,6 +70,7 @@ SpectatorWishes SpectatorPanel::show(const demos::Scenario& scenario, const Sess
                                      const std::vector<std::string>& notes) {
   SpectatorWishes wishes;
   wishes.followed = readKeys(look);
+  wishes.shows_all = ImGui::IsKeyPressed(GLFW_KEY_HOME, false);
   beginPanel(scenario);
   ImGui::TextUnformatted("Objects as this user has them:");
   showUsers(look, wishes);
@@ -88,8 +90,7 @@ SpectatorWishes SpectatorPanel::show(const demos::Scenario& scenario, const Sess
 }
 
 void labelHands(const SessionLook& look, const Eye& eye) {
-  const ImVec2 shown = ImGui::GetIO().DisplaySize;
-  const PictureSize size{static_cast<int>(shown.x), static_cast<int>(shown.y)};
+  const PictureSize size = shownSize();
   for (const UserLook& one : look.users) {
     const auto seen = projectPoint(eye, size, one.hand_W);
     if (!seen || one.has_another_scenario) continue;

@@ -11,6 +11,7 @@ namespace tandem::view {
 /// A spectator's choices in this frame.
 struct SpectatorWishes {
   std::optional<int> followed;  ///< user, from 0, whose copies are to be shown
+  bool shows_all = false;       ///< all users are to be in the picture
   bool takes_picture = false;
 };
 

@@ -2,9 +2,18 @@
 
 #include "replay/replay_eye.h"
 #include "session/first_eye.h"
+#include "window/panel_parts.h"
 
 namespace tandem::view {
 namespace {
+
+/// Hands and the first object.
+std::vector<Vec3> listPlaces(const SessionLook& look) {
+  std::vector<Vec3> places_W = {look.object_W};
+  for (const UserLook& one : look.users)
+    if (!one.has_another_scenario) places_W.push_back(one.hand_W);
+  return places_W;
+}
 
 /// Near enough for what the scenario says, and all hands in the picture.
 Eye chooseSpectatorEye(const demos::Scenario& scenario, PictureSize size) {
@@ -35,6 +44,7 @@ void SpectatorRun::showFrame(double time) {
   window_.draw(look->list, [&] {
     labelHands(*look, window_.eye);
     wishes = panel_.show(scenario_, *look, session_.notes());
+    if (wishes.shows_all) window_.eye = showAll(window_.eye, shownSize(), listPlaces(*look));
     return wishes.takes_picture;
   });
   window_.note(scenario_, {}, *look, time);
