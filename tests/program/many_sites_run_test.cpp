@@ -1,5 +1,6 @@
 // Runs with more than two sites: links, couplers to all others, and what the summary says of them.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "demos/program/run/run_output.h"
 #include "demos/program/scenario/scenario.h"
+#include "demos/program/world/received_object.h"
 #include "support/temp_folder.h"
 
 namespace tandem::demos {
@@ -75,6 +77,23 @@ TEST(ManySitesRun, UsersComeAndGo) {
   }
   EXPECT_EQ(site(2).memberCount(), 1);
   EXPECT_EQ(site(2).counters().members_changed, 2u);
+}
+
+// The live programs show this distance; users 1 and 3 have different delays to user 2.
+TEST(ManySitesRun, TheFarthestCopyIsThatOfTheOtherSites) {
+  VirtualRun run(load("experiment1.toml", {"site=[{hand_force=[5, 0, 0]}, {}, {}]",
+                                           "site3.delay=0.1", "experiment.duration=0.5"}));
+  const Site& site = run.world(1).site();
+  EXPECT_FALSE(findFarthestCopy(site));
+  run.run();
+  const Vec3 own_W = site.object(0).p_W;
+  double distances[2];
+  for (int remote : {0, 1})
+    distances[remote] = (findObject(site.latest(remote), 0)->p_W - own_W).norm();
+  EXPECT_GT(std::abs(distances[0] - distances[1]), 1e-4);
+  const auto farthest = findFarthestCopy(site);
+  ASSERT_TRUE(farthest);
+  EXPECT_EQ((farthest->p_W - own_W).norm(), std::max(distances[0], distances[1]));
 }
 
 TEST(ManySitesRun, CoherencyIsThatOfTheFarthestPair) {
