@@ -5,6 +5,7 @@
 
 #include "tandem/plugin/udp_socket.h"
 
+#include "net/carried_socket.h"
 #include "net/peer_group.h"
 #include "net/random.h"
 #include "net/relayed_address.h"
@@ -50,10 +51,20 @@ const char* name(net::Refusal refusal) noexcept {
   return "";
 }
 
-std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers, bool are_relayed) {
+std::unique_ptr<net::Socket> openSocket(const UdpMeshSettings& settings, bool has_relay) {
+  if (!settings.carrier) return std::make_unique<net::UdpSocket>(settings.bind);
+  if (has_relay)
+    throw std::invalid_argument("a relay needs UDP; leave out the relay or the carrier");
+  return std::make_unique<net::CarriedSocket>(*settings.carrier);
+}
+
+std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers, bool are_relayed,
+                                              bool are_carried) {
   std::vector<net::PeerGroup::Peer> all;
-  for (UdpPeer& peer : peers)
+  for (UdpPeer& peer : peers) {
+    if (are_carried) peer.address = net::makeCarriedAddress(peer.id);
     all.push_back({peer.id, peer.address, std::move(peer.key), are_relayed});
+  }
   return all;
 }
 
@@ -62,9 +73,10 @@ std::vector<net::PeerGroup::Peer> toMeshPeers(std::vector<UdpPeer> peers, bool a
 struct UdpMesh::Impl {
   Impl(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
        std::optional<RelayAccess> access)
-      : socket(settings.bind),
-        member(access ? relay::makeMember(*access, settings.self, first_nonce, socket) : nullptr),
-        mesh(settings.self, toMeshPeers(std::move(peers), member != nullptr),
+      : socket(openSocket(settings, access.has_value())),
+        is_carried(settings.carrier != nullptr),
+        member(access ? relay::makeMember(*access, settings.self, first_nonce, *socket) : nullptr),
+        mesh(settings.self, toMeshPeers(std::move(peers), member != nullptr, is_carried),
              {settings.configuration, settings.playout, settings.profile, first_nonce}, outlet()) {
     if (!access || !access->watch_key) return;
     feed.emplace(*access->watch_key, settings.self,
@@ -79,13 +91,14 @@ struct UdpMesh::Impl {
 
   [[nodiscard]] net::Outlet& outlet() noexcept {
     if (member) return *member;
-    return socket;
+    return *socket;
   }
   void receive(ByteSpan datagram, const Address& from, double now) noexcept;
   void advanceMember(double now) noexcept;
 
   const std::uint64_t first_nonce = relay::drawNonceOfNow();
-  net::UdpSocket socket;
+  std::unique_ptr<net::Socket> socket;
+  const bool is_carried;
   std::unique_ptr<relay::RelayMember> member;  ///< null without a relay
   net::PeerGroup mesh;
   std::optional<relay::WatchFeed> feed;        ///< empty without a watch key
@@ -124,7 +137,7 @@ void UdpMesh::poll(double now) noexcept {
   // One byte more than the longest datagram reveals a longer one.
   std::array<std::uint8_t, relay::kMaxForward + 1> room;
   for (int i = 0; i < kMostPerPoll; ++i) {
-    const auto received = impl_->socket.receive({room.data(), room.size()});
+    const auto received = impl_->socket->receive({room.data(), room.size()});
     if (!received) break;
     impl_->receive({room.data(), received->size}, received->from, now);
   }
@@ -132,12 +145,13 @@ void UdpMesh::poll(double now) noexcept {
   impl_->mesh.advance(now);
 }
 
-void UdpMesh::wait(double seconds) const noexcept { impl_->socket.wait(seconds); }
+void UdpMesh::wait(double seconds) const noexcept { impl_->socket->wait(seconds); }
 
 void UdpMesh::leave(double now, ByeReason reason) noexcept { impl_->mesh.leave(reason, now); }
 
 PeerStatus UdpMesh::status(PeerId peer, double now) const {
   PeerStatus status = impl_->mesh.status(peer, now);
+  if (impl_->is_carried) status.address.reset();
   if (status.is_relayed && impl_->member) status.address = impl_->member->relay();
   return status;
 }
@@ -163,6 +177,6 @@ std::vector<RefusedDatagrams> UdpMesh::refused() const {
   return all;
 }
 
-Address UdpMesh::bound() const noexcept { return impl_->socket.bound(); }
+Address UdpMesh::bound() const noexcept { return impl_->socket->bound(); }
 
 }  // namespace tandem

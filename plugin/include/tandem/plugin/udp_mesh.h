@@ -16,6 +16,7 @@
 #pragma GCC visibility push(default)
 namespace tandem {
 
+class DatagramCarrier;
 class Link;
 
 /// Phase of the connection to a peer.
@@ -93,6 +94,7 @@ struct UdpMeshSettings {
   /// Told to spectators in place of the configuration's hash, such as one that stays while gains
   /// change.
   std::optional<std::uint32_t> watch_hash = std::nullopt;
+  DatagramCarrier* carrier = nullptr;  ///< instead of UDP, must outlive the mesh; `bind` is unused
 };
 
 /// Number of datagrams that were dropped for one reason. coordination/STANDARD.md lists the
@@ -102,8 +104,8 @@ struct RefusedDatagrams {
   std::uint64_t count = 0;
 };
 
-/// Links to all remote sites over one UDP socket: sealed, protected against replay, with constant
-/// delay.
+/// Links to all remote sites over one UDP socket, or by a carrier: sealed, protected against
+/// replay, with constant delay.
 ///
 /// For the thread that ticks the site. poll() takes at most 128 datagrams and never blocks. States
 /// need no allocation. Handshakes allocate: at the start, every two minutes and after silence.
@@ -111,7 +113,7 @@ class UdpMesh {
  public:
   /// Throws std::invalid_argument for settings out of range or an address that cannot be bound.
   /// Throws tandem::Error if the system gives no socket.
-  /// With a relay no peer needs an address.
+  /// With a relay no peer needs an address. With a carrier none has one, and a relay is refused.
   UdpMesh(const UdpMeshSettings& settings, std::vector<UdpPeer> peers,
           std::optional<RelayAccess> relay = std::nullopt);
   ~UdpMesh();
