@@ -7,8 +7,9 @@
 #
 # Groups: build (library and program), demo (figures), view (the window, films, and those of reports), import (worlds
 # as URDF, MJCF and .bullet; optional), test, bench (other engines that tandem bench compares with, and valgrind for
-# instruction counts; optional), live (cyclictest, for live_bench.sh; optional), hosts (a foreign simulator with Bullet
-# inside, for tests/preload), package (Debian packages), ci (Clang, sanitizers, fuzzing, format).
+# instruction counts; optional), dds (the carrier on Cyclone DDS; optional), live (cyclictest, for live_bench.sh;
+# optional), hosts (a foreign simulator with Bullet inside, for tests/preload), package (Debian packages), ci (Clang,
+# sanitizers, fuzzing, format).
 set -euo pipefail
 
 packages_of() {
@@ -21,11 +22,12 @@ packages_of() {
     view)  echo libglfw3-dev libimgui-dev libopengl-dev libegl-dev libgl1 libgl1-mesa-dri fonts-dejavu-core ;;
     test)  echo libgtest-dev python3 ccache xvfb xdotool ;;
     bench) echo libmujoco-dev libode-dev libsimbody-dev valgrind ;;
+    dds)   echo cyclonedds-dev cyclonedds-tools ;;
     live)  echo rt-tests ;;
     hosts) echo libignition-physics-sdf-dev libignition-plugin-dev libignition-physics5-bullet-plugin5 ;;
     package) echo dpkg-dev binutils ;;
     ci)    echo clang libclang-rt-14-dev llvm clang-format clang-tidy ;;
-    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, view, import, test, bench, live, hosts, package, ci" >&2; return 2 ;;
+    *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, view, import, test, bench, dds, live, hosts, package, ci" >&2; return 2 ;;
   esac
 }
 
@@ -94,7 +96,7 @@ main() {
     list)    packages_of_all "$@" ;;
     missing) missing_of "$@" ;;
     install) install_missing "$@" ;;
-    *)       sed -n '2,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; return 2 ;;
+    *)       sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; return 2 ;;
   esac
 }
 

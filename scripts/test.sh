@@ -17,7 +17,7 @@ long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsI
 long_simulations+='|Room.ManyAtRest|Room.ABudget|PlanarReferenceConverges/(row16|tower9)'
 
 preset=${1:-release}
-groups=(build demo view import test)
+groups=(build demo view import dds test)
 targets=()
 selection=()
 case "$preset" in

@@ -50,6 +50,7 @@ DEPENDENCIES = {
     "ODE": re.compile(r"ode/"),
     "Simbody": re.compile(r"(Simbody\.h|SimTK)"),
     "libsodium": re.compile(r"sodium(\.h|/)"),
+    "Cyclone DDS": re.compile(r"(dds/dds\.h|datagram\.h)"),
     "GoogleTest": re.compile(r"(gtest|gmock)/"),
     "Google Benchmark": re.compile(r"benchmark/"),
     "rapidcheck": re.compile(r"rapidcheck"),
@@ -78,7 +79,7 @@ RULES = {
     "falcon": Rule(("coordination",), ("Eigen", "hidapi", "libftdi1")),
     "plugin": Rule(("coordination", "bullet_bridge", "falcon"), ("Eigen", "libsodium")),
     # An adaptor must look at a host's own bodies, and reads its settings from a file.
-    ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++")),
+    ADAPTORS: Rule(LIBRARIES, ("Eigen", "Bullet", "toml++", "Cyclone DDS")),
     "demos": Rule(LIBRARIES, ("Eigen", "Bullet", "fmt", "nlohmann-json", "toml++", "CLI11",
                               "MuJoCo")),
     VIEW: Rule(LIBRARIES + ("demos",), ("Eigen", "Bullet", "fmt", "nlohmann-json", "GLFW", "Dear ImGui",
