@@ -25,6 +25,7 @@ C_DOOR = "plugin/doors/c/"
 VIEW = "demos/view/"         # draws; beside it nothing knows graphics
 VIEW_DOOR = VIEW + "window/window.h"   # for hosts
 C_DOOR_WORDS = C_DOOR + "site_words.h"   # constants only: the names by which doors set the C door's fields
+DDS_DOOR = ADAPTORS + "dds/dds_carrier.h"   # for programs
 SUFFIXES = {".h", ".cpp", ".in"}
 
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token",
@@ -182,6 +183,8 @@ class House:
         if owner == "tests":
             return f"{folder}/ may not include tests/"
         if folder == "demos" and target == (self.checkout / VIEW_DOOR).resolve():
+            return None
+        if folder == "demos" and target == (self.checkout / DDS_DOOR).resolve():
             return None
         if owner in ("bench", ADAPTORS, VIEW):
             return f"nothing but tests/ includes {owner.rstrip('/')}/"

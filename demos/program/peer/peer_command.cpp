@@ -67,16 +67,16 @@ PeerWatch makeWatch(const PeerOptions& options) {
 void checkRequired(const PeerOptions& options) {
   if (options.scenario.empty()) throw UsageError("--scenario is required");
   if (options.line.site == 0) throw UsageError("--site is required");
-  if (options.line.bind.empty()) throw UsageError("--bind is required");
+  if (options.line.isByUdp() && options.line.bind.empty()) throw UsageError("--bind is required");
   if (options.line.keys.empty()) throw UsageError("--key is required");
 }
 
 void checkWatching(const PeerOptions& options) {
   if (options.line.site != 0 || !options.line.keys.empty() || !options.line.peers.empty() ||
-      !options.device.device.empty())
+      !options.device.device.empty() || !options.line.isByUdp())
     throw UsageError(
-        "--watch: a spectator has no site and no hand; leave out --site, --peer, --key and "
-        "--device");
+        "--watch: a spectator has no site and no hand; leave out --site, --peer, --carrier, --key "
+        "and --device");
   if (options.scenario.empty() && !options.overrides.empty())
     throw UsageError("--set: needs --scenario, which --watch compares with that of the sites");
 }
@@ -111,7 +111,9 @@ void runPeer(const PeerOptions& options) {
   if (device && device->hasGrip()) user.wants_grip = [&] { return device->isGripPressed(); };
   PeerMeeting meeting(scenario, options.line, std::move(user));
   if (!options.quiet)
-    fmt::print("site {} on {}\n", options.line.site, toString(meeting.run().peers().bound()));
+    fmt::print(
+        "site {} on {}\n", options.line.site,
+        options.line.isByUdp() ? toString(meeting.run().peers().bound()) : options.line.carrier);
   if (!meeting.live(makeWatch(options))) return;
   const nlohmann::json summary = makePeerSummary(meeting.run());
   if (folder) writePeerRun(*folder, options.line.site, summary, meeting.run());
@@ -119,7 +121,7 @@ void runPeer(const PeerOptions& options) {
   finishOutput();
 }
 
-/// `tandem peer`: one site of a scenario, live over UDP.
+/// `tandem peer`: one site of a scenario, live over UDP or another carrier.
 class PeerCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
@@ -127,6 +129,8 @@ class PeerCommand final : public Command {
     arguments.option("--scenario", own.scenario, "scenario file (TOML)");
     arguments.repeated("--set", own.overrides, "override a key, as for tandem run");
     declarePeerLine(arguments, own.line);
+    arguments.option("--carrier", own.line.carrier,
+                     "udp, or dds:DOMAIN on Cyclone DDS in a trusted segment");
     arguments.flag("--watch", own.watch, "follow the sites of a relay's room without a hand");
     arguments.option("--out", own.folder,
                      "folder for siteN.csv, sceneN.csv and siteN.json, or watch.csv");

@@ -7,6 +7,8 @@
 
 #include "tandem/plugin/key_file.h"
 
+#include "peer/dds/dds_bus.h"
+#include "peer/dds/dds_domain.h"
 #include "peer/peer_configuration.h"
 #include "peer/site_values.h"
 #include "terminal/usage_error.h"
@@ -14,8 +16,18 @@
 namespace tandem::demos {
 namespace {
 
+/// On a bus sites find each other.
+void checkCarried(const PeerLine& line) {
+  (void)readDdsDomain("--carrier", line.carrier);
+  if (!(line.bind.empty() && line.peers.empty() && line.relay.empty()))
+    throw UsageError("--carrier " + line.carrier +
+                     ": has no addresses; leave out --bind, --peer and --relay");
+}
+
 /// The lower of two sites calls the other, and needs its address.
 void checkWays(const PeerLine& line, int count) {
+  if (line.peers.empty() && line.relay.empty())
+    throw UsageError("--peer is required, or --relay and --relay-key");
   checkSiteValues("--peer", line.peers, line.site, count);
   for (const std::string& word : line.peers)
     if (count > 2 && !parseSiteValue(word).site)
@@ -61,8 +73,6 @@ void declarePeerLine(Arguments& arguments, PeerLine& line) {
 
 void checkPeerLine(const PeerLine& line, std::size_t count) {
   const int last = static_cast<int>(count);
-  if (line.peers.empty() && line.relay.empty())
-    throw UsageError("--peer is required, or --relay and --relay-key");
   if (line.relay.empty() != line.relay_key.empty())
     throw UsageError("--relay and --relay-key go together; give both or none");
   if (!line.watch_key.empty() && line.relay.empty())
@@ -72,14 +82,23 @@ void checkPeerLine(const PeerLine& line, std::size_t count) {
         fmt::format("--site {}: must be 1 {} {}", line.site, last == 2 ? "or" : "to", last));
   if (!(line.patience > 0.0 && line.patience <= 86400.0))
     throw UsageError("--wait: must be above 0 and at most 86400 s");
-  checkWays(line, last);
+  line.isByUdp() ? checkWays(line, last) : checkCarried(line);
   checkKeys(line, last);
+}
+
+std::unique_ptr<DatagramCarrier> makeCarrier(const PeerLine& line, std::size_t count) {
+  if (line.isByUdp()) return nullptr;
+  std::vector<PeerId> others;
+  for (int site = 1; site <= static_cast<int>(count); ++site)
+    if (site != line.site) others.push_back(PeerId{static_cast<std::uint32_t>(site)});
+  return makeDdsCarrier(readDdsDomain("--carrier", line.carrier),
+                        PeerId{static_cast<std::uint32_t>(line.site)}, others);
 }
 
 UdpMeshSettings makeMeshSettings(const PeerLine& line, const ChangedScenario& scenario) {
   UdpMeshSettings settings;
   settings.self = PeerId{static_cast<std::uint32_t>(line.site)};
-  settings.bind = resolveAddress(line.bind);
+  if (line.isByUdp()) settings.bind = resolveAddress(line.bind);
   settings.profile = line.profile == "float64" ? WireProfile::kFloat64 : WireProfile::kFloat32;
   settings.playout.is_on = line.playout == "on";
   Configuration items = makePeerConfiguration(scenario.scenario);

@@ -17,7 +17,10 @@ constexpr double kFollowPeriod = 0.35;  // between two changes that are followed
 }  // namespace
 
 PeerMeeting::PeerMeeting(const Scenario& scenario, const PeerLine& line, PeerUser user)
-    : line_(line), user_(std::move(user)), scenario_{scenario, 0} {
+    : line_(line),
+      user_(std::move(user)),
+      carrier_(makeCarrier(line, scenario.sites.size())),
+      scenario_{scenario, 0} {
   makeRun(nullptr);
 }
 
@@ -26,7 +29,9 @@ void PeerMeeting::makeRun(const ScenePlaces* places) {
   Scenario from_here = changed.scenario;
   const bool goes_on = places && places->areNear();
   if (goes_on) startHandsAt(*places, from_here);
-  run_ = std::make_unique<PeerRun>(from_here, line_.site - 1, makeMeshSettings(line_, changed),
+  UdpMeshSettings settings = makeMeshSettings(line_, changed);
+  settings.carrier = carrier_.get();
+  run_ = std::make_unique<PeerRun>(from_here, line_.site - 1, settings,
                                    makeOtherSites(line_, from_here.sites.size()), user_.device,
                                    user_.wants_grip, user_.purpose,
                                    goes_on ? places->bodies : BodyPlaces{}, makeRelayAccess(line_));

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "tandem/plugin/datagram_carrier.h"
+
 #include "peer/peer_line.h"
 #include "peer/peer_run.h"
 
@@ -61,6 +63,7 @@ class PeerMeeting {
 
   PeerLine line_;
   PeerUser user_;
+  std::unique_ptr<DatagramCarrier> carrier_;  ///< null: UDP
   std::unique_ptr<PeerRun> run_;
   std::optional<ChangedScenario> next_;    ///< of the next run
   std::optional<ChangedScenario> before_;  ///< the own change, if others may not follow it yet

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/plugin/datagram_carrier.h"
+
+namespace tandem::demos {
+
+/// Throws UsageError that names `option` if the program was built without Cyclone DDS. The calls
+/// below do so, too.
+void checkDds(const std::string& option);
+
+/// Throws as DdsCarrier does.
+[[nodiscard]] std::unique_ptr<DatagramCarrier> makeDdsCarrier(int domain, PeerId self,
+                                                              const std::vector<PeerId>& peers);
+
+}  // namespace tandem::demos
