@@ -3,61 +3,25 @@
 #include "dds/dds_carrier.h"
 
 #include <array>
-#include <chrono>
-#include <cstdlib>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "tandem/plugin/udp_mesh.h"
 
+#include "dds/dds_pair.h"
 #include "net/virtual_net.h"
 
 namespace tandem {
 namespace {
 
-constexpr double kPatience = 30.0;  // [s]
-
-double clockNow() {
-  static const auto start = std::chrono::steady_clock::now();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-int openDomain() {
-  setenv("CYCLONEDDS_URI",
-         "<General><AllowMulticast>false</AllowMulticast><Interfaces><NetworkInterface name='lo'/>"
-         "</Interfaces></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-         "<Peers><Peer address='localhost'/></Peers></Discovery>",
-         1);
-  return 100 + static_cast<int>(getpid()) % 100;
-}
-
-struct Two {
-  const int domain = openDomain();
-  DdsCarrier first{domain, PeerId{1}, {PeerId{2}}};
-  DdsCarrier second{domain, PeerId{2}, {PeerId{1}}};
-};
-
-/// Sends until the sites have found each other, then takes what is left of that.
-void meet(Two& two) {
-  std::array<std::uint8_t, 1500> room{};
-  const double end = clockNow() + kPatience;
-  bool has_met = false;
-  while (!has_met && clockNow() < end) {
-    two.first.send({room.data(), 8}, PeerId{2});
-    two.second.wait(1e-3);
-    has_met = two.second.receive({room.data(), room.size()}).has_value();
-  }
-  ASSERT_TRUE(has_met);
-  two.second.wait(0.05);
-  while (two.second.receive({room.data(), room.size()})) two.second.wait(0.05);
-}
+using test::clockNow;
+using test::DdsPair;
+using test::kPatience;
 
 // With a history of one, a handshake or a state would replace the datagram before it.
 TEST(DdsCarrier, ABurstArrivesWhole) {
-  Two two;
-  meet(two);
+  DdsPair two;
   std::array<std::uint8_t, 1500> room{};
   for (std::uint8_t i = 0; i < 32; ++i) {
     room[0] = i;
@@ -74,8 +38,7 @@ TEST(DdsCarrier, ABurstArrivesWhole) {
 }
 
 TEST(DdsCarrier, CutsWhatHasNoRoom) {
-  Two two;
-  meet(two);
+  DdsPair two;
   std::array<std::uint8_t, 1200> bytes{};
   two.first.send({bytes.data(), bytes.size()}, PeerId{2});
   two.second.wait(kPatience);
@@ -100,7 +63,7 @@ UdpMesh makeMesh(PeerId self, DatagramCarrier& carrier) {
 }
 
 TEST(DdsCarrier, CarriesSealedStates) {
-  Two two;
+  DdsPair two;
   UdpMesh first = makeMesh(PeerId{1}, two.first), second = makeMesh(PeerId{2}, two.second);
   std::optional<Arrival> arrival;
   StatePacket packet;
