@@ -2,52 +2,23 @@
 
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 #include <string>
 
-#include <dds/dds.h>
-
 #include "datagram.h"
+#include "dds/participant.h"
 
 namespace tandem {
 namespace {
 
-constexpr int kHighestDomain = 232;      // its ports end below 65536
+constexpr std::int32_t kNewest = 1;      // best effort never sends one again
 constexpr std::int32_t kKept = 64;       // datagrams of a sender until the next poll
 constexpr std::size_t kLongest = 1200;   // of datagram.idl [bytes]
 constexpr double kLongestWait = 3600.0;  // [s]
 constexpr double kNanoseconds = 1e9;     // in a second
 
-dds_entity_t check(dds_entity_t entity, int domain) {
-  if (entity >= 0) return entity;
-  throw Error("cannot open DDS domain " + std::to_string(domain) + ": " + dds_strretcode(entity) +
-              "; look at the network and at CYCLONEDDS_URI");
-}
-
 std::string topicName(PeerId from, PeerId to) {
   return "tandem_" + std::to_string(static_cast<std::uint32_t>(from)) + "_to_" +
          std::to_string(static_cast<std::uint32_t>(to));
-}
-
-/// Deletes an entity with all that was made of it.
-struct Participant {
-  explicit Participant(int domain)
-      : entity(check(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr),
-                     domain)) {}
-  ~Participant() { (void)dds_delete(entity); }
-  Participant(const Participant&) = delete;
-  Participant& operator=(const Participant&) = delete;
-
-  dds_entity_t entity;
-};
-
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
-Qos makeQos(std::int32_t kept) {
-  Qos qos(dds_create_qos(), &dds_delete_qos);
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept);
-  return qos;
 }
 
 struct Way {
@@ -58,35 +29,29 @@ struct Way {
 }  // namespace
 
 struct DdsCarrier::Impl {
-  Impl(int number, PeerId self, const std::vector<PeerId>& peers)
-      : domain(number), participant(number), waitset(make(dds_create_waitset(participant.entity))) {
+  Impl(int domain, PeerId self, const std::vector<PeerId>& peers) : participant(domain) {
     for (const PeerId peer : peers) addWay(self, peer);
   }
 
-  [[nodiscard]] dds_entity_t make(dds_entity_t entity) const { return check(entity, domain); }
   [[nodiscard]] dds_entity_t makeTopic(PeerId from, PeerId to) const {
-    return make(dds_create_topic(participant.entity, &tandem_dds_Datagram_desc,
-                                 topicName(from, to).c_str(), nullptr, nullptr));
+    return participant.makeTopic(tandem_dds_Datagram_desc, topicName(from, to).c_str());
   }
   void addWay(PeerId self, PeerId peer);
   [[nodiscard]] static std::optional<std::size_t> take(dds_entity_t reader, ByteSpan room) noexcept;
 
-  int domain;
-  Participant participant;
-  dds_entity_t waitset;
+  dds::Participant participant;
+  dds_entity_t waitset = participant.check(dds_create_waitset(participant.entity()));
   std::vector<Way> ways;
   std::size_t next = 0;  ///< whose turn it is, so that no sender holds up another
 };
 
 void DdsCarrier::Impl::addWay(PeerId self, PeerId peer) {
-  const Qos written = makeQos(1), read = makeQos(kKept);
   Way way{peer, 0, 0};
-  way.writer =
-      make(dds_create_writer(participant.entity, makeTopic(self, peer), written.get(), nullptr));
-  way.reader =
-      make(dds_create_reader(participant.entity, makeTopic(peer, self), read.get(), nullptr));
-  const dds_entity_t has_data = make(dds_create_readcondition(way.reader, DDS_ANY_STATE));
-  (void)make(dds_waitset_attach(waitset, has_data, 0));
+  way.writer = participant.makeWriter(makeTopic(self, peer), kNewest);
+  way.reader = participant.makeReader(makeTopic(peer, self), kKept);
+  const dds_entity_t has_data =
+      participant.check(dds_create_readcondition(way.reader, DDS_ANY_STATE));
+  (void)participant.check(dds_waitset_attach(waitset, has_data, 0));
   ways.push_back(way);
 }
 
@@ -107,11 +72,8 @@ std::optional<std::size_t> DdsCarrier::Impl::take(dds_entity_t reader, ByteSpan 
   }
 }
 
-DdsCarrier::DdsCarrier(int domain, PeerId self, const std::vector<PeerId>& peers) {
-  if (domain < 0 || domain > kHighestDomain)
-    throw std::invalid_argument("DDS domain " + std::to_string(domain) + ": must be 0 to 232");
-  impl_ = std::make_unique<Impl>(domain, self, peers);
-}
+DdsCarrier::DdsCarrier(int domain, PeerId self, const std::vector<PeerId>& peers)
+    : impl_(std::make_unique<Impl>(domain, self, peers)) {}
 
 DdsCarrier::~DdsCarrier() = default;
 
