@@ -25,7 +25,7 @@ C_DOOR = "plugin/doors/c/"
 VIEW = "demos/view/"         # draws; beside it nothing knows graphics
 VIEW_DOOR = VIEW + "window/window.h"   # for hosts
 C_DOOR_WORDS = C_DOOR + "site_words.h"   # constants only: the names by which doors set the C door's fields
-DDS_DOOR = ADAPTORS + "dds/dds_carrier.h"   # for programs
+DDS_DOOR = {ADAPTORS + "dds/" + name for name in ("dds_carrier.h", "state_publisher.h", "site_states.h")}   # for programs
 SUFFIXES = {".h", ".cpp", ".in"}
 
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token",
@@ -51,7 +51,7 @@ DEPENDENCIES = {
     "ODE": re.compile(r"ode/"),
     "Simbody": re.compile(r"(Simbody\.h|SimTK)"),
     "libsodium": re.compile(r"sodium(\.h|/)"),
-    "Cyclone DDS": re.compile(r"(dds/dds\.h|datagram\.h)"),
+    "Cyclone DDS": re.compile(r"(dds/dds\.h|datagram\.h|states\.h)"),
     "GoogleTest": re.compile(r"(gtest|gmock)/"),
     "Google Benchmark": re.compile(r"benchmark/"),
     "rapidcheck": re.compile(r"rapidcheck"),
@@ -184,7 +184,7 @@ class House:
             return f"{folder}/ may not include tests/"
         if folder == "demos" and target == (self.checkout / VIEW_DOOR).resolve():
             return None
-        if folder == "demos" and target == (self.checkout / DDS_DOOR).resolve():
+        if folder == "demos" and target.relative_to(self.checkout.resolve()).as_posix() in DDS_DOOR:
             return None
         if owner in ("bench", ADAPTORS, VIEW):
             return f"nothing but tests/ includes {owner.rstrip('/')}/"
