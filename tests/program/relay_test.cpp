@@ -9,53 +9,19 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "program/background.h"
 #include "program/process.h"
+#include "program/relay_rig.h"
 
 namespace tandem {
 namespace {
 
-using test::Background;
 using test::expectLine;
 using test::Outcome;
+using test::RelayRig;
 using test::runTandem;
-using test::TempFolder;
-
-/// A relay with its key, and the key of a pair.
-struct Rig {
-  explicit Rig(const std::vector<std::string>& more = {}) {
-    for (const char* name : {"relay", "pair"})
-      EXPECT_EQ(runTandem({"key", "new", folder / name}).status, 0);
-    std::vector<std::string> line = {"relay", "--bind", test::ownLoopback() + ":0", "--key",
-                                     folder / "relay"};
-    line.insert(line.end(), more.begin(), more.end());
-    relay = std::make_unique<Background>(TANDEM_PROGRAM, line);
-    const std::string first = relay->readLine();
-    address = first.substr(first.rfind(' ') + 1);
-  }
-  [[nodiscard]] std::vector<std::string> site(int number, const std::vector<std::string>& more) {
-    std::vector<std::string> line = {"peer",
-                                     "--scenario",
-                                     test::scenarioPath("experiment1.toml"),
-                                     "--site",
-                                     std::to_string(number),
-                                     "--bind",
-                                     test::ownLoopback() + ":0",
-                                     "--key",
-                                     folder / "pair",
-                                     "--relay",
-                                     address};
-    line.insert(line.end(), more.begin(), more.end());
-    return line;
-  }
-
-  TempFolder folder;
-  std::unique_ptr<Background> relay;
-  std::string address;
-};
 
 TEST(RelayProgram, TwoSitesMeetThroughItWithoutAddresses) {
-  Rig rig({"--json"});
+  RelayRig rig({"--json"});
   const std::string key = rig.folder / "relay";
   auto second = std::async(std::launch::async, [&] {
     return runTandem(rig.site(2, {"--relay-key", key, "--out", rig.folder / "two"}));
@@ -74,7 +40,7 @@ TEST(RelayProgram, TwoSitesMeetThroughItWithoutAddresses) {
 
 // It has no site and no pair's key, and the sites do not wait for it.
 TEST(RelayProgram, ASpectatorFollowsBothSites) {
-  Rig rig;
+  RelayRig rig;
   const std::string key = rig.folder / "relay", watch = rig.folder / "watch";
   ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
   auto spectator = std::async(std::launch::async, [&] {
@@ -156,14 +122,14 @@ TEST(RelayProgram, ASpectatorsBadInputIsALine) {
 }
 
 TEST(RelayProgram, AWrongKeyIsALine) {
-  Rig rig;
+  RelayRig rig;
   const Outcome outcome =
       runTandem(rig.site(1, {"--relay-key", rig.folder / "pair", "--wait", "2"}));
   expectLine(outcome, 1, "the relay has another key");
 }
 
 TEST(RelayProgram, ARelayThatIsNotThereIsALine) {
-  Rig rig;
+  RelayRig rig;
   const std::string key = rig.folder / "relay";
   EXPECT_EQ(rig.relay->finish(SIGINT).status, 0);
   expectLine(runTandem(rig.site(1, {"--relay-key", key, "--wait", "1"})), 1,
@@ -171,7 +137,7 @@ TEST(RelayProgram, ARelayThatIsNotThereIsALine) {
 }
 
 TEST(RelayProgram, BadUseIsALine) {
-  Rig rig;
+  RelayRig rig;
   const std::string key = rig.folder / "relay";
   const auto relay = [&](const std::vector<std::string>& more) {
     std::vector<std::string> line = {"relay", "--bind", test::ownLoopback() + ":0", "--key", key};
