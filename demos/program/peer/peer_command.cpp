@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "device/device_options.h"
 #include "peer/peer_meeting.h"
 #include "peer/peer_output.h"
+#include "peer/publishing.h"
 #include "peer/report_line.h"
 #include "peer/site_values.h"
 #include "peer/users_device.h"
@@ -28,7 +30,7 @@ struct PeerOptions {
   std::string scenario;
   std::vector<std::string> overrides;
   PeerLine line;
-  std::optional<std::string> folder;
+  std::optional<std::string> folder, publish;
   bool quiet = false;
   bool watch = false;
   DeviceOptions device;  ///< without --device: simulated, by the scenario
@@ -85,7 +87,20 @@ void watch(const PeerOptions& options) {
   checkWatching(options);
   std::optional<Scenario> scenario;
   if (!options.scenario.empty()) scenario = loadScenario(options.scenario, options.overrides);
-  watchSites(options.line, scenario ? &*scenario : nullptr, options.folder, options.quiet);
+  watchSites(options.line, scenario ? &*scenario : nullptr,
+             {options.folder, options.publish, options.quiet});
+}
+
+/// Null without `--publish`.
+std::unique_ptr<SitePublisher> openPublisher(const PeerOptions& options) {
+  if (!options.publish) return nullptr;
+  return std::make_unique<SitePublisher>(
+      makePublisher(*options.publish, "hand, force and objects of this site"),
+      PeerId{static_cast<std::uint32_t>(options.line.site)});
+}
+
+std::string describePlace(const PeerLine& line, PeerMeeting& meeting) {
+  return line.isByUdp() ? toString(meeting.run().peers().bound()) : line.carrier;
 }
 
 void runPeer(const PeerOptions& options) {
@@ -98,6 +113,7 @@ void runPeer(const PeerOptions& options) {
   // A bad one is told before a device moves.
   for (const std::string& key : options.line.keys) (void)readKeyFile(parseSiteValue(key).value);
   (void)makeRelayAccess(options.line);
+  const auto publisher = openPublisher(options);
   catchSignals(!options.device.device.empty());
   bool is_ended = false;
   const auto pause = [](double seconds) {
@@ -111,10 +127,13 @@ void runPeer(const PeerOptions& options) {
   if (device && device->hasGrip()) user.wants_grip = [&] { return device->isGripPressed(); };
   PeerMeeting meeting(scenario, options.line, std::move(user));
   if (!options.quiet)
-    fmt::print(
-        "site {} on {}\n", options.line.site,
-        options.line.isByUdp() ? toString(meeting.run().peers().bound()) : options.line.carrier);
-  if (!meeting.live(makeWatch(options))) return;
+    fmt::print("site {} on {}\n", options.line.site, describePlace(options.line, meeting));
+  PeerWatch watch = makeWatch(options);
+  if (publisher)
+    watch.after_step = [&](double time, const HapticLoop&) {
+      publisher->noteStep(time, meeting.run().world().site());
+    };
+  if (!meeting.live(watch)) return;
   const nlohmann::json summary = makePeerSummary(meeting.run());
   if (folder) writePeerRun(*folder, options.line.site, summary, meeting.run());
   if (!options.quiet) printPeerSummary(summary, options.line.site);
@@ -134,6 +153,8 @@ class PeerCommand final : public Command {
     arguments.flag("--watch", own.watch, "follow the sites of a relay's room without a hand");
     arguments.option("--out", own.folder,
                      "folder for siteN.csv, sceneN.csv and siteN.json, or watch.csv");
+    arguments.option("--publish", own.publish,
+                     "dds:DOMAIN: show hand, force and objects in clear, in a trusted segment");
     declareDeviceOptions(arguments, own.device);
     arguments.flag("--quiet", own.quiet, "print nothing but errors");
   }

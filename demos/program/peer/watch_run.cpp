@@ -12,6 +12,7 @@
 #include "tandem/plugin/watcher.h"
 
 #include "files/output_folder.h"
+#include "peer/publishing.h"
 #include "peer/watch_check.h"
 #include "terminal/standard_output.h"
 #include "terminal/status_line.h"
@@ -83,13 +84,22 @@ std::string describe(const Watcher& watcher, double now) {
   return line + fmt::format("coherency {:.3f} mm", 1e3 * measureCoherency(watcher, sites));
 }
 
+SiteStates toStates(const StatePacket& packet) {
+  SiteStates states{packet.sender, 0, packet.time, packet.user, std::nullopt, {}};
+  states.objects.assign(packet.objects.begin(), packet.objects.begin() + packet.object_count);
+  return states;
+}
+
 /// Follows the sites; knows which states it has seen.
 class WatchRun {
  public:
-  WatchRun(const PeerLine& line, const Scenario* scenario, std::optional<WatchFile>& file)
+  /// `publish` may be empty.
+  WatchRun(const PeerLine& line, const Scenario* scenario, std::optional<WatchFile>& file,
+           PublishStates publish)
       : watcher_(makeWatchAccess(line), line.bind.empty() ? Address{} : resolveAddress(line.bind)),
         check_(scenario, line.patience, started_),
-        file_(file) {}
+        file_(file),
+        publish_(std::move(publish)) {}
 
   void look(double now) {
     watcher_.poll(now);
@@ -100,6 +110,7 @@ class WatchRun {
       if (std::exchange(seen, site.states) == site.states) continue;
       last_ = std::max(last_.value_or(0.0), site.heard_at);
       if (file_) file_->write(site.heard_at - started_, site);
+      if (publish_) publish_(toStates(site.newest));
     }
   }
   [[nodiscard]] bool hasHeard() const noexcept { return last_.has_value(); }
@@ -111,21 +122,23 @@ class WatchRun {
   Watcher watcher_;
   WatchCheck check_;
   std::optional<WatchFile>& file_;
+  PublishStates publish_;
   std::array<std::uint64_t, kMaxPeerId> seen_{};  ///< states of each site
   std::optional<double> last_;                    ///< newest state of any site [s]
 };
 
 }  // namespace
 
-void watchSites(const PeerLine& line, const Scenario* scenario,
-                const std::optional<std::string>& folder, bool is_quiet) {
+void watchSites(const PeerLine& line, const Scenario* scenario, const WatchOutput& output) {
+  const StopSignals stop;  // before Cyclone's threads
+  PublishStates publish;
+  if (output.publish) publish = makePublisher(*output.publish, "what this spectator sees");
   std::optional<WatchFile> file;
-  if (folder) file.emplace(*folder);
-  WatchRun run(line, scenario, file);
-  const StopSignals stop;
+  if (output.folder) file.emplace(*output.folder);
+  WatchRun run(line, scenario, file, std::move(publish));
   double next_report = readMonotonicClock() + kReportPeriod;
   {
-    StatusLine status(is_quiet);
+    StatusLine status(output.is_quiet);
     for (double now = readMonotonicClock(); !run.hasHeard() || run.silence(now) < line.patience;
          now = readMonotonicClock()) {
       run.look(now);

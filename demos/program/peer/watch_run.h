@@ -7,11 +7,16 @@
 
 namespace tandem::demos {
 
+/// What a spectator makes of what it sees.
+struct WatchOutput {
+  std::optional<std::string> folder;   ///< of watch.csv
+  std::optional<std::string> publish;  ///< word of `--publish`
+  bool is_quiet = false;
+};
+
 /// `tandem peer --watch`: follows the sites of a relay's room without a hand. Says a line a second,
-/// writes watch.csv to `folder`, and ends by a signal or after `line.patience` without a state.
-/// With a `scenario` that of the sites must fit. Throws UsageError for missing options, and as
-/// WatchCheck does.
-void watchSites(const PeerLine& line, const Scenario* scenario,
-                const std::optional<std::string>& folder, bool is_quiet);
+/// and ends by a signal or after `line.patience` without a state. With a `scenario` that of the
+/// sites must fit. Throws UsageError for missing options, and as WatchCheck does.
+void watchSites(const PeerLine& line, const Scenario* scenario, const WatchOutput& output);
 
 }  // namespace tandem::demos

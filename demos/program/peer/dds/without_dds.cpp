@@ -15,4 +15,9 @@ std::unique_ptr<DatagramCarrier> makeDdsCarrier(int, PeerId, const std::vector<P
   return nullptr;
 }
 
+PublishStates makeDdsPublisher(int) {
+  checkDds("--publish");
+  return {};
+}
+
 }  // namespace tandem::demos
