@@ -3,7 +3,9 @@
 #include "dds/dds_carrier.h"
 
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +52,24 @@ TEST(DdsCarrier, CutsWhatHasNoRoom) {
 TEST(DdsCarrier, RefusesADomainWithoutPorts) {
   EXPECT_THROW(DdsCarrier(-1, PeerId{1}, {PeerId{2}}), std::invalid_argument);
   EXPECT_THROW(DdsCarrier(233, PeerId{1}, {PeerId{2}}), std::invalid_argument);
+}
+
+// What Cyclone would print becomes a part of the error's one line.
+TEST(DdsCarrier, SaysWhatCycloneRefuses) {
+  const int domain = test::openLoopbackDomain();
+  setenv("CYCLONEDDS_URI",
+         "<General><Interfaces><NetworkInterface name='none0'/></Interfaces></General>", 1);
+  testing::internal::CaptureStderr();
+  try {
+    DdsCarrier(domain, PeerId{1}, {PeerId{2}});
+    ADD_FAILURE() << "opened a domain on an interface that is not there";
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    EXPECT_NE(line.find("none0: does not match an available interface; look"), std::string::npos)
+        << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 UdpMesh makeMesh(PeerId self, DatagramCarrier& carrier) {
