@@ -99,7 +99,8 @@ TEST(DdsPeers, BadInputIsALine) {
 
 TEST(DdsPeers, NobodyOnTheBusIsNamed) {
   const Bus bus;
-  expectLine(runTandem(bus.site(1, {"--wait", "0.5"})), 1, "did not join within 0.5 s");
+  expectLine(runTandem(bus.site(1, {"--wait", "0.5"})), 1,
+             "site 2 did not join within 0.5 s: is it running, does it know the way here");
 }
 
 }  // namespace

@@ -74,15 +74,16 @@ void AnswerCheck::check(double waited) {
                     static_cast<std::uint32_t>(refused->peer), refused->length,
                     std::min(patience_, kLongestCountdown)));
   if (waited < patience_) return;
-  const std::string where = status.address ? toString(*status.address) : "its address";
-  std::string why = "is it running, is the address right, does a firewall let UDP pass?";
+  const std::string where = status.address ? " at " + toString(*status.address) : "";
+  std::string why = "is it running, does it know the way here, does a firewall let it pass?";
+  if (status.address) why = "is it running, is the address right, does a firewall let UDP pass?";
   if (status.is_called_with_another_key)
     why = "it calls, but with another key; give all sites the same key file";
   if (const auto relay = peers_.relay(readMonotonicClock()); relay && !relay->is_in)
     why = relay->refused.empty() ? "the relay does not answer; is its address right?"
                                  : relay->refused;
   if (status.refused) why = fmt::format("it answers, but {}", explainRefusal(*status.refused));
-  throw Error(fmt::format("site {} at {} did not join within {} s: {}",
+  throw Error(fmt::format("site {}{} did not join within {} s: {}",
                           static_cast<std::uint32_t>(other_), where, patience_, why));
 }
 
