@@ -25,7 +25,8 @@ C_DOOR = "plugin/doors/c/"
 VIEW = "demos/view/"         # draws; beside it nothing knows graphics
 VIEW_DOOR = VIEW + "window/window.h"   # for hosts
 C_DOOR_WORDS = C_DOOR + "site_words.h"   # constants only: the names by which doors set the C door's fields
-DDS_DOOR = {ADAPTORS + "dds/" + name for name in ("dds_carrier.h", "state_publisher.h", "site_states.h")}   # for programs
+DDS_DOOR = {ADAPTORS + "dds/" + name for name in
+            ("dds_carrier.h", "state_publisher.h", "site_states.h")}   # for programs
 SUFFIXES = {".h", ".cpp", ".in"}
 
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "stop_token",

@@ -175,6 +175,14 @@ class IncludeRuleTest(unittest.TestCase):
                                f"plugin/doors/c/{header}": ""})
             self.assertEqual(not found, allowed, header)
 
+    def test_programs_may_take_the_dds_door_alone(self):
+        for header, allowed in (("dds_carrier.h", True), ("participant.h", False)):
+            found = breaks_of({"demos/program/a.cpp": f'#include "plugin/doors/dds/{header}"\n',
+                               f"plugin/doors/dds/{header}": ""})
+            self.assertEqual(not found, allowed, header)
+        self.assert_broken("demos/program/a.cpp", "<dds/dds.h>", "demos/ may not use Cyclone DDS")
+        self.assert_kept("plugin/doors/dds/a.cpp", "<dds/dds.h>")
+
     def test_headers_that_are_not_there(self):
         self.assert_broken("plugin/src/a.cpp", '"nowhere.h"', "no such header")
         self.assert_broken("plugin/src/a.cpp", '"tandem/falcon/nowhere.h"', "falcon/include has no such header")
