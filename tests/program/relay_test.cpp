@@ -60,7 +60,7 @@ TEST(RelayProgram, ASpectatorFollowsBothSites) {
 }
 
 /// A spectator's line with the files of the rig.
-std::vector<std::string> watchLine(Rig& rig, const std::string& watch_key,
+std::vector<std::string> watchLine(RelayRig& rig, const std::string& watch_key,
                                    const std::vector<std::string>& more) {
   std::vector<std::string> line = {"peer",        "--watch",     "--relay",
                                    rig.address,   "--relay-key", rig.folder / "relay",
@@ -70,7 +70,7 @@ std::vector<std::string> watchLine(Rig& rig, const std::string& watch_key,
 }
 
 /// Both sites of experiment1.toml, seen by spectators with the key `watch`.
-void runWatchedSites(Rig& rig, const std::string& watch) {
+void runWatchedSites(RelayRig& rig, const std::string& watch) {
   const std::vector<std::string> more = {
       "--relay-key", rig.folder / "relay", "--watch-key", watch, "--set", "contact.stiffness=2000"};
   auto second = std::async(std::launch::async, [&] { return runTandem(rig.site(2, more)); });
@@ -80,7 +80,7 @@ void runWatchedSites(Rig& rig, const std::string& watch) {
 
 // Scheme, gains and users may change while sites meet, so they are not compared.
 TEST(RelayProgram, ASpectatorsScenarioIsComparedWithThatOfTheSites) {
-  Rig rig;
+  RelayRig rig;
   const std::string watch = rig.folder / "watch", file = test::scenarioPath("experiment1.toml");
   ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
   const auto follow = [&](const std::vector<std::string>& more) {
@@ -95,7 +95,7 @@ TEST(RelayProgram, ASpectatorsScenarioIsComparedWithThatOfTheSites) {
 }
 
 TEST(RelayProgram, AWrongWatchKeyIsALine) {
-  Rig rig;
+  RelayRig rig;
   const std::string watch = rig.folder / "watch";
   ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
   auto spectator = std::async(std::launch::async,
@@ -105,7 +105,7 @@ TEST(RelayProgram, AWrongWatchKeyIsALine) {
 }
 
 TEST(RelayProgram, ASpectatorThatHearsNobodySaysWhy) {
-  Rig rig;
+  RelayRig rig;
   const std::string key = rig.folder / "pair";
   expectLine(runTandem(watchLine(rig, key, {"--wait", "1"})), 1,
              "no site was heard for 1 s: do the sites have --watch-key and this room?");
