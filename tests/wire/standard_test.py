@@ -52,7 +52,7 @@ class StandardTest(unittest.TestCase):
 
     def test_reads_a_recorded_run(self):
         status, text = run("read", RECORDING)
-        self.assertEqual((status, len(text.splitlines())), (0, 18))
+        self.assertEqual((status, len(text.splitlines())), (0, 19))
         self.assertTrue(text.startswith("1 HELLO version=3 session=0 sender=2 "))
 
     def test_a_recorded_run_ends_at_a_break(self):
