@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tandem/coordination/stability.h"
+
+/// \file
+/// Advice on the gains of a cooperation: how far each is from the border of stability, and what to
+/// turn.
+#pragma GCC visibility push(default)
+namespace tandem {
+
+/// A number of LoopSettings that may be turned.
+enum class LoopGain {
+  kCoordinationStiffness,  ///< K_t
+  kCoordinationDamping,    ///< B_t
+  kContactStiffness,       ///< K_vc
+  kContactDamping,         ///< B_vc
+  kDeviceDamping,          ///< b_dev
+  kDelay,                  ///< T_d
+};
+
+/// All of them, in that order.
+[[nodiscard]] const std::vector<LoopGain>& allLoopGains();
+
+/// Its key in a scenario: "coordination.stiffness".
+[[nodiscard]] const char* name(LoopGain gain) noexcept;
+[[nodiscard]] const char* unit(LoopGain gain) noexcept;
+
+[[nodiscard]] double valueOf(const LoopSettings& settings, LoopGain gain) noexcept;
+void setValue(LoopSettings& settings, LoopGain gain, double value) noexcept;
+
+/// Growth of the worst of the modes that last: all together, or against each other.
+struct WorstGrowth {
+  MotionMode mode = MotionMode::kCommon;
+  Growth growth;
+};
+
+[[nodiscard]] WorstGrowth computeWorstGrowth(const LoopSettings& settings);
+[[nodiscard]] double computeWorstRate(const LoopSettings& settings);
+
+/// How a gain stands to stability, all others as they are.
+struct GainMargin {
+  LoopGain gain{};
+  double value = 0.0;  ///< as it is
+  /// Nearest values at which the rate is 0, to 1e-5 of them; empty: none within the range searched,
+  /// which is a factor of 1000, and to kLongestDelay.
+  std::optional<double> below, above;
+  double slope = 0.0;  ///< of the rate over the logarithm of the gain [1/s]; 0 if the gain is 0
+};
+
+/// `searches`: false leaves the two borders out, which take most of the time.
+[[nodiscard]] GainMargin computeMargin(const LoopSettings& settings, LoopGain gain,
+                                       bool searches = true);
+
+/// A change of one gain that makes a cooperation stable, with 20 % beyond the border.
+struct Remedy {
+  LoopGain gain{};
+  double value = 0.0;  ///< new
+  double rate = 0.0;   ///< that it gives [1/s]
+};
+
+/// What a user should know before he touches.
+struct Advice {
+  WorstGrowth worst;
+  double deaf_rate = 0.0;  ///< until the others answer [1/s]
+  std::vector<GainMargin> margins;
+  std::optional<LoopGain> strongest;  ///< gain whose change by 1 % moves the rate most
+  std::optional<double> largest_coordination_stiffness;  ///< stable at this delay; empty: no bound
+  std::optional<Remedy>
+      remedy;  ///< smallest single change, if it is unstable; empty: there is none
+};
+
+/// Throws as computeGrowth() does. Uses as many threads as there are gains.
+[[nodiscard]] Advice advise(const LoopSettings& settings);
+
+}  // namespace tandem
+#pragma GCC visibility pop

@@ -1,0 +1,223 @@
+#include "tandem/coordination/stability_advice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+namespace tandem {
+namespace {
+
+constexpr double kStep = 1.15;       // of a search
+constexpr double kRange = 1000.0;    // of a search
+constexpr double kPrecision = 1e-5;  // of a border
+constexpr double kBeyond = 1.2;      // of a remedy
+
+/// Least value that a search begins with if a gain is 0.
+double findSmallest(LoopGain gain) {
+  switch (gain) {
+    case LoopGain::kCoordinationStiffness:
+    case LoopGain::kContactStiffness:
+      return 1.0;
+    case LoopGain::kDelay:
+      return 1e-3;
+    default:
+      return 1e-2;
+  }
+}
+
+double findMost(LoopGain gain, double value) {
+  const double most = kRange * value;
+  return gain == LoopGain::kDelay ? std::min(most, kLongestDelay) : most;
+}
+
+double rateAt(LoopSettings settings, LoopGain gain, double value) {
+  setValue(settings, gain, value);
+  return computeWorstRate(settings);
+}
+
+/// The border between two values, one of which is stable.
+double bisect(const LoopSettings& settings, LoopGain gain, double stays, double changes,
+              bool is_stable) {
+  while (std::abs(changes / stays - 1.0) > kPrecision) {
+    const double middle = std::sqrt(stays * changes);
+    (rateAt(settings, gain, middle) < 0.0) == is_stable ? stays = middle : changes = middle;
+  }
+  return std::sqrt(stays * changes);
+}
+
+/// Searches from a value by factors of `step` for a change of stability.
+std::optional<double> findBorder(const LoopSettings& settings, LoopGain gain, double from,
+                                 double step, bool is_stable) {
+  const double most = findMost(gain, from), least = from / kRange;
+  for (double last = from;;) {
+    const double next = std::min(last * step, most);
+    if (next == last || next < least) return std::nullopt;
+    if ((rateAt(settings, gain, next) < 0.0) != is_stable)
+      return bisect(settings, gain, last, next, is_stable);
+    last = next;
+  }
+}
+
+/// The rate over the logarithm of a gain, by a change of 2 % each way.
+double computeSlope(const LoopSettings& settings, LoopGain gain, double value) {
+  constexpr double kChange = 0.02;
+  if (value == 0.0) return 0.0;
+  const double up = std::min(value * (1.0 + kChange), findMost(gain, value));
+  const double down = value * (1.0 - kChange);
+  return (rateAt(settings, gain, up) - rateAt(settings, gain, down)) / std::log(up / down);
+}
+
+/// A border with 20 % beyond it, if that is stable.
+void offer(const LoopSettings& settings, const GainMargin& margin,
+           const std::optional<double>& border, bool is_above, std::optional<Remedy>& best) {
+  if (!border) return;
+  const double value = is_above ? kBeyond * *border : *border / kBeyond;
+  if (margin.gain == LoopGain::kDelay || value > findMost(margin.gain, *border)) return;
+  const Remedy remedy{margin.gain, value, rateAt(settings, margin.gain, value)};
+  if (!(remedy.rate < 0.0)) return;
+  const auto change = [&](const Remedy& r) {
+    return std::abs(std::log(r.value / std::max(valueOf(settings, r.gain), findSmallest(r.gain))));
+  };
+  if (!best || change(remedy) < change(*best)) best = remedy;
+}
+
+/// Above the last border below which it is stable; empty if it is never, or always.
+std::optional<double> findLargestStiffness(const LoopSettings& settings, const GainMargin& margin,
+                                           bool is_stable) {
+  if (is_stable) return margin.above;
+  if (!margin.below) return 0.0;
+  return rateAt(settings, margin.gain, *margin.below / (1.0 + 10.0 * kPrecision)) < 0.0
+             ? margin.below
+             : std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<LoopGain>& allLoopGains() {
+  static const std::vector<LoopGain> all = {
+      LoopGain::kCoordinationStiffness, LoopGain::kCoordinationDamping, LoopGain::kContactStiffness,
+      LoopGain::kContactDamping,        LoopGain::kDeviceDamping,       LoopGain::kDelay};
+  return all;
+}
+
+const char* name(LoopGain gain) noexcept {
+  switch (gain) {
+    case LoopGain::kCoordinationStiffness:
+      return "coordination.stiffness";
+    case LoopGain::kCoordinationDamping:
+      return "coordination.damping";
+    case LoopGain::kContactStiffness:
+      return "contact.stiffness";
+    case LoopGain::kContactDamping:
+      return "contact.damping";
+    case LoopGain::kDeviceDamping:
+      return "device.damping";
+    case LoopGain::kDelay:
+      break;
+  }
+  return "network.delay";
+}
+
+const char* unit(LoopGain gain) noexcept {
+  switch (gain) {
+    case LoopGain::kCoordinationStiffness:
+    case LoopGain::kContactStiffness:
+      return "N/m";
+    case LoopGain::kDelay:
+      return "s";
+    default:
+      return "N s/m";
+  }
+}
+
+double valueOf(const LoopSettings& settings, LoopGain gain) noexcept {
+  switch (gain) {
+    case LoopGain::kCoordinationStiffness:
+      return settings.coordination.stiffness;
+    case LoopGain::kCoordinationDamping:
+      return settings.coordination.damping;
+    case LoopGain::kContactStiffness:
+      return settings.contact.stiffness;
+    case LoopGain::kContactDamping:
+      return settings.contact.damping;
+    case LoopGain::kDeviceDamping:
+      return settings.device_damping;
+    case LoopGain::kDelay:
+      break;
+  }
+  return settings.delay;
+}
+
+void setValue(LoopSettings& settings, LoopGain gain, double value) noexcept {
+  switch (gain) {
+    case LoopGain::kCoordinationStiffness:
+      settings.coordination.stiffness = value;
+      break;
+    case LoopGain::kCoordinationDamping:
+      settings.coordination.damping = value;
+      break;
+    case LoopGain::kContactStiffness:
+      settings.contact.stiffness = value;
+      break;
+    case LoopGain::kContactDamping:
+      settings.contact.damping = value;
+      break;
+    case LoopGain::kDeviceDamping:
+      settings.device_damping = value;
+      break;
+    case LoopGain::kDelay:
+      settings.delay = value;
+      break;
+  }
+}
+
+double computeWorstRate(const LoopSettings& settings) {
+  return std::max(computeGrowthRate(settings, MotionMode::kCommon),
+                  computeGrowthRate(settings, MotionMode::kDifference));
+}
+
+WorstGrowth computeWorstGrowth(const LoopSettings& settings) {
+  const Growth common = computeGrowth(settings, MotionMode::kCommon);
+  const Growth difference = computeGrowth(settings, MotionMode::kDifference);
+  if (common.rate > difference.rate) return {MotionMode::kCommon, common};
+  return {MotionMode::kDifference, difference};
+}
+
+GainMargin computeMargin(const LoopSettings& settings, LoopGain gain, bool searches) {
+  GainMargin margin{gain, valueOf(settings, gain), {}, {}, 0.0};
+  margin.slope = computeSlope(settings, gain, margin.value);
+  if (!searches) return margin;
+  const bool is_stable = computeWorstRate(settings) < 0.0;
+  const double from = std::max(margin.value, findSmallest(gain));
+  if (margin.value >= from)
+    margin.below = findBorder(settings, gain, margin.value, 1.0 / kStep, is_stable);
+  margin.above = findBorder(settings, gain, from, kStep, is_stable);
+  return margin;
+}
+
+Advice advise(const LoopSettings& settings) {
+  Advice advice;
+  advice.worst = computeWorstGrowth(settings);
+  advice.deaf_rate = computeGrowthRate(settings, MotionMode::kDeaf);
+  std::vector<std::future<GainMargin>> running;
+  for (const LoopGain gain : allLoopGains())
+    running.push_back(std::async(std::launch::async,
+                                 [&settings, gain] { return computeMargin(settings, gain); }));
+  for (auto& one : running) advice.margins.push_back(one.get());
+  const auto strongest = std::max_element(advice.margins.begin(), advice.margins.end(),
+                                          [](const GainMargin& a, const GainMargin& b) {
+                                            return std::abs(a.slope) < std::abs(b.slope);
+                                          });
+  if (strongest->slope != 0.0) advice.strongest = strongest->gain;
+  const bool is_stable = advice.worst.growth.rate < 0.0;
+  advice.largest_coordination_stiffness =
+      findLargestStiffness(settings, advice.margins.front(), is_stable);
+  if (is_stable) return advice;
+  for (const GainMargin& margin : advice.margins) {
+    offer(settings, margin, margin.above, true, advice.remedy);
+    offer(settings, margin, margin.below, false, advice.remedy);
+  }
+  return advice;
+}
+
+}  // namespace tandem
