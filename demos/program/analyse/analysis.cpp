@@ -1,0 +1,131 @@
+#include "analyse/analysis.h"
+
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tandem::demos {
+namespace {
+
+constexpr MotionMode kModes[] = {MotionMode::kCommon, MotionMode::kDifference, MotionMode::kDeaf};
+
+const char* explain(MotionMode mode) {
+  switch (mode) {
+    case MotionMode::kCommon:
+      return "all together";
+    case MotionMode::kDifference:
+      return "against each other";
+    case MotionMode::kDeaf:
+      break;
+  }
+  return "before the others answer";
+}
+
+/// "halves in 0.3 s"
+std::string describeTime(double rate) {
+  return fmt::format("{} in {:.3g} s", rate < 0.0 ? "halves" : "doubles",
+                     std::log(2.0) / std::abs(rate));
+}
+
+std::string describeBorder(const std::optional<double>& border, double value) {
+  if (!border) return fmt::format("{:>12}{:>8}", "none", "");
+  const double margin = value > 0.0 ? 20.0 * std::log10(*border / value) : 0.0;
+  return fmt::format("{:>12.6g}{:>8}", *border,
+                     value > 0.0 ? fmt::format("{:+.1f} dB", margin) : "");
+}
+
+nlohmann::json orNull(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+std::string describeModes(const Analysis& a) {
+  std::string text = fmt::format("{:<28}{:>12}{:>10}  {:<22}{}\n", "motion", "rate [1/s]", "[Hz]",
+                                 "", "held hands [1/s]");
+  for (std::size_t i = 0; i < std::size(kModes); ++i) {
+    const Growth& growth = a.modes[i];
+    text += fmt::format("{:<28}{:>+12.4f}{:>10.1f}  {:<22}{}\n", explain(kModes[i]), growth.rate,
+                        growth.frequency, describeTime(growth.rate),
+                        i < a.held.size() ? fmt::format("{:+.4f}", a.held[i].rate) : "");
+  }
+  return text;
+}
+
+std::string describeGains(const Analysis& a) {
+  std::string text =
+      fmt::format("\n{:<24}{:>10} {:<6}{:>12}{:>20}\n", "gain", "now", "", "border below", "above");
+  for (const GainMargin& m : a.advice.margins)
+    text += fmt::format("{:<24}{:>10.6g} {:<6}{}{}\n", name(m.gain), m.value, unit(m.gain),
+                        describeBorder(m.below, m.value), describeBorder(m.above, m.value));
+  return text;
+}
+
+std::string describeVerdict(const Analysis& a) {
+  const Advice& advice = a.advice;
+  const bool is_stable = isStable(a);
+  std::string text =
+      fmt::format("\n{}: motion {} {}.\n", is_stable ? "Stable" : "Unstable with lasting contact",
+                  explain(advice.worst.mode), describeTime(advice.worst.growth.rate));
+  if (!is_stable && a.held[0].rate < 0.0 && a.held[1].rate < 0.0)
+    text += "Hands that hold their devices (300 N/m, 5 N s/m) calm it.\n";
+  if (advice.remedy)
+    text += fmt::format("Smallest change that calms it, with 20 % to spare: {} = {:.4g} {}.\n",
+                        name(advice.remedy->gain), advice.remedy->value, unit(advice.remedy->gain));
+  if (!is_stable && !advice.remedy) text += "No single gain calms it.\n";
+  if (const auto most = advice.largest_coordination_stiffness)
+    text += *most > 0.0
+                ? fmt::format("Largest coordination.stiffness at this delay: {:.4g} N/m.\n", *most)
+                : "At this delay no coordination.stiffness is stable.\n";
+  if (advice.strongest) text += fmt::format("Most depends on {}.\n", name(*advice.strongest));
+  text += fmt::format("Moving on together each user feels {:.3g} N s/m.\n", a.drag);
+  return text;
+}
+
+}  // namespace
+
+Analysis analyse(const LoopSettings& loop) {
+  Analysis analysis;
+  analysis.loop = loop;
+  for (std::size_t i = 0; i < std::size(kModes); ++i)
+    analysis.modes[i] = computeGrowth(loop, kModes[i]);
+  analysis.advice = advise(loop);
+  LoopSettings held = loop;
+  held.hand = kHeldHand;
+  for (std::size_t i = 0; i < analysis.held.size(); ++i)
+    analysis.held[i] = computeGrowth(held, kModes[i]);
+  analysis.drag = computeDrag(loop);
+  return analysis;
+}
+
+bool isStable(const Analysis& analysis) noexcept { return analysis.advice.worst.growth.rate < 0.0; }
+
+nlohmann::json toJson(const Analysis& a) {
+  nlohmann::json json;
+  json["stable"] = isStable(a);
+  for (std::size_t i = 0; i < std::size(kModes); ++i) {
+    nlohmann::json mode = {
+        {"name", name(kModes[i])}, {"rate", a.modes[i].rate}, {"frequency", a.modes[i].frequency}};
+    if (i < a.held.size()) mode["held_rate"] = a.held[i].rate;
+    json["modes"].push_back(std::move(mode));
+  }
+  for (const GainMargin& m : a.advice.margins)
+    json["gains"].push_back({{"key", name(m.gain)},
+                             {"value", m.value},
+                             {"down", orNull(m.below)},
+                             {"up", orNull(m.above)},
+                             {"slope", m.slope}});
+  if (const auto& remedy = a.advice.remedy)
+    json["remedy"] = {
+        {"key", name(remedy->gain)}, {"value", remedy->value}, {"rate", remedy->rate}};
+  if (a.advice.strongest) json["strongest"] = name(*a.advice.strongest);
+  json["largest_coordination_stiffness"] = orNull(a.advice.largest_coordination_stiffness);
+  json["drag"] = a.drag;
+  return json;
+}
+
+std::string describe(const Analysis& a) {
+  return describeModes(a) + describeGains(a) + describeVerdict(a);
+}
+
+}  // namespace tandem::demos

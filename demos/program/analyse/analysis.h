@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tandem/coordination/stability_advice.h"
+
+namespace tandem::demos {
+
+/// A hand that holds its device, as people do who do not push.
+inline constexpr HandImpedance kHeldHand{0.0, 300.0, 5.0};
+
+/// What a scenario's gains do, with empty hands and with hands that hold.
+struct Analysis {
+  LoopSettings loop;
+  std::array<Growth, 3> modes;  ///< common, difference, deaf
+  Advice advice;
+  std::array<Growth, 2> held;  ///< common and difference, held by kHeldHand
+  double drag = 0.0;           ///< of common motion [N s/m]
+};
+
+/// Throws as advise() does.
+[[nodiscard]] Analysis analyse(const LoopSettings& loop);
+
+/// True if all lasting modes of empty hands die out.
+[[nodiscard]] bool isStable(const Analysis& analysis) noexcept;
+
+[[nodiscard]] nlohmann::json toJson(const Analysis& analysis);
+/// For a reader, with line ends.
+[[nodiscard]] std::string describe(const Analysis& analysis);
+
+}  // namespace tandem::demos

@@ -1,0 +1,92 @@
+// `tandem analyse`: verdicts, borders, exit status, refusals.
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program/process.h"
+
+namespace tandem {
+namespace {
+
+using test::expectLine;
+using test::Outcome;
+using test::runTandem;
+using Words = std::vector<std::string>;
+
+Words line(const std::string& file, const Words& more = {}) {
+  Words all = {"analyse", test::scenarioPath(file)};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+nlohmann::json analyse(const std::string& file, Words more = {}) {
+  more.push_back("--json");
+  const Outcome outcome = runTandem(line(file, more));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return nlohmann::json::parse(outcome.out);
+}
+
+TEST(Analyse, TellsModesAndBordersOfThePapersGains) {
+  const auto coupled = analyse("experiment1.toml", {"--set", "experiment.scheme=virtual_coupling"});
+  EXPECT_TRUE(coupled["stable"].get<bool>());
+  EXPECT_EQ(coupled["modes"][1]["name"], "difference");
+  EXPECT_NEAR(coupled["modes"][1]["rate"].get<double>(), -0.583, 1e-3);
+  EXPECT_NEAR(coupled["modes"][1]["frequency"].get<double>(), 46.5, 0.1);
+  const auto& stiffness = coupled["gains"][0];
+  EXPECT_EQ(stiffness["key"], "coordination.stiffness");
+  EXPECT_TRUE(stiffness["down"].is_null());
+  EXPECT_NEAR(stiffness["up"].get<double>(), 389.451, 0.01);
+  EXPECT_NEAR(coupled["largest_coordination_stiffness"].get<double>(), 389.451, 0.01);
+
+  const auto proxy = analyse("experiment1.toml");
+  EXPECT_FALSE(proxy["stable"].get<bool>());
+  EXPECT_NEAR(proxy["modes"][1]["rate"].get<double>(), 1.912, 1e-3);
+  EXPECT_NEAR(proxy["modes"][1]["held_rate"].get<double>(), -0.134, 1e-3);
+  EXPECT_EQ(proxy["remedy"]["key"], "device.damping");
+  EXPECT_LT(proxy["remedy"]["rate"].get<double>(), 0.0);
+}
+
+TEST(Analyse, ManyUsersNeedTheAverage) {
+  const Words held = {
+      "--set", "experiment.scheme=virtual_coupling", "--set", "network.delay=0.02", "--users", "4"};
+  Words average = held;
+  average.insert(average.end(), {"--set", "coordination.mode=average"});
+  const auto worst = [](const nlohmann::json& a) {
+    return std::max(a["modes"][0]["held_rate"].get<double>(),
+                    a["modes"][1]["held_rate"].get<double>());
+  };
+  EXPECT_GT(worst(analyse("experiment1.toml", held)), 0.0);
+  EXPECT_LT(worst(analyse("experiment1.toml", average)), -5.0);
+}
+
+TEST(Analyse, SaysInWordsWhatToTurn) {
+  const Outcome outcome = runTandem(line("experiment1.toml"));
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* words : {"against each other", "Unstable with lasting contact", "doubles in",
+                            "Hands that hold their devices", "device.damping = 2.8"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words << '\n' << outcome.out;
+}
+
+TEST(Analyse, OnlyACheckFails) {
+  EXPECT_EQ(runTandem(line("experiment1.toml", {"--check"})).status, 3);
+  EXPECT_EQ(runTandem(line("experiment1.toml",
+                           {"--check", "--set", "experiment.scheme=virtual_coupling"}))
+                .status,
+            0);
+}
+
+TEST(Analyse, RefusesByALine) {
+  const auto with = [](const Words& more) { return runTandem(line("experiment1.toml", more)); };
+  expectLine(with({"--set", "network.delay=0.6"}), 2, "delay");
+  expectLine(with({"--set", "network.rate=127.3219"}), 2, "no short period");
+  expectLine(with({"--set", "site2.device_mass=0.3"}), 2, "site2.device_mass = 0.3");
+  expectLine(with({"--set", "contact.model=native_rigid"}), 2, "contact.model");
+  expectLine(runTandem(line("playground.toml")), 2, "three dimensions");
+  expectLine(with({"--users", "1"}), 2, "users");
+}
+
+}  // namespace
+}  // namespace tandem
