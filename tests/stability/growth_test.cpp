@@ -72,7 +72,7 @@ TEST(Growth, IsZeroAtTheBoundariesOfRuns) {
   const auto B_vc = [](LoopSettings& s) -> double& { return s.contact.damping; };
   const auto b_dev = [](LoopSettings& s) -> double& { return s.device_damping; };
   const auto delay = [](LoopSettings& s) -> double& { return s.delay; };
-  constexpr auto kCommon = MotionMode::kCommon, kDifference = MotionMode::kDifference;
+  constexpr auto kDifference = MotionMode::kDifference;
   const LoopSettings coupled = makeFirst(StandInKind::kNone);
   expectBoundary(coupled, K_t, 389.451, kDifference);
   expectBoundary(coupled, B_t, 8.41134, kDifference);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
+#include <utility>
 
 namespace tandem {
 namespace {
@@ -196,14 +196,16 @@ GainMargin computeMargin(const LoopSettings& settings, LoopGain gain, bool searc
 }
 
 Advice advise(const LoopSettings& settings) {
+  std::vector<GainMargin> margins;
+  for (const LoopGain gain : allLoopGains()) margins.push_back(computeMargin(settings, gain));
+  return advise(settings, std::move(margins));
+}
+
+Advice advise(const LoopSettings& settings, std::vector<GainMargin> margins) {
   Advice advice;
   advice.worst = computeWorstGrowth(settings);
   advice.deaf_rate = computeGrowthRate(settings, MotionMode::kDeaf);
-  std::vector<std::future<GainMargin>> running;
-  for (const LoopGain gain : allLoopGains())
-    running.push_back(std::async(std::launch::async,
-                                 [&settings, gain] { return computeMargin(settings, gain); }));
-  for (auto& one : running) advice.margins.push_back(one.get());
+  advice.margins = std::move(margins);
   const auto strongest = std::max_element(advice.margins.begin(), advice.margins.end(),
                                           [](const GainMargin& a, const GainMargin& b) {
                                             return std::abs(a.slope) < std::abs(b.slope);

@@ -1,3 +1,8 @@
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -23,7 +28,9 @@ class AnalyseCommand final : public Command {
 
   ExitStatus run() override {
     LoopSettings loop = makeLoop(loadScenario(scenario_, overrides_));
-    if (users_) loop.users = *users_;
+    if (users_ && (*users_ < 2 || *users_ > kMaxPeerId))
+      throw UsageError(fmt::format("--users {}: must be 2 to {}", *users_, kMaxPeerId));
+    if (users_) loop.users = static_cast<int>(*users_);
     const Analysis analysis = analyse(loop);
     writeOutput(json_ ? toJson(analysis).dump(2) + "\n" : describe(analysis));
     return checks_ && !isStable(analysis) ? kCheckFailed : kDone;
@@ -32,7 +39,7 @@ class AnalyseCommand final : public Command {
  private:
   std::string scenario_;
   std::vector<std::string> overrides_;
-  std::optional<int> users_;
+  std::optional<std::uint64_t> users_;
   bool checks_ = false, json_ = false;
 };
 

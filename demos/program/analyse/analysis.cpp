@@ -1,6 +1,7 @@
 #include "analyse/analysis.h"
 
 #include <cmath>
+#include <future>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -30,9 +31,9 @@ std::string describeTime(double rate) {
 }
 
 std::string describeBorder(const std::optional<double>& border, double value) {
-  if (!border) return fmt::format("{:>12}{:>8}", "none", "");
+  if (!border) return fmt::format("{:>12}{:>10}", "none", "");
   const double margin = value > 0.0 ? 20.0 * std::log10(*border / value) : 0.0;
-  return fmt::format("{:>12.6g}{:>8}", *border,
+  return fmt::format("{:>12.6g}{:>10}", *border,
                      value > 0.0 ? fmt::format("{:+.1f} dB", margin) : "");
 }
 
@@ -42,7 +43,7 @@ nlohmann::json orNull(const std::optional<double>& value) {
 
 std::string describeModes(const Analysis& a) {
   std::string text = fmt::format("{:<28}{:>12}{:>10}  {:<22}{}\n", "motion", "rate [1/s]", "[Hz]",
-                                 "", "held hands [1/s]");
+                                 "", "held hand [1/s]");
   for (std::size_t i = 0; i < std::size(kModes); ++i) {
     const Growth& growth = a.modes[i];
     text += fmt::format("{:<28}{:>+12.4f}{:>10.1f}  {:<22}{}\n", explain(kModes[i]), growth.rate,
@@ -54,7 +55,7 @@ std::string describeModes(const Analysis& a) {
 
 std::string describeGains(const Analysis& a) {
   std::string text =
-      fmt::format("\n{:<24}{:>10} {:<6}{:>12}{:>20}\n", "gain", "now", "", "border below", "above");
+      fmt::format("\n{:<24}{:>10} {:<6}{:>12}{:>22}\n", "gain", "now", "", "border below", "above");
   for (const GainMargin& m : a.advice.margins)
     text += fmt::format("{:<24}{:>10.6g} {:<6}{}{}\n", name(m.gain), m.value, unit(m.gain),
                         describeBorder(m.below, m.value), describeBorder(m.above, m.value));
@@ -82,6 +83,17 @@ std::string describeVerdict(const Analysis& a) {
   return text;
 }
 
+/// The searches for borders take nearly all of the time.
+std::vector<GainMargin> computeMargins(const LoopSettings& loop) {
+  std::vector<std::future<GainMargin>> running;
+  for (const LoopGain gain : allLoopGains())
+    running.push_back(
+        std::async(std::launch::async, [&loop, gain] { return computeMargin(loop, gain); }));
+  std::vector<GainMargin> margins;
+  for (auto& one : running) margins.push_back(one.get());
+  return margins;
+}
+
 }  // namespace
 
 Analysis analyse(const LoopSettings& loop) {
@@ -89,7 +101,7 @@ Analysis analyse(const LoopSettings& loop) {
   analysis.loop = loop;
   for (std::size_t i = 0; i < std::size(kModes); ++i)
     analysis.modes[i] = computeGrowth(loop, kModes[i]);
-  analysis.advice = advise(loop);
+  analysis.advice = advise(loop, computeMargins(loop));
   LoopSettings held = loop;
   held.hand = kHeldHand;
   for (std::size_t i = 0; i < analysis.held.size(); ++i)

@@ -72,8 +72,11 @@ struct Advice {
       remedy;  ///< smallest single change, if it is unstable; empty: there is none
 };
 
-/// Throws as computeGrowth() does. Uses as many threads as there are gains.
+/// Throws as computeGrowth() does.
 [[nodiscard]] Advice advise(const LoopSettings& settings);
+/// The same with the margins of allLoopGains(), in that order: a caller may compute them in
+/// threads.
+[[nodiscard]] Advice advise(const LoopSettings& settings, std::vector<GainMargin> margins);
 
 }  // namespace tandem
 #pragma GCC visibility pop
