@@ -95,7 +95,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
   warnings_ = describeSurprises(body, original_.linear_damping, original_.angular_damping,
                                 has_additional_damping_);
   if (sleep_ == Sleep::kNever && mayFallAsleep(original_.activation_state)) wake(body);
-  if (mass_share != 1.0) scaleMass();
+  if (mass_share != 1.0) scaleMass(mass_share);
   inverse_mass_ = body.getInvMass();
   inverse_inertia_ = body.getInvInertiaDiagLocal();
   look_ = BodyLook::at(body);
@@ -162,9 +162,9 @@ double HapticBody::angularDamping() const noexcept {
   return static_cast<double>(original_.angular_damping);
 }
 
-/// Gives the body its share of the mass that the host has given it.
-void HapticBody::scaleMass() noexcept {
-  const auto factor = static_cast<btScalar>(mass_share_);
+/// Gives the body a share of the mass that the host has given it.
+void HapticBody::scaleMass(double share) noexcept {
+  const auto factor = static_cast<btScalar>(share);
   const auto invert = [](btScalar value) { return value != 0 ? btScalar(1) / value : btScalar(0); };
   const btVector3& inverse = original_.inverse_inertia;
   const btVector3 inertia(invert(inverse.x()), invert(inverse.y()), invert(inverse.z()));
@@ -176,7 +176,7 @@ void HapticBody::setMassShare(double share) noexcept {
   if (!isInWorld() || !isAsHeld()) return;  // changed by the host: it is about to be held anew
   mass_share_ = share;
   const btVector3 weight_before = measureWeight(body_);
-  scaleMass();
+  scaleMass(share);
   body_.setGravity(body_.getGravity());
   inverse_mass_ = look_.inverse_mass = body_.getInvMass();
   inverse_inertia_ = look_.inverse_inertia = body_.getInvInertiaDiagLocal();

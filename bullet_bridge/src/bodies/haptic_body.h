@@ -185,7 +185,7 @@ class HapticBody final : public HostBody {
     bool asleep = false;  // Bullet received no velocity
   };
 
-  void scaleMass() noexcept;
+  void scaleMass(double share) noexcept;
   void readShift(HostChange& change) const noexcept;
   void restoreMassProps();
   [[nodiscard]] bool hasWeightOfItsWorld() const noexcept;
