@@ -54,6 +54,39 @@ TEST(HapticLoop, TwoSitesPushACubeAmongBoxesWhileTheirHostsStep) {
   EXPECT_NEAR(one.site->object(0).p_W.y(), two.site->object(0).p_W.y(), 0.03);
 }
 
+// Each begins alone. They share the cube while they hear each other, and part again.
+TEST(HapticLoop, UsersComeAndGoWhileTheirHostsStep) {
+  constexpr MembershipSettings kFollows{true, 0.3};
+  LiveSite one(1, Vec3(0.0, 2.0, 0.0), 3, nullptr, kFollows);
+  LiveSite two(2, Vec3(-1.0, 0.0, 0.0), 3, nullptr, kFollows);
+  const auto expectMass = [&](double mass) {
+    for (const LiveSite* live : {&one, &two})
+      EXPECT_NEAR(1.0 / static_cast<double>(live->cube->getInvMass()), mass, 1e-6);
+  };
+  {
+    HapticLoop loop_one(*one.site, kModest), loop_two(*two.site, kModest);
+    const auto step = [&](double seconds) {
+      std::thread other([&] { two.host(seconds); });
+      one.host(seconds);
+      other.join();
+    };
+    step(0.3);
+    expectMass(0.2);
+    {
+      const Wire wire(one.queue, two.queue);
+      step(1.5);
+      expectMass(0.1);
+    }
+    step(1.5);
+    expectMass(0.2);
+  }
+  for (const LiveSite* live : {&one, &two}) {
+    expectSafe(live->watched);
+    EXPECT_EQ(live->site->status(), kTickOk);
+    EXPECT_EQ(live->site->counters().members_changed, 2u);
+  }
+}
+
 /// A step of the host asks the haptic thread, and waits for its answer.
 TEST(HapticLoop, OneHostThreadStepsTwoSitesAt240Hz) {
   LiveSite one(1, Vec3(0.0, 2.0, 0.0)), two(2, Vec3(-1.0, 0.0, 0.0));

@@ -58,7 +58,8 @@ struct LiveSite {
   static constexpr double kHostPeriod = 1.0 / 60.0;
 
   /// `link`: instead of `queue`.
-  LiveSite(int self, const Vec3& hand_force, int boxes = 3, Link* link = nullptr)
+  LiveSite(int self, const Vec3& hand_force, int boxes = 3, Link* link = nullptr,
+           const MembershipSettings& membership = {})
       : rig(Vec3(0.0, 0.0, -9.81)), device(makeSettings(self), makeConstantHand(hand_force)) {
     auto& floor = rig.makeShape<btBoxShape>(toBullet(Vec3(2, 2, 0.5)));
     rig.addBody(floor, 0.0, Vec3(0.0, 0.0, -0.52));
@@ -70,6 +71,7 @@ struct LiveSite {
     settings.self = PeerId{static_cast<std::uint32_t>(self)};
     settings.tick_source = TickSource::kCaller;
     settings.contact = {2000.0, 1.0};
+    settings.membership = membership;
     if (boxes == 0) settings.coordination = {0.0, 0.0};  // nothing holds the cube back
     site = std::make_unique<Site>(settings, rig.world, watched);
     site->share(*cube);
