@@ -1,6 +1,7 @@
 // How small motions grow: closed forms, and values that runs of the simulator have confirmed.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -161,6 +162,29 @@ TEST(Growth, OfEqualUsersIsThatOfOneWhoHearsHimself) {
       for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(full[i], reduced[i], 1e-9) << users;
     }
   }
+}
+
+// What one site's packets lag behind another's matters for some gains and not for others.
+TEST(Growth, DependsOnThePhaseOfPackets) {
+  const auto findRange = [](const LoopSettings& settings) {
+    std::pair<double, double> range{HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < 8; ++i) {
+      const double rate = computeRateAtPhase(settings, i / 8.0);
+      range = {std::min(range.first, rate), std::max(range.second, rate)};
+    }
+    return range;
+  };
+  const LoopSettings coupled = makeFirst(StandInKind::kNone);
+  const double in_phase =
+      std::max(rateOf(coupled, MotionMode::kCommon), rateOf(coupled, MotionMode::kDifference));
+  EXPECT_NEAR(computeRateAtPhase(coupled, 0.0), in_phase, 1e-8);
+  EXPECT_NEAR(computeRateAtPhase(coupled, 1.0), in_phase, 1e-8);
+  const auto [least, most] = findRange(coupled);
+  EXPECT_NEAR(least, -0.678, 2e-3);
+  EXPECT_NEAR(most, -0.517, 2e-3);
+  const auto [least_dynamic, most_dynamic] = findRange(makeFirst(StandInKind::kDynamic));
+  EXPECT_NEAR(least_dynamic, 1.91, 0.01);
+  EXPECT_NEAR(most_dynamic, 2.62, 0.01);
 }
 
 // By average alone, whole proxies make three users unstable; proxies of 1/(N-1) do not.

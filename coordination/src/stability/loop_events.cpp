@@ -52,9 +52,9 @@ class CycleMaker {
     for (int k = -before; k < packets; ++k) {
       const double sent = (k + channel.phase) / settings_.packet_rate;
       const double arrival = findArrival(sent, channel.delay);
-      const bool is_of_cycle = sent > -kOneMoment;
+      const bool is_of_cycle = sent > -kOneMoment && sent < cycle_.length - kOneMoment;
       if (is_of_cycle) cycle_.events.push_back({sent, EventKind::kSend, c});
-      if (!is_of_cycle && arrival > -kOneMoment) ++in_flight;
+      if (sent <= -kOneMoment && arrival > -kOneMoment) ++in_flight;
       if (arrival > -kOneMoment && arrival < cycle_.length - kOneMoment)
         cycle_.events.push_back({std::max(arrival, 0.0), EventKind::kArrival, c});
     }

@@ -113,6 +113,14 @@ double computeGrowthRate(const LoopSettings& settings, MotionMode mode) {
   return computeRate(stability::Monodromy(stability::makeModeModel(settings, mode)));
 }
 
+double computeRateAtPhase(const LoopSettings& settings, double phase) {
+  checkSettings(settings);
+  check("phase", phase, phase >= 0.0 && phase <= 1.0, "0 to 1");
+  std::vector<double> phases(static_cast<std::size_t>(settings.users), phase);
+  phases.front() = 0.0;
+  return computeRate(stability::Monodromy(stability::makeFullModel(settings, phases)));
+}
+
 Growth computeGrowth(const LoopSettings& settings, MotionMode mode) {
   checkSettings(settings);
   const stability::Monodromy loop(stability::makeModeModel(settings, mode));

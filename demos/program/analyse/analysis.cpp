@@ -1,5 +1,6 @@
 #include "analyse/analysis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <iterator>
@@ -79,6 +80,10 @@ std::string describeVerdict(const Analysis& a) {
                 ? fmt::format("Largest coordination.stiffness at this delay: {:.4g} N/m.\n", *most)
                 : "At this delay no coordination.stiffness is stable.\n";
   if (advice.strongest) text += fmt::format("Most depends on {}.\n", name(*advice.strongest));
+  if (a.worst_phase)
+    text += fmt::format(
+        "Live, packets drift against each other: the worst of 8 phases has {:+.4g} 1/s.\n",
+        *a.worst_phase);
   text += fmt::format("Moving on together each user feels {:.3g} N s/m.\n", a.drag);
   return text;
 }
@@ -94,6 +99,16 @@ std::vector<GainMargin> computeMargins(const LoopSettings& loop) {
   return margins;
 }
 
+/// Many users take too long: the cost grows with the cube of their number.
+std::optional<double> findWorstPhase(const LoopSettings& loop) {
+  constexpr int kMostUsers = 4, kPhases = 8;
+  if (loop.users > kMostUsers) return std::nullopt;
+  double worst = -HUGE_VAL;
+  for (int i = 0; i < kPhases; ++i)
+    worst = std::max(worst, computeRateAtPhase(loop, static_cast<double>(i) / kPhases));
+  return worst;
+}
+
 }  // namespace
 
 Analysis analyse(const LoopSettings& loop) {
@@ -107,6 +122,7 @@ Analysis analyse(const LoopSettings& loop) {
   for (std::size_t i = 0; i < analysis.held.size(); ++i)
     analysis.held[i] = computeGrowth(held, kModes[i]);
   analysis.drag = computeDrag(loop);
+  analysis.worst_phase = findWorstPhase(loop);
   return analysis;
 }
 
@@ -133,6 +149,7 @@ nlohmann::json toJson(const Analysis& a) {
   if (a.advice.strongest) json["strongest"] = name(*a.advice.strongest);
   json["largest_coordination_stiffness"] = orNull(a.advice.largest_coordination_stiffness);
   json["drag"] = a.drag;
+  json["worst_phase_rate"] = orNull(a.worst_phase);
   return json;
 }
 

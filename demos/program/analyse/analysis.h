@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,6 +20,8 @@ struct Analysis {
   Advice advice;
   std::array<Growth, 2> held;  ///< common and difference, held by kHeldHand
   double drag = 0.0;           ///< of common motion [N s/m]
+  /// Worst rate over eight phases of packets [1/s]; empty for more users than four.
+  std::optional<double> worst_phase;
 };
 
 /// Throws as advise() does.

@@ -75,6 +75,11 @@ struct Growth {
 /// The same for its rate alone, in a third of the time.
 [[nodiscard]] double computeGrowthRate(const LoopSettings& settings, MotionMode mode);
 
+/// Growth rate of the fastest motion if the packets of all users but the first leave a part of a
+/// packet period later, 0 to 1. Clocks of live sites drift through all phases. Takes N^3 times as
+/// long as a mode.
+[[nodiscard]] double computeRateAtPhase(const LoopSettings& settings, double phase);
+
 /// Force that each user needs for each m/s while all move on together, in [N s/m]: the delay's
 /// drag, and that of devices, copies and proxies. Throws as computeGrowth() does, and for a hand
 /// with stiffness, which lets nothing move on.
