@@ -70,6 +70,20 @@ TEST(Analyse, SaysInWordsWhatToTurn) {
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << '\n' << outcome.out;
 }
 
+// A run tells it before it begins, but not to scripts.
+TEST(Analyse, ARunWarnsOfGrowth) {
+  const auto run = [](const Words& more) {
+    Words all = {"run", test::scenarioPath("experiment1.toml"), "--set", "experiment.duration=0.1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return runTandem(all);
+  };
+  const std::string note = "note: with lasting contact and empty hands, motion against each other";
+  EXPECT_EQ(run({}).out.rfind(note, 0), 0u);
+  EXPECT_EQ(run({"--quiet"}).out, "");
+  EXPECT_EQ(run({"--json"}).out.front(), '{');
+  EXPECT_EQ(run({"--set", "device.damping=3"}).out.find("note"), std::string::npos);
+}
+
 TEST(Analyse, OnlyACheckFails) {
   EXPECT_EQ(runTandem(line("experiment1.toml", {"--check"})).status, 3);
   EXPECT_EQ(runTandem(line("experiment1.toml",

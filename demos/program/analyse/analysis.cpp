@@ -13,18 +13,6 @@ namespace {
 
 constexpr MotionMode kModes[] = {MotionMode::kCommon, MotionMode::kDifference, MotionMode::kDeaf};
 
-const char* explain(MotionMode mode) {
-  switch (mode) {
-    case MotionMode::kCommon:
-      return "all together";
-    case MotionMode::kDifference:
-      return "against each other";
-    case MotionMode::kDeaf:
-      break;
-  }
-  return "before the others answer";
-}
-
 /// "halves in 0.3 s"
 std::string describeTime(double rate) {
   return fmt::format("{} in {:.3g} s", rate < 0.0 ? "halves" : "doubles",
@@ -124,6 +112,18 @@ Analysis analyse(const LoopSettings& loop) {
   analysis.drag = computeDrag(loop);
   analysis.worst_phase = findWorstPhase(loop);
   return analysis;
+}
+
+const char* explain(MotionMode mode) noexcept {
+  switch (mode) {
+    case MotionMode::kCommon:
+      return "all together";
+    case MotionMode::kDifference:
+      return "against each other";
+    case MotionMode::kDeaf:
+      break;
+  }
+  return "before the others answer";
 }
 
 bool isStable(const Analysis& analysis) noexcept { return analysis.advice.worst.growth.rate < 0.0; }

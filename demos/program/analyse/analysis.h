@@ -30,6 +30,8 @@ struct Analysis {
 /// True if all lasting modes of empty hands die out.
 [[nodiscard]] bool isStable(const Analysis& analysis) noexcept;
 
+/// "against each other"
+[[nodiscard]] const char* explain(MotionMode mode) noexcept;
 [[nodiscard]] nlohmann::json toJson(const Analysis& analysis);
 /// For a reader, with line ends.
 [[nodiscard]] std::string describe(const Analysis& analysis);

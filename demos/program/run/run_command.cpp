@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analyse/growth_warning.h"
 #include "command/command.h"
 #include "import/file_scenario.h"
 #include "run/run_output.h"
@@ -49,6 +50,8 @@ class RunCommand final : public Command {
     std::optional<OutputFolder> folder;
     if (folder_) folder.emplace(*folder_, "--out " + *folder_);
     VirtualRun run(scenario);
+    if (!quiet_ && !json_)
+      if (const auto warning = warnOfGrowth(scenario)) fmt::print("note: {}\n", *warning);
     {
       ProgressLine line(quiet_);
       run.run([&](double share) { line.show(fmt::format("of {} s", scenario.duration), share); });
