@@ -49,6 +49,11 @@ void requireSame(const StateMessage& a, const StateMessage& b) {
     require(left.p_BG == right.p_BG);
     require(computeDistance(left.q_BG, right.q_BG) <= rounding);
   }
+  require(a.packet.roll.has_value() == b.packet.roll.has_value());
+  if (a.packet.roll) {
+    const RollCall &left = *a.packet.roll, &right = *b.packet.roll;
+    require(left.heard == right.heard && left.members == right.members && left.age == right.age);
+  }
   for (std::size_t i = 0; i < a.packet.object_count; ++i) {
     const ObjectState& left = a.packet.objects[i];
     const ObjectState& right = b.packet.objects[i];
