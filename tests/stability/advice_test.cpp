@@ -19,7 +19,7 @@ TEST(Advice, BordersAreThoseOfRuns) {
   LoopSettings coupled;
   coupled.stand_in = StandInKind::kNone;
   const Advice advice = advise(coupled);
-  EXPECT_LT(advice.worst.growth.rate, 0.0);
+  EXPECT_LT(advice.worst().growth.rate, 0.0);
   const GainMargin& stiffness = marginOf(advice, LoopGain::kCoordinationStiffness);
   EXPECT_FALSE(stiffness.below);
   EXPECT_NEAR(stiffness.above.value(), 389.451, 1e-4 * 389.451);
@@ -41,7 +41,7 @@ TEST(Advice, IsWhatItSays) {
       settings.object_mass = 0.1 * users;
       settings.mode = CoordinationMode::kAverage;
       const Advice advice = advise(settings);
-      const bool is_stable = advice.worst.growth.rate < 0.0;
+      const bool is_stable = advice.worst().growth.rate < 0.0;
       for (const GainMargin& margin : advice.margins) {
         for (const auto& border : {margin.below, margin.above}) {
           if (!border) continue;

@@ -7,7 +7,7 @@
 
 namespace tandem::stability {
 
-/// What happens at a moment; of several at one moment, in this order.
+/// Kinds of events. Those of one moment happen in this order.
 enum class EventKind { kArrival, kTick, kSend };
 
 struct Event {

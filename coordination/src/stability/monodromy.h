@@ -25,7 +25,7 @@ class Monodromy {
   /// The matrix that leads a state through a cycle.
   [[nodiscard]] Eigen::MatrixXd makeMatrix() const;
 
-  /// What a constant force of 1 N on each device makes of a state at rest, in a cycle.
+  /// The state that a constant force of 1 N on each device leads a state at rest to, in a cycle.
   [[nodiscard]] Eigen::VectorXd makePush() const;
 
   /// Leads one state through a cycle; gives the velocity of a site's device at each tick.

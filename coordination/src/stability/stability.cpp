@@ -69,12 +69,14 @@ Eigen::MatrixXd deflate(const Eigen::MatrixXd& matrix, Eigen::VectorXd shift) {
   return reflected.bottomRightCorner(n, n);
 }
 
-double toRate(double multiplier, double period) { return std::log(multiplier) / period; }
+/// Multipliers of a cycle that `matrix` leads through.
+Eigen::VectorXcd findMultipliers(const stability::Monodromy& loop, const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(deflate(matrix, loop.makeShift()), false);
+  return solver.eigenvalues();
+}
 
-double computeRate(const stability::Monodromy& loop) {
-  const Eigen::MatrixXd matrix = deflate(loop.makeMatrix(), loop.makeShift());
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  return toRate(solver.eigenvalues().cwiseAbs().maxCoeff(), loop.period());
+double computeRate(const stability::Monodromy& loop, const Eigen::MatrixXd& matrix) {
+  return std::log(findMultipliers(loop, matrix).cwiseAbs().maxCoeff()) / loop.period();
 }
 
 /// Turns of a device's velocity over a cycle, from tick to tick: several a period of the cycle
@@ -110,7 +112,8 @@ const char* name(MotionMode mode) noexcept {
 
 double computeGrowthRate(const LoopSettings& settings, MotionMode mode) {
   checkSettings(settings);
-  return computeRate(stability::Monodromy(stability::makeModeModel(settings, mode)));
+  const stability::Monodromy loop(stability::makeModeModel(settings, mode));
+  return computeRate(loop, loop.makeMatrix());
 }
 
 double computeRateAtPhase(const LoopSettings& settings, double phase) {
@@ -118,22 +121,19 @@ double computeRateAtPhase(const LoopSettings& settings, double phase) {
   check("phase", phase, phase >= 0.0 && phase <= 1.0, "0 to 1");
   std::vector<double> phases(static_cast<std::size_t>(settings.users), phase);
   phases.front() = 0.0;
-  return computeRate(stability::Monodromy(stability::makeFullModel(settings, phases)));
+  const stability::Monodromy loop(stability::makeFullModel(settings, phases));
+  return computeRate(loop, loop.makeMatrix());
 }
 
 Growth computeGrowth(const LoopSettings& settings, MotionMode mode) {
   checkSettings(settings);
   const stability::Monodromy loop(stability::makeModeModel(settings, mode));
   const Eigen::MatrixXd matrix = loop.makeMatrix();
-  const double rate = computeRate(loop);
+  const double rate = computeRate(loop, matrix);
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
   const double largest = std::exp(rate * loop.period());
   Eigen::Index worst = 0;
-  double nearest = HUGE_VAL;
-  for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
-    const double apart = std::abs(std::abs(solver.eigenvalues()(i)) - largest);
-    if (apart < nearest) nearest = apart, worst = i;
-  }
+  (solver.eigenvalues().cwiseAbs().array() - largest).abs().minCoeff(&worst);
   const auto velocities = loop.watchDevice(solver.eigenvectors().col(worst), 0);
   return {rate, computeFrequency(velocities, solver.eigenvalues()(worst), loop.period())};
 }
@@ -155,9 +155,7 @@ std::vector<std::complex<double>> computeMultipliers(const LoopSettings& setting
                                                      MotionMode mode) {
   checkSettings(settings);
   const stability::Monodromy loop(stability::makeModeModel(settings, mode));
-  const Eigen::MatrixXd matrix = deflate(loop.makeMatrix(), loop.makeShift());
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  const auto& values = solver.eigenvalues();
+  const Eigen::VectorXcd values = findMultipliers(loop, loop.makeMatrix());
   std::vector<std::complex<double>> all(values.data(), values.data() + values.size());
   std::sort(all.begin(), all.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });

@@ -12,18 +12,49 @@ constexpr double kRange = 1000.0;    // of a search
 constexpr double kPrecision = 1e-5;  // of a border
 constexpr double kBeyond = 1.2;      // of a remedy
 
-/// Least value that a search begins with if a gain is 0.
-double findSmallest(LoopGain gain) {
-  switch (gain) {
-    case LoopGain::kCoordinationStiffness:
-    case LoopGain::kContactStiffness:
-      return 1.0;
-    case LoopGain::kDelay:
-      return 1e-3;
-    default:
-      return 1e-2;
-  }
+/// A gain, by its place in LoopGain.
+struct GainRow {
+  LoopGain gain;
+  const char* key;
+  const char* unit;
+  double least;  ///< a search begins there if the gain is 0
+  double (*get)(const LoopSettings& settings);
+  void (*set)(LoopSettings& settings, double value);
+};
+
+/// The number that the members of `Path` lead to, one within the other.
+template <auto... Path>
+constexpr GainRow row(LoopGain gain, const char* key, const char* unit, double least) {
+  return {gain,
+          key,
+          unit,
+          least,
+          [](const LoopSettings& s) { return (s.*....*Path); },
+          [](LoopSettings& s, double value) { (s.*....*Path) = value; }};
 }
+
+using Gains = CouplerGains;
+using Loop = LoopSettings;
+constexpr GainRow kGains[] = {
+    row<&Loop::coordination, &Gains::stiffness>(LoopGain::kCoordinationStiffness,
+                                                "coordination.stiffness", "N/m", 1.0),
+    row<&Loop::coordination, &Gains::damping>(LoopGain::kCoordinationDamping,
+                                              "coordination.damping", "N s/m", 1e-2),
+    row<&Loop::contact, &Gains::stiffness>(LoopGain::kContactStiffness, "contact.stiffness", "N/m",
+                                           1.0),
+    row<&Loop::contact, &Gains::damping>(LoopGain::kContactDamping, "contact.damping", "N s/m",
+                                         1e-2),
+    row<&Loop::device_damping>(LoopGain::kDeviceDamping, "device.damping", "N s/m", 1e-2),
+    row<&Loop::delay>(LoopGain::kDelay, "network.delay", "s", 1e-3),
+};
+
+static_assert([] {
+  for (std::size_t i = 0; i < std::size(kGains); ++i)
+    if (static_cast<std::size_t>(kGains[i].gain) != i) return false;
+  return true;
+}());
+
+constexpr const GainRow& rowOf(LoopGain gain) { return kGains[static_cast<std::size_t>(gain)]; }
 
 double findMost(LoopGain gain, double value) {
   const double most = kRange * value;
@@ -76,7 +107,7 @@ void offer(const LoopSettings& settings, const GainMargin& margin,
   const Remedy remedy{margin.gain, value, rateAt(settings, margin.gain, value)};
   if (!(remedy.rate < 0.0)) return;
   const auto change = [&](const Remedy& r) {
-    return std::abs(std::log(r.value / std::max(valueOf(settings, r.gain), findSmallest(r.gain))));
+    return std::abs(std::log(r.value / std::max(valueOf(settings, r.gain), rowOf(r.gain).least)));
   };
   if (!best || change(remedy) < change(*best)) best = remedy;
 }
@@ -94,81 +125,24 @@ std::optional<double> findLargestStiffness(const LoopSettings& settings, const G
 }  // namespace
 
 const std::vector<LoopGain>& allLoopGains() {
-  static const std::vector<LoopGain> all = {
-      LoopGain::kCoordinationStiffness, LoopGain::kCoordinationDamping, LoopGain::kContactStiffness,
-      LoopGain::kContactDamping,        LoopGain::kDeviceDamping,       LoopGain::kDelay};
+  static const std::vector<LoopGain> all = [] {
+    std::vector<LoopGain> gains;
+    for (const GainRow& one : kGains) gains.push_back(one.gain);
+    return gains;
+  }();
   return all;
 }
 
-const char* name(LoopGain gain) noexcept {
-  switch (gain) {
-    case LoopGain::kCoordinationStiffness:
-      return "coordination.stiffness";
-    case LoopGain::kCoordinationDamping:
-      return "coordination.damping";
-    case LoopGain::kContactStiffness:
-      return "contact.stiffness";
-    case LoopGain::kContactDamping:
-      return "contact.damping";
-    case LoopGain::kDeviceDamping:
-      return "device.damping";
-    case LoopGain::kDelay:
-      break;
-  }
-  return "network.delay";
-}
+const char* name(LoopGain gain) noexcept { return rowOf(gain).key; }
 
-const char* unit(LoopGain gain) noexcept {
-  switch (gain) {
-    case LoopGain::kCoordinationStiffness:
-    case LoopGain::kContactStiffness:
-      return "N/m";
-    case LoopGain::kDelay:
-      return "s";
-    default:
-      return "N s/m";
-  }
-}
+const char* unit(LoopGain gain) noexcept { return rowOf(gain).unit; }
 
 double valueOf(const LoopSettings& settings, LoopGain gain) noexcept {
-  switch (gain) {
-    case LoopGain::kCoordinationStiffness:
-      return settings.coordination.stiffness;
-    case LoopGain::kCoordinationDamping:
-      return settings.coordination.damping;
-    case LoopGain::kContactStiffness:
-      return settings.contact.stiffness;
-    case LoopGain::kContactDamping:
-      return settings.contact.damping;
-    case LoopGain::kDeviceDamping:
-      return settings.device_damping;
-    case LoopGain::kDelay:
-      break;
-  }
-  return settings.delay;
+  return rowOf(gain).get(settings);
 }
 
 void setValue(LoopSettings& settings, LoopGain gain, double value) noexcept {
-  switch (gain) {
-    case LoopGain::kCoordinationStiffness:
-      settings.coordination.stiffness = value;
-      break;
-    case LoopGain::kCoordinationDamping:
-      settings.coordination.damping = value;
-      break;
-    case LoopGain::kContactStiffness:
-      settings.contact.stiffness = value;
-      break;
-    case LoopGain::kContactDamping:
-      settings.contact.damping = value;
-      break;
-    case LoopGain::kDeviceDamping:
-      settings.device_damping = value;
-      break;
-    case LoopGain::kDelay:
-      settings.delay = value;
-      break;
-  }
+  rowOf(gain).set(settings, value);
 }
 
 double computeWorstRate(const LoopSettings& settings) {
@@ -177,10 +151,8 @@ double computeWorstRate(const LoopSettings& settings) {
 }
 
 WorstGrowth computeWorstGrowth(const LoopSettings& settings) {
-  const Growth common = computeGrowth(settings, MotionMode::kCommon);
-  const Growth difference = computeGrowth(settings, MotionMode::kDifference);
-  if (common.rate > difference.rate) return {MotionMode::kCommon, common};
-  return {MotionMode::kDifference, difference};
+  return findWorst(computeGrowth(settings, MotionMode::kCommon),
+                   computeGrowth(settings, MotionMode::kDifference));
 }
 
 GainMargin computeMargin(const LoopSettings& settings, LoopGain gain, bool searches) {
@@ -188,7 +160,7 @@ GainMargin computeMargin(const LoopSettings& settings, LoopGain gain, bool searc
   margin.slope = computeSlope(settings, gain, margin.value);
   if (!searches) return margin;
   const bool is_stable = computeWorstRate(settings) < 0.0;
-  const double from = std::max(margin.value, findSmallest(gain));
+  const double from = std::max(margin.value, rowOf(gain).least);
   if (margin.value >= from)
     margin.below = findBorder(settings, gain, margin.value, 1.0 / kStep, is_stable);
   margin.above = findBorder(settings, gain, from, kStep, is_stable);
@@ -203,15 +175,15 @@ Advice advise(const LoopSettings& settings) {
 
 Advice advise(const LoopSettings& settings, std::vector<GainMargin> margins) {
   Advice advice;
-  advice.worst = computeWorstGrowth(settings);
-  advice.deaf_rate = computeGrowthRate(settings, MotionMode::kDeaf);
+  for (const MotionMode mode : kMotionModes)
+    advice.modes[static_cast<std::size_t>(mode)] = computeGrowth(settings, mode);
   advice.margins = std::move(margins);
   const auto strongest = std::max_element(advice.margins.begin(), advice.margins.end(),
                                           [](const GainMargin& a, const GainMargin& b) {
                                             return std::abs(a.slope) < std::abs(b.slope);
                                           });
   if (strongest->slope != 0.0) advice.strongest = strongest->gain;
-  const bool is_stable = advice.worst.growth.rate < 0.0;
+  const bool is_stable = advice.worst().growth.rate < 0.0;
   advice.largest_coordination_stiffness =
       findLargestStiffness(settings, advice.margins.front(), is_stable);
   if (is_stable) return advice;

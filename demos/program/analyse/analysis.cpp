@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace tandem::demos {
 namespace {
-
-constexpr MotionMode kModes[] = {MotionMode::kCommon, MotionMode::kDifference, MotionMode::kDeaf};
 
 /// "halves in 0.3 s"
 std::string describeTime(double rate) {
@@ -33,11 +30,11 @@ nlohmann::json orNull(const std::optional<double>& value) {
 std::string describeModes(const Analysis& a) {
   std::string text = fmt::format("{:<28}{:>12}{:>10}  {:<22}{}\n", "motion", "rate [1/s]", "[Hz]",
                                  "", "held hand [1/s]");
-  for (std::size_t i = 0; i < std::size(kModes); ++i) {
-    const Growth& growth = a.modes[i];
-    text += fmt::format("{:<28}{:>+12.4f}{:>10.1f}  {:<22}{}\n", explain(kModes[i]), growth.rate,
-                        growth.frequency, describeTime(growth.rate),
-                        i < a.held.size() ? fmt::format("{:+.4f}", a.held[i].rate) : "");
+  for (std::size_t i = 0; i < kMotionModes.size(); ++i) {
+    const Growth& growth = a.advice.modes[i];
+    text += fmt::format("{:<28}{:>+12.4f}{:>10.1f}  {:<22}{}\n", explain(kMotionModes[i]),
+                        growth.rate, growth.frequency, describeTime(growth.rate),
+                        i < a.held_rates.size() ? fmt::format("{:+.4f}", a.held_rates[i]) : "");
   }
   return text;
 }
@@ -54,10 +51,11 @@ std::string describeGains(const Analysis& a) {
 std::string describeVerdict(const Analysis& a) {
   const Advice& advice = a.advice;
   const bool is_stable = isStable(a);
+  const WorstGrowth worst = advice.worst();
   std::string text =
       fmt::format("\n{}: motion {} {}.\n", is_stable ? "Stable" : "Unstable with lasting contact",
-                  explain(advice.worst.mode), describeTime(advice.worst.growth.rate));
-  if (!is_stable && a.held[0].rate < 0.0 && a.held[1].rate < 0.0)
+                  explain(worst.mode), describeTime(worst.growth.rate));
+  if (!is_stable && a.held_rates[0] < 0.0 && a.held_rates[1] < 0.0)
     text += "Hands that hold their devices (300 N/m, 5 N s/m) calm it.\n";
   if (advice.remedy)
     text += fmt::format("Smallest change that calms it, with 20 % to spare: {} = {:.4g} {}.\n",
@@ -102,13 +100,11 @@ std::optional<double> findWorstPhase(const LoopSettings& loop) {
 Analysis analyse(const LoopSettings& loop) {
   Analysis analysis;
   analysis.loop = loop;
-  for (std::size_t i = 0; i < std::size(kModes); ++i)
-    analysis.modes[i] = computeGrowth(loop, kModes[i]);
   analysis.advice = advise(loop, computeMargins(loop));
   LoopSettings held = loop;
   held.hand = kHeldHand;
-  for (std::size_t i = 0; i < analysis.held.size(); ++i)
-    analysis.held[i] = computeGrowth(held, kModes[i]);
+  for (std::size_t i = 0; i < analysis.held_rates.size(); ++i)
+    analysis.held_rates[i] = computeGrowthRate(held, kMotionModes[i]);
   analysis.drag = computeDrag(loop);
   analysis.worst_phase = findWorstPhase(loop);
   return analysis;
@@ -126,15 +122,18 @@ const char* explain(MotionMode mode) noexcept {
   return "before the others answer";
 }
 
-bool isStable(const Analysis& analysis) noexcept { return analysis.advice.worst.growth.rate < 0.0; }
+bool isStable(const Analysis& analysis) noexcept {
+  return analysis.advice.worst().growth.rate < 0.0;
+}
 
 nlohmann::json toJson(const Analysis& a) {
   nlohmann::json json;
   json["stable"] = isStable(a);
-  for (std::size_t i = 0; i < std::size(kModes); ++i) {
-    nlohmann::json mode = {
-        {"name", name(kModes[i])}, {"rate", a.modes[i].rate}, {"frequency", a.modes[i].frequency}};
-    if (i < a.held.size()) mode["held_rate"] = a.held[i].rate;
+  for (std::size_t i = 0; i < kMotionModes.size(); ++i) {
+    nlohmann::json mode = {{"name", name(kMotionModes[i])},
+                           {"rate", a.advice.modes[i].rate},
+                           {"frequency", a.advice.modes[i].frequency}};
+    if (i < a.held_rates.size()) mode["held_rate"] = a.held_rates[i];
     json["modes"].push_back(std::move(mode));
   }
   for (const GainMargin& m : a.advice.margins)

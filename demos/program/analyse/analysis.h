@@ -13,13 +13,12 @@ namespace tandem::demos {
 /// A hand that holds its device, as people do who do not push.
 inline constexpr HandImpedance kHeldHand{0.0, 300.0, 5.0};
 
-/// What a scenario's gains do, with empty hands and with hands that hold.
+/// Tells how a scenario's gains behave, with empty hands and with hands that hold.
 struct Analysis {
   LoopSettings loop;
-  std::array<Growth, 3> modes;  ///< common, difference, deaf
   Advice advice;
-  std::array<Growth, 2> held;  ///< common and difference, held by kHeldHand
-  double drag = 0.0;           ///< of common motion [N s/m]
+  std::array<double, 2> held_rates{};  ///< of common and difference, held by kHeldHand [1/s]
+  double drag = 0.0;                   ///< of common motion [N s/m]
   /// Worst rate over eight phases of packets [1/s]; empty for more users than four.
   std::optional<double> worst_phase;
 };

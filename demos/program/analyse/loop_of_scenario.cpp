@@ -28,15 +28,11 @@ void checkAlike(const Scenario& s) {
                     key, value, first));
   };
   const DeviceScenario first = s.sites[0].makeDevice(s.device);
-  const auto contactOf = [&](const SiteScenario& site) {
-    return CouplerGains{site.contact_stiffness.value_or(s.site.contact.stiffness),
-                        site.contact_damping.value_or(s.site.contact.damping)};
-  };
-  const CouplerGains contact = contactOf(s.sites[0]);
+  const CouplerGains contact = s.sites[0].makeContact(s.site.contact);
   const double delay = computeDelay(s, 0, 1);
   for (std::size_t i = 0; i < s.sites.size(); ++i) {
     const DeviceScenario device = s.sites[i].makeDevice(s.device);
-    const CouplerGains own = contactOf(s.sites[i]);
+    const CouplerGains own = s.sites[i].makeContact(s.site.contact);
     if (device.mass != first.mass) refuse(i, "device_mass", device.mass, first.mass);
     if (device.damping != first.damping) refuse(i, "device_damping", device.damping, first.damping);
     if (own.stiffness != contact.stiffness)
@@ -69,8 +65,7 @@ LoopSettings makeLoop(const Scenario& s) {
   loop.has_object = s.hasObject();
   loop.object_mass = s.object_mass;
   loop.object_damping = s.object_damping;
-  loop.contact = {s.sites[0].contact_stiffness.value_or(s.site.contact.stiffness),
-                  s.sites[0].contact_damping.value_or(s.site.contact.damping)};
+  loop.contact = s.sites[0].makeContact(s.site.contact);
   loop.coordination = s.site.coordination;
   loop.proxy_mass = s.site.proxy.mass;
   loop.proxy_damping = s.site.proxy.damping;

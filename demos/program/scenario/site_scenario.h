@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tandem/coordination/coupling_settings.h"
 #include "tandem/coordination/types.h"
 
 namespace tandem::demos {
@@ -48,6 +49,10 @@ struct SiteScenario {
     return {device_mass.value_or(usual.mass), device_damping.value_or(usual.damping),
             device_encoder_resolution.value_or(usual.encoder_resolution),
             device_max_force.value_or(usual.max_force)};
+  }
+  /// The site's contact gains, where a scenario's are `usual`.
+  [[nodiscard]] CouplerGains makeContact(const CouplerGains& usual) const {
+    return {contact_stiffness.value_or(usual.stiffness), contact_damping.value_or(usual.damping)};
   }
 };
 

@@ -20,8 +20,7 @@ SiteSettings makeSettings(const Scenario& scenario, int index) {
   SiteSettings settings = scenario.site;
   settings.self = idOf(index);
   settings.peers = static_cast<int>(scenario.sites.size());
-  settings.contact.stiffness = own.contact_stiffness.value_or(settings.contact.stiffness);
-  settings.contact.damping = own.contact_damping.value_or(settings.contact.damping);
+  settings.contact = own.makeContact(settings.contact);
   settings.host_step = 1.0 / scenario.host_rate;
   if (scenario.angular_stiffness >= 0.0)
     settings.angular_coordination =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <optional>
 #include <string>
@@ -59,6 +60,10 @@ enum class MotionMode {
   kDifference,  ///< against each other
   kDeaf,        ///< one user, whom the others do not answer yet
 };
+
+/// All, in the order of their values. The first two go on; kDeaf ends with an answer.
+inline constexpr std::array<MotionMode, 3> kMotionModes = {
+    MotionMode::kCommon, MotionMode::kDifference, MotionMode::kDeaf};
 
 [[nodiscard]] const char* name(MotionMode mode) noexcept;
 

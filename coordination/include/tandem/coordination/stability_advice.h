@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,12 @@ struct WorstGrowth {
   Growth growth;
 };
 
+[[nodiscard]] inline WorstGrowth findWorst(const Growth& common,
+                                           const Growth& difference) noexcept {
+  if (common.rate > difference.rate) return {MotionMode::kCommon, common};
+  return {MotionMode::kDifference, difference};
+}
+
 [[nodiscard]] WorstGrowth computeWorstGrowth(const LoopSettings& settings);
 [[nodiscard]] double computeWorstRate(const LoopSettings& settings);
 
@@ -61,15 +68,17 @@ struct Remedy {
   double rate = 0.0;   ///< that it gives [1/s]
 };
 
-/// What a user should know before he touches.
+/// Tells a user before a touch how the gains behave.
 struct Advice {
-  WorstGrowth worst;
-  double deaf_rate = 0.0;  ///< until the others answer [1/s]
+  std::array<Growth, kMotionModes.size()> modes;  ///< in the order of kMotionModes
   std::vector<GainMargin> margins;
   std::optional<LoopGain> strongest;  ///< gain whose change by 1 % moves the rate most
   std::optional<double> largest_coordination_stiffness;  ///< stable at this delay; empty: no bound
   std::optional<Remedy>
       remedy;  ///< smallest single change, if it is unstable; empty: there is none
+
+  /// Of the modes that last.
+  [[nodiscard]] WorstGrowth worst() const noexcept { return findWorst(modes[0], modes[1]); }
 };
 
 /// Throws as computeGrowth() does.
