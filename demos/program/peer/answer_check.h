@@ -18,7 +18,8 @@ class DisagreementError : public UsageError {
   PeerId site;
 };
 
-/// What another site has else, if that is no change, and the remedy; goes on after the site's name.
+/// Says which value another site has else, if that is no change, and the remedy. Goes on after the
+/// site's name.
 [[nodiscard]] std::optional<std::string> describeDifference(const PeerStatus& status);
 
 /// Judges what another site answers while this one waits for it.

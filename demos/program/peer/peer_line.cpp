@@ -71,6 +71,11 @@ void declarePeerLine(Arguments& arguments, PeerLine& line) {
                    {.choices = {"float32", "float64"}});
 }
 
+void checkPatience(const PeerLine& line) {
+  if (!(line.patience > 0.0 && line.patience <= 86400.0))
+    throw UsageError("--wait: must be above 0 and at most 86400 s");
+}
+
 void checkPeerLine(const PeerLine& line, std::size_t count) {
   const int last = static_cast<int>(count);
   if (line.relay.empty() != line.relay_key.empty())
@@ -80,8 +85,7 @@ void checkPeerLine(const PeerLine& line, std::size_t count) {
   if (line.site < 1 || line.site > last)
     throw UsageError(
         fmt::format("--site {}: must be 1 {} {}", line.site, last == 2 ? "or" : "to", last));
-  if (!(line.patience > 0.0 && line.patience <= 86400.0))
-    throw UsageError("--wait: must be above 0 and at most 86400 s");
+  checkPatience(line);
   line.isByUdp() ? checkWays(line, last) : checkCarried(line);
   checkKeys(line, last);
 }

@@ -34,6 +34,9 @@ struct PeerLine {
 /// --playout and --wire.
 void declarePeerLine(Arguments& arguments, PeerLine& line);
 
+/// Throws UsageError for a --wait that nobody means.
+void checkPatience(const PeerLine& line);
+
 /// Checks the line of a session of `count` sites. Throws UsageError that names the option and the
 /// allowed values.
 void checkPeerLine(const PeerLine& line, std::size_t count);

@@ -1,5 +1,6 @@
 #include "peer/peer_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -55,10 +55,10 @@ class PeerRun {
           const BodyPlaces& places = {}, std::optional<RelayAccess> relay = std::nullopt);
 
   /// Waits until all other sites are there and know the start, or until one runs already. With
-  /// `coordination.follows_users` it waits for nobody. Throws
-  /// DisagreementError if one has another configuration, or does not agree to a change within 5 s.
-  /// Throws tandem::Error if one does not answer within `patience` [s], counts down for longer, or
-  /// leaves before the start. Returns false if `stop` asked to end.
+  /// `coordination.follows_users` it waits for nobody. Throws DisagreementError if one has another
+  /// configuration, or does not agree to a change within 5 s. Throws tandem::Error if one does not
+  /// answer within `patience` [s], counts down for longer, or leaves before the start. Returns
+  /// false if `stop` asked to end.
   bool waitForPeers(double patience, const std::function<bool()>& stop,
                     const std::function<void(const PeerReport&)>& report);
 

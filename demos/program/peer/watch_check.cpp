@@ -25,8 +25,7 @@ std::string explainSilence(const RelayConnection& relay) {
 RelayAccess makeWatchAccess(const PeerLine& line) {
   if (line.relay.empty() || line.relay_key.empty() || line.watch_key.empty())
     throw UsageError("--watch needs --relay, --relay-key and --watch-key");
-  if (!(line.patience > 0.0 && line.patience <= 86400.0))
-    throw UsageError("--wait: must be above 0 and at most 86400 s");
+  checkPatience(line);
   return *makeRelayAccess(line);
 }
 

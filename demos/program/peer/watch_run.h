@@ -7,7 +7,7 @@
 
 namespace tandem::demos {
 
-/// What a spectator makes of what it sees.
+/// Says where a spectator puts the states that it sees.
 struct WatchOutput {
   std::optional<std::string> folder;   ///< of watch.csv
   std::optional<std::string> publish;  ///< word of `--publish`
