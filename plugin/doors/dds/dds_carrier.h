@@ -7,6 +7,8 @@
 
 namespace tandem {
 
+inline constexpr int kHighestDdsDomain = 232;  ///< its ports end below 65536
+
 /// Sealed datagrams as samples of Cyclone DDS, inside a segment whose members are all trusted.
 /// Never on a port that strangers reach: malformed traffic makes Cyclone's memory grow.
 ///
@@ -15,8 +17,9 @@ namespace tandem {
 /// they are for a network thread: LivePeers::startThread().
 class DdsCarrier final : public DatagramCarrier {
  public:
-  /// `domain` is 0 to 232, the same at all sites; one session has it. Throws std::invalid_argument
-  /// for another. Throws tandem::Error if Cyclone cannot open it, such as without a network.
+  /// `domain` is 0 to kHighestDdsDomain, the same at all sites; one session has it. Throws
+  /// std::invalid_argument for another. Throws tandem::Error if Cyclone cannot open it, such as
+  /// without a network.
   DdsCarrier(int domain, PeerId self, const std::vector<PeerId>& peers);
   ~DdsCarrier() override;
   DdsCarrier(const DdsCarrier&) = delete;

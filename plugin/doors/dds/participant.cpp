@@ -8,14 +8,15 @@
 
 #include "tandem/coordination/types.h"
 
+#include "dds/dds_carrier.h"
+
 namespace tandem::dds {
 namespace {
 
-constexpr int kHighestDomain = 232;  // its ports end below 65536
-
 int checkDomain(int domain) {
-  if (domain < 0 || domain > kHighestDomain)
-    throw std::invalid_argument("DDS domain " + std::to_string(domain) + ": must be 0 to 232");
+  if (domain < 0 || domain > kHighestDdsDomain)
+    throw std::invalid_argument("DDS domain " + std::to_string(domain) + ": must be 0 to " +
+                                std::to_string(kHighestDdsDomain));
   return domain;
 }
 

@@ -13,7 +13,8 @@ dds_entity_t checkEntity(dds_entity_t entity, int domain);
 /// A member of a domain. Deleted with all entities that were made of it.
 class Participant {
  public:
-  /// Throws std::invalid_argument for a domain that is not 0 to 232, and as checkEntity() does.
+  /// Throws std::invalid_argument for a domain that is not 0 to kHighestDdsDomain, and as
+  /// checkEntity() does.
   explicit Participant(int domain);
   ~Participant();
   Participant(const Participant&) = delete;

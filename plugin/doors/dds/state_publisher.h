@@ -14,8 +14,8 @@ namespace tandem {
 /// neither a haptic thread nor one that steps a world should call it.
 class StatePublisher {
  public:
-  /// `domain` is 0 to 232. Throws std::invalid_argument for another. Throws tandem::Error if
-  /// Cyclone cannot open it, such as without a network.
+  /// `domain` is 0 to kHighestDdsDomain. Throws std::invalid_argument for another. Throws
+  /// tandem::Error if Cyclone cannot open it, such as without a network.
   explicit StatePublisher(int domain);
   /// Readers see all instances disposed of.
   ~StatePublisher();

@@ -7,12 +7,11 @@
 #include <fmt/format.h>
 
 #include "peer/dds/dds_bus.h"
+#include "plugin/doors/dds/dds_carrier.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
-
-constexpr int kHighestDomain = 232;  // its ports end below 65536
 
 /// -1 for other words.
 int parseDomain(std::string_view word) {
@@ -29,9 +28,9 @@ int parseDomain(std::string_view word) {
 
 int readDdsDomain(const std::string& option, const std::string& word) {
   const int domain = parseDomain(word);
-  if (domain < 0 || domain > kHighestDomain)
+  if (domain < 0 || domain > kHighestDdsDomain)
     throw UsageError(fmt::format("{} {}: must be dds or dds:DOMAIN, with a domain of 0 to {}",
-                                 option, word, kHighestDomain));
+                                 option, word, kHighestDdsDomain));
   checkDds(option);
   return domain;
 }
