@@ -11,8 +11,6 @@ namespace {
 /// earlier sessions are told from the present one.
 constexpr std::uint32_t kPlaceMask = 0xffff;
 
-std::uint64_t bitOf(std::uint16_t id) noexcept { return std::uint64_t{1} << (id - 1); }
-
 }  // namespace
 
 Members::Members(std::size_t rooms, std::size_t members_per_room)
@@ -30,7 +28,7 @@ Member* Members::find(std::uint32_t session) noexcept {
 }
 
 Member* Members::find(const Room& room, std::uint16_t id) noexcept {
-  return (room.present & bitOf(id)) != 0 ? &members_[room.place[id]] : nullptr;
+  return room.present.has(PeerId{id}) ? &members_[room.place[id]] : nullptr;
 }
 
 Room* Members::find(const RoomName& name) noexcept {
@@ -59,7 +57,7 @@ Member* Members::add(Room& room, std::uint16_t id, bool is_watcher) noexcept {
   if (free == last) return nullptr;
   const std::uint16_t place = free->place;
   room.place[id] = place;
-  room.present |= bitOf(id);
+  room.present.add(PeerId{id});
   ++room.count;
   if (is_watcher) ++room.watchers;
   ++count_;
@@ -74,7 +72,7 @@ Member* Members::add(Room& room, std::uint16_t id, bool is_watcher) noexcept {
 
 void Members::remove(Member& member) noexcept {
   Room& room = roomOf(member);
-  room.present &= ~bitOf(member.id);
+  room.present.remove(PeerId{member.id});
   --room.count;
   if (member.is_watcher) --room.watchers;
   --count_;

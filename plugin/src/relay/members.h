@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "tandem/coordination/site_set.h"
+
 #include "coordination/src/wire/replay_window.h"
 #include "net/paths.h"
 #include "net/retry.h"
@@ -33,7 +35,7 @@ struct Room {
   std::uint16_t number = 0;
   RoomName name{};
   std::uint16_t count = 0, watchers = 0;
-  std::uint64_t present = 0;                            ///< bit id - 1 for each member
+  SiteSet present;
   std::array<std::uint16_t, kMostMembers + 1> place{};  ///< of a member, by its id
   std::uint64_t forwarded = 0, forwarded_bytes = 0, too_many = 0;
 };

@@ -147,7 +147,7 @@ bool Relay::deliver(Room& room, std::uint16_t to, ByteView datagram) noexcept {
 /// The answer goes to the address in use: another one may be a listener's.
 void Relay::answerKeep(Member& member, std::uint64_t number, std::uint16_t asked) noexcept {
   const Room& room = members_.roomOf(member);
-  Kept kept{asked, std::nullopt, room.present};
+  Kept kept{asked, std::nullopt, room.present.bits()};
   if (const Member* other = asked == 0 ? nullptr : members_.find(room, asked)) {
     // A link-local address means nothing elsewhere.
     const std::optional<Address>& address = other->paths.inUse();
