@@ -59,7 +59,7 @@ bool Membership::isAgreed() const noexcept {
 }
 
 /// The lowest of those who are together already; if nobody is, the oldest of all. Ages are told a
-/// delay ago. So of two that began in the same moment none may follow the other, but never both.
+/// delay ago. So of two that began in the same moment none may follow the other.
 std::optional<PeerId> Membership::findLeader(double now) const noexcept {
   std::optional<PeerId> oldest, of_group;
   double most = computeAge(now);

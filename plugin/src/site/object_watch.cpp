@@ -150,9 +150,8 @@ bool ObjectWatch::findReturned() {
 bool ObjectWatch::hold(SharedObject& object) {
   const std::optional<Shape> shape = findShareableShape(*object.rigid);
   if (!shape) return false;
-  object.hold(world_, *shape);
   object.body.step = {};
-  object.body.step.mass_share = object.mass_share;
+  object.hold(world_, *shape);
   object.body.load = {};
   object.body.load.makeRoom();
   object.body.step.f_gravity_W = object.bullet->gravityForce();
