@@ -1,7 +1,6 @@
 // `tandem peer --carrier dds` as processes on loopback. Only properties that hold on any machine
 // are asserted; DdsFeel compares the carriers in virtual time.
 
-#include <future>
 #include <string>
 #include <vector>
 
@@ -35,13 +34,9 @@ struct Bus {
     return line;
   }
   [[nodiscard]] std::vector<Outcome> runAll(int count) const {
-    std::vector<std::future<Outcome>> running;
-    for (int number = 1; number <= count; ++number)
-      running.push_back(std::async(
-          std::launch::async, [line = site(number, {"--out", out})] { return runTandem(line); }));
-    std::vector<Outcome> outcomes;
-    for (auto& one : running) outcomes.push_back(one.get());
-    return outcomes;
+    std::vector<Words> lines;
+    for (int number = 1; number <= count; ++number) lines.push_back(site(number, {"--out", out}));
+    return test::runAtOnce(lines);
   }
   [[nodiscard]] nlohmann::json summaryOf(int number) const {
     return nlohmann::json::parse(test::readFile(out + "/site" + std::to_string(number) + ".json"));

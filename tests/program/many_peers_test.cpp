@@ -19,6 +19,7 @@ namespace {
 
 using test::expectLine;
 using test::Outcome;
+using test::runAtOnce;
 using test::runTandem;
 using test::TempFolder;
 using Words = std::vector<std::string>;
@@ -56,14 +57,6 @@ struct Rig {
     line.insert(line.end(), more.begin(), more.end());
     return line;
   }
-  static std::vector<Outcome> runAll(const std::vector<Words>& lines) {
-    std::vector<std::future<Outcome>> running;
-    for (const Words& line : lines)
-      running.push_back(std::async(std::launch::async, [&line] { return runTandem(line); }));
-    std::vector<Outcome> outcomes;
-    for (auto& one : running) outcomes.push_back(one.get());
-    return outcomes;
-  }
 
   TempFolder folder;
   int port;
@@ -72,7 +65,7 @@ struct Rig {
 TEST(ManyPeers, ThreeProcessesCooperate) {
   const Rig rig(17510);
   const std::string out = rig.folder / "out";
-  const auto outcomes = Rig::runAll(
+  const auto outcomes = runAtOnce(
       {rig.site(1, {"--out", out}), rig.site(2, {"--out", out}), rig.site(3, {"--out", out})});
   for (const Outcome& outcome : outcomes) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -132,14 +125,14 @@ TEST(ManyPeers, ASiteWithAnotherNumberOfUsersIsNamed) {
   const Words four = {"--set", "site=[{hand_force=[5,0,0]},{},{},{}]", "--peer",
                       "4=" + rig.addressOf(4)};
   const auto outcomes =
-      Rig::runAll({rig.site(1, four), rig.site(2, {"--wait", "8"}), rig.site(3, {"--wait", "8"})});
+      runAtOnce({rig.site(1, four), rig.site(2, {"--wait", "8"}), rig.site(3, {"--wait", "8"})});
   expectLine(outcomes[0], 2, "site.count is 4 here and 3 there");
   for (std::size_t other : {1, 2}) EXPECT_NE(outcomes[other].status, 0);
 }
 
 TEST(ManyPeers, OneThatIsMissingIsNamed) {
   const Rig rig(17530);
-  const auto outcomes = Rig::runAll({rig.site(1, {"--wait", "3"}), rig.site(2, {"--wait", "3"})});
+  const auto outcomes = runAtOnce({rig.site(1, {"--wait", "3"}), rig.site(2, {"--wait", "3"})});
   EXPECT_TRUE(outcomes[0].status == 1 && outcomes[1].status == 1);
   expectLine(outcomes[0], 1, "site ");
 }

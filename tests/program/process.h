@@ -31,6 +31,9 @@ struct Start {
 /// The program on float64 Bullet.
 [[nodiscard]] Outcome runTandem(const std::vector<std::string>& arguments, const Start& start = {});
 
+/// Runs them at the same time; outcomes in the order of the lines.
+[[nodiscard]] std::vector<Outcome> runAtOnce(const std::vector<std::vector<std::string>>& lines);
+
 /// Expects this status and these words on stderr.
 void expectLine(const Outcome& outcome, int status, const std::string& words);
 
