@@ -277,6 +277,19 @@ INSTANTIATE_TEST_SUITE_P(BothProfiles, WireStateProfiles,
                            return tested.param == WireProfile::kFloat32 ? "Float32" : "Float64";
                          });
 
+// Of two sites the younger must never take the other for older than it is.
+TEST(WireState, AgesOfSitesAreRoundedDown) {
+  StateMessage message;
+  message.flags = kStateRoll;
+  for (const double age : {0.0, 0.0009, 0.0015, 1.9999, 0.057, 1.001}) {
+    message.packet.roll.emplace().age = age;
+    const auto got = decode(encode(message));
+    ASSERT_TRUE(got && got->packet.roll);
+    EXPECT_LE(got->packet.roll->age, age);
+    EXPECT_GT(got->packet.roll->age, age - 1e-3);
+  }
+}
+
 TEST(WireState, SenderKeepsToTheGate) {
   const std::vector<std::function<void(StateMessage&)>> faults = {
       [](StateMessage& m) { m.send_time_us = -1; },

@@ -19,9 +19,12 @@ namespace {
 constexpr std::uint16_t kNoObject = 0xffff;
 
 /// An age in whole parts of a second; the most that fits stands for more.
-std::uint32_t toAge(double seconds, double parts) noexcept {
-  return static_cast<std::uint32_t>(std::min(std::round(seconds * parts), 4294967295.0));
+std::uint32_t toAge(double parts) noexcept {
+  return static_cast<std::uint32_t>(std::min(parts, 4294967295.0));
 }
+
+/// Whole parts that have passed. An age that came in whole parts keeps them.
+double roundDown(double parts) noexcept { return std::floor(parts + 1e-6); }
 
 /// Writes numbers in a profile's width. Values that passed the gate round to finite floats.
 template <class Real>
@@ -37,7 +40,7 @@ class RecordWriter {
   void write(const GripState& grip) noexcept {
     writer_.write(grip.epoch);
     writer_.write(static_cast<std::uint16_t>(grip.object.value_or(kNoObject)));
-    writer_.write(toAge(grip.age, 1e6));
+    writer_.write(toAge(std::round(grip.age * 1e6)));
     write(grip.p_BG);
     write(grip.q_BG.w());
     write(Vec3(grip.q_BG.vec()));
@@ -123,7 +126,7 @@ void writeRecords(const StatePacket& packet, wire::ByteWriter& writer) noexcept 
   if (packet.roll) {
     writer.write(packet.roll->heard.bits());
     writer.write(packet.roll->members.bits());
-    writer.write(toAge(packet.roll->age, 1e3));
+    writer.write(toAge(roundDown(packet.roll->age * 1e3)));
   }
   for (std::size_t i = 0; i < packet.object_count; ++i) records.write(packet.objects[i]);
 }

@@ -29,7 +29,8 @@ inline constexpr std::uint16_t kStateFlags =
 inline constexpr std::uint8_t kGripMinor = 1, kRollMinor = 2;
 
 /// Contents of one STATE. `packet.time` and `packet.grip->age` travel in whole microseconds, an age
-/// of more than 4294.967295 s as that. `packet.roll->age` travels in milliseconds, up to 49 days.
+/// of more than 4294.967295 s as that. `packet.roll->age` travels in whole milliseconds, rounded
+/// down, up to 49 days.
 struct StateMessage {
   StatePacket packet;
   std::int64_t send_time_us = 0;       ///< sender's monotonic clock when the datagram leaves

@@ -14,6 +14,8 @@ class SiteSet {
   SiteSet() = default;
   /// `bits`: bit i stands for the site with id i + 1.
   explicit SiteSet(std::uint64_t bits) noexcept : bits_(bits) {}
+  /// All that there may be.
+  [[nodiscard]] static SiteSet all() noexcept { return SiteSet(~std::uint64_t{0}); }
 
   /// Ids outside of 1 to kMaxPeerId are in no set.
   void add(PeerId site) noexcept { bits_ |= bitOf(site); }
@@ -24,6 +26,10 @@ class SiteSet {
   }
   [[nodiscard]] std::uint64_t bits() const noexcept { return bits_; }
 
+  /// The sites of both.
+  [[nodiscard]] friend SiteSet operator&(SiteSet a, SiteSet b) noexcept {
+    return SiteSet(a.bits_ & b.bits_);
+  }
   [[nodiscard]] friend bool operator==(SiteSet a, SiteSet b) noexcept { return a.bits_ == b.bits_; }
   [[nodiscard]] friend bool operator!=(SiteSet a, SiteSet b) noexcept { return !(a == b); }
 
@@ -40,7 +46,7 @@ class SiteSet {
 struct RollCall {
   SiteSet heard;     ///< sites that the sender hears, and itself
   SiteSet members;   ///< sites among which the sender shares its objects, and itself
-  double age = 0.0;  ///< of the sender's site, >= 0 [s]
+  double age = 0.0;  ///< of the sender's site, >= 0, not more than it is [s]
 };
 
 }  // namespace tandem
