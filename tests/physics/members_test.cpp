@@ -108,6 +108,72 @@ TEST(Members, FollowNoTeleportOfBeforeTheJoin) {
   for (int i = 0; i < 3; ++i) EXPECT_LT((hosts.positionAt(i) - Vec3(0, 0, 0.1)).norm(), 1e-6) << i;
 }
 
+// Whatever the moment: who was there stays where it is, and the newcomer's copy comes there.
+TEST(Members, FollowAnotherIfTheLeaderLeavesDuringTheJoin) {
+  for (int steps = 1; steps <= 10; ++steps)
+    for (const bool says_farewell : {true, false}) {
+      SCOPED_TRACE(testing::Message() << steps << " steps, farewell " << says_farewell);
+      MemberHosts hosts(3);
+      const Vec3 place_W(0.0, 0.0, 0.1);
+      hosts.come(0, place_W);
+      hosts.come(1, place_W);
+      hosts.run(1.0);
+      hosts.come(2, Vec3(0.0, 0.4, 0.0));
+      hosts.run(steps / MemberHosts::kRate);
+      says_farewell ? hosts.leave(0) : hosts.vanish(0);
+      double farthest = 0.0;
+      hosts.run(4.0,
+                [&] { farthest = std::max(farthest, (hosts.positionAt(1) - place_W).norm()); });
+      expectShares(hosts);
+      EXPECT_LT(farthest, 1e-9);
+      EXPECT_LT(hosts.computeSpread(), 1e-9);
+    }
+}
+
+// A program that dies and begins anew at once may be what a newcomer has just begun to follow.
+TEST(Members, MeetThoughOneBeginsAnewDuringTheJoin) {
+  for (int steps = 1; steps <= 10; ++steps) {
+    SCOPED_TRACE(steps);
+    MemberHosts hosts(2);
+    hosts.come(1, Vec3(0.0, 0.0, 0.1));
+    hosts.run(1.0);
+    hosts.come(0, Vec3(0.0, 0.4, 0.0));
+    hosts.run(steps / MemberHosts::kRate);
+    hosts.vanish(1);
+    hosts.come(1, Vec3(0.3, 0.0, 0.0));
+    hosts.run(4.0);
+    expectShares(hosts);
+    EXPECT_LT(hosts.computeSpread(), 1e-3);
+    for (int i = 0; i < 2; ++i)
+      EXPECT_EQ(hosts.scenes[i]->site->linkState(0), LinkState::kLive) << i;
+  }
+}
+
+// Copies of a newcomer are led, and a wall is in the way. It takes part all the same.
+TEST(Members, JoinThoughSomethingIsInTheWay) {
+  MemberHosts hosts(2);
+  hosts.settings.puts_reset_objects = false;
+  hosts.come(0);
+  hosts.run(0.5);
+  hosts.come(1, Vec3(0.4, 0.0, 0.0)).addWall(0.1);
+  hosts.run(6.0);
+  expectShares(hosts);
+  EXPECT_EQ(hosts.scenes[0]->site->linkState(0), LinkState::kLive);
+  EXPECT_GT(hosts.positionAt(0).x(), 0.1);  // the newcomer's copy pulls
+}
+
+TEST(Members, NeedIdsThatRollsCanName) {
+  MemberHosts hosts(2);
+  NeighbourScene& scene = hosts.come(0);
+  EXPECT_THROW(scene.site->connect(PeerId{65}, *hosts.links[0][1], Vec3::Zero()),
+               std::invalid_argument);
+  SiteSettings settings = hosts.settings;
+  settings.self = PeerId{65};
+  EXPECT_THROW(checkSiteSettings(settings), std::invalid_argument);
+  settings.membership.follows = false;
+  EXPECT_NO_THROW(checkSiteSettings(settings));
+}
+
 // Two hands squeeze a cube while a third user comes and goes.
 TEST(Members, HandsFeelNoStep) {
   MemberHosts hosts(3);

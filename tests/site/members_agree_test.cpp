@@ -16,7 +16,8 @@ PeerId idOf(std::size_t site) { return PeerId{static_cast<std::uint32_t>(site) +
 /// Sites that tell each other whom they hear, over ways that lose packets.
 class Meeting {
  public:
-  explicit Meeting(std::size_t sites, double loss = 0.0) : loss_(loss), is_there_(sites, false) {
+  explicit Meeting(std::size_t sites, double loss = 0.0, double leave_after = 1.0)
+      : settings_{true, leave_after}, loss_(loss), is_there_(sites, false) {
     for (std::size_t i = 0; i < sites; ++i) all_.emplace_back(idOf(i), settings_);
   }
 
@@ -41,6 +42,8 @@ class Meeting {
         for (std::size_t to = 0; to < all_.size(); ++to) carry(from, to);
       for (std::size_t i = 0; i < all_.size(); ++i)
         if (is_there_[i]) changes_ += all_[i].agree(now_);
+      for (Membership& one : all_)
+        if (takes_over && one.leader() && one.isTied(*one.leader(), false)) one.endJoin();
     }
   }
 
@@ -48,16 +51,20 @@ class Meeting {
   [[nodiscard]] Membership& at(std::size_t site) { return all_[site]; }
   [[nodiscard]] int changes() const { return changes_; }
 
+  /// Who joins has the objects of its leader at once when that one counts it.
+  bool takes_over = false;
+
   /// Expects that those who are there, and nobody else, are tied in pairs.
   void expectAgreement() {
     int present = 0;
     for (const bool is_there : is_there_) present += is_there;
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (!is_there_[i]) continue;
-      all_[i].endJoin();
-      EXPECT_EQ(all_[i].count(), present) << i;
-    }
+    takes_over = true;
     run(0.2);
+    takes_over = false;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (is_there_[i]) {
+        EXPECT_EQ(all_[i].count(), present) << i;
+      }
     for (std::size_t i = 0; i < all_.size(); ++i)
       for (std::size_t k = 0; k < all_.size(); ++k)
         if (i != k && is_there_[i]) {
@@ -73,7 +80,7 @@ class Meeting {
     if (random_.uniform(0.0, 1.0) >= loss_) all_[to].hear(idOf(from), all_[from].tell(now_), now_);
   }
 
-  MembershipSettings settings_{true, 1.0};
+  MembershipSettings settings_;
   double loss_, now_ = 0.0;
   std::vector<Membership> all_;
   std::vector<bool> is_there_;
@@ -188,6 +195,78 @@ TEST(MembersAgree, OneThatRestartedJoinsAgain) {
   meeting.expectAgreement();
 }
 
+// The one that was to be followed begins anew, and is now the younger one.
+TEST(MembersAgree, NobodyFollowsWhoFollowsHim) {
+  Meeting meeting(2);
+  meeting.come(1);
+  meeting.run(0.1);
+  meeting.come(0);
+  meeting.run(0.1);
+  EXPECT_EQ(meeting.at(0).leader(), PeerId{2});
+  meeting.come(1);
+  meeting.run(0.1);
+  EXPECT_FALSE(meeting.at(0).leader());
+  EXPECT_EQ(meeting.at(1).leader(), PeerId{1});
+  meeting.expectAgreement();
+}
+
+TEST(MembersAgree, OneWhoseLeaderGoesFollowsAnother) {
+  for (const bool says_farewell : {true, false}) {
+    Meeting meeting(3, 0.0, 10.0);
+    meeting.come(0);
+    meeting.come(1);
+    meeting.run(0.1);
+    meeting.expectAgreement();
+    meeting.come(2);
+    meeting.run(0.1);
+    EXPECT_EQ(meeting.at(2).leader(), PeerId{1});
+    says_farewell ? meeting.leave(0) : meeting.vanish(0);
+    meeting.run(says_farewell ? 0.05 : 1.1);
+    EXPECT_EQ(meeting.at(2).leader(), PeerId{2}) << says_farewell;
+    EXPECT_EQ(meeting.at(2).tell(0.0)->members.count(), 1);
+    if (says_farewell) meeting.expectAgreement();
+  }
+}
+
+// Alone again before it had anything: it keeps what it has, and joins the next.
+TEST(MembersAgree, OneWhoIsLeftAloneWhileItJoinsJoinsTheNext) {
+  Meeting meeting(3);
+  meeting.come(0);
+  meeting.run(0.1);
+  meeting.come(1);
+  meeting.run(0.1);
+  EXPECT_EQ(meeting.at(1).leader(), PeerId{1});
+  meeting.leave(0);
+  meeting.run(0.05);
+  EXPECT_FALSE(meeting.at(1).leader());
+  EXPECT_EQ(meeting.at(1).count(), 1);
+  meeting.come(2);
+  meeting.run(0.1);
+  EXPECT_EQ(meeting.at(2).leader(), PeerId{2});
+  meeting.expectAgreement();
+}
+
+TEST(MembersAgree, LeaversCountNoMoreThoughANewcomerIsNotHeardByAll) {
+  Meeting meeting(4);
+  for (std::size_t i = 0; i < 3; ++i) meeting.come(i);
+  meeting.run(0.1);
+  meeting.expectAgreement();
+  meeting.come(3);
+  meeting.cut(2, 3);
+  meeting.run(0.5);
+  EXPECT_EQ(meeting.at(0).count(), 3);
+  EXPECT_EQ(meeting.at(3).count(), 1);
+  meeting.leave(1);
+  meeting.run(0.05);
+  EXPECT_EQ(meeting.at(0).count(), 2);
+  EXPECT_EQ(meeting.at(2).count(), 2);
+  EXPECT_EQ(meeting.at(3).count(), 1);
+  meeting.mend();
+  meeting.run(0.1);
+  EXPECT_EQ(meeting.at(3).leader(), PeerId{1});
+  meeting.expectAgreement();
+}
+
 TEST(MembersAgree, EverybodyAgreesAfterAnyComingAndGoing) {
   constexpr std::size_t kSites = 8;
   test::Random random(2020);
@@ -204,8 +283,12 @@ TEST(MembersAgree, EverybodyAgreesAfterAnyComingAndGoing) {
         meeting.vanish(site);
       }
       is_there[site] = !is_there[site];
+      meeting.takes_over = random.uniform(0.0, 1.0) < 0.5;
+      if (run % 2 == 1 && change % 5 == 0)
+        meeting.cut(site, static_cast<std::size_t>(random.uniform(0.0, kSites - 1e-9)));
       meeting.run(random.uniform(0.0, 0.3));
     }
+    meeting.mend();
     meeting.run(2.0);
     meeting.expectAgreement();
     if (HasFailure()) FAIL() << "run " << run;

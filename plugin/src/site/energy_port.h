@@ -16,6 +16,7 @@ class Timeline;
 ///   weight, host forces  f . dp + t . w dt of the bodies that the island moves
 ///   impulses             J . (v + v') / 2 of the host, and of contact with bodies of Bullet
 ///   neighbours           their kinetic energy when they enter (+) and leave (-) the island
+///   masses that change   as of a body that leaves, and one that enters
 ///   peers                what they grant to this site, and it to them (EnergyLedger)
 ///
 /// A kinematic body, or a body that the host repositions, does unknown work and refills the tank.

@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace tandem {
+namespace {
+
+/// Another leads once a leader has been silent for so long [s].
+constexpr double kMostSilence = 1.0;
+/// Who is older by less than this is of the same age [s].
+constexpr double kSameAge = 1e-6;
+
+}  // namespace
 
 Membership::Membership(PeerId self, const MembershipSettings& settings) noexcept
     : self_(self), settings_(settings) {
@@ -22,15 +30,19 @@ void Membership::forget(PeerId peer) noexcept {
 
 bool Membership::agree(double now) noexcept {
   if (!begun_at_) begun_at_ = now;
-  forEachHeard([&](PeerId peer) {
+  forEachHeard(heard_, [&](PeerId peer) {
     if (now - of(peer).heard_at > settings_.leave_after) heard_.remove(peer);
   });
-  if (heard_ == members_ || !isAgreed()) return false;
-  const bool was_alone = members_ == alone_;
-  members_ = heard_;
-  if (was_alone) leader_ = findLeader(now);
-  if (leader_ && !members_.has(*leader_)) leader_.reset();
-  return true;
+  const SiteSet before = members_;
+  members_ = findMembers();
+  if (members_ != before) joins_ = before == alone_ || (joins_ && members_ != alone_);
+  if (!joins_) {
+    leader_.reset();
+  } else if (!isLed(now)) {
+    leader_ = findLeader(now);
+    joins_ = leader_.has_value();
+  }
+  return members_ != before;
 }
 
 bool Membership::isTied(PeerId peer, bool was_tied) const noexcept {
@@ -51,19 +63,38 @@ const Membership::Other& Membership::of(PeerId peer) const noexcept {
   return others_[static_cast<std::uint32_t>(peer) - 1];
 }
 
-/// True if all that are heard hear the same.
-bool Membership::isAgreed() const noexcept {
+/// Those who are heard, if they agree; else those of the members who are. Who left counts no more,
+/// though a newcomer is not heard by all.
+SiteSet Membership::findMembers() const noexcept {
+  for (const SiteSet part : {SiteSet::all(), members_})
+    if (doAllHear(part)) return heard_ & part;
+  return members_;
+}
+
+/// True if all of `part` that are heard hear the same part of it.
+bool Membership::doAllHear(SiteSet part) const noexcept {
   bool is_same = true;
-  forEachHeard([&](PeerId peer) { is_same &= of(peer).roll.heard == heard_; });
+  forEachHeard(heard_ & part,
+               [&](PeerId peer) { is_same &= (of(peer).roll.heard & part) == (heard_ & part); });
   return is_same;
+}
+
+bool Membership::mayLead(PeerId peer, double now) const noexcept {
+  return members_.has(peer) && now - of(peer).heard_at <= kMostSilence;
+}
+
+/// True if it follows one of the others, who counts it.
+bool Membership::isLed(double now) const noexcept {
+  return leader_ && mayLead(*leader_, now) && of(*leader_).roll.members.has(self_);
 }
 
 /// The lowest of those who are together already; if nobody is, the oldest of all. Ages are told a
 /// delay ago. So of two that began in the same moment none may follow the other.
 std::optional<PeerId> Membership::findLeader(double now) const noexcept {
   std::optional<PeerId> oldest, of_group;
-  double most = computeAge(now);
-  forEachHeard([&](PeerId peer) {
+  double most = computeAge(now) + kSameAge;
+  forEachHeard(members_, [&](PeerId peer) {
+    if (!mayLead(peer, now)) return;
     const Other& other = of(peer);
     if (!of_group && other.roll.members.count() > 1) of_group = peer;
     const double age = other.roll.age + (now - other.heard_at);
@@ -74,11 +105,11 @@ std::optional<PeerId> Membership::findLeader(double now) const noexcept {
   return of_group ? of_group : oldest;
 }
 
-/// In rising order.
+/// Visits the others of `part` in rising order.
 template <typename Visit>
-void Membership::forEachHeard(Visit visit) const noexcept {
+void Membership::forEachHeard(SiteSet part, Visit visit) const noexcept {
   for (std::uint32_t id = 1; id <= kMaxPeerId; ++id)
-    if (const PeerId peer{id}; peer != self_ && heard_.has(peer)) visit(peer);
+    if (const PeerId peer{id}; peer != self_ && part.has(peer)) visit(peer);
 }
 
 }  // namespace tandem

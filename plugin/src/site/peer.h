@@ -42,8 +42,8 @@ struct Peer {
   Proxy proxy;
   std::vector<Tie> ties;            ///< by object
   std::uint64_t packets_heard = 0;  ///< in any order
-  std::uint64_t counted_at = 0;     ///< `packets_heard` when `is_counted` changed
-  std::size_t next_checked = 0;     ///< tie that is asked next whether its object is still sent
+  std::uint64_t counted_at = 0;  ///< `packets_heard` when `is_counted` changed, or it began to lead
+  std::size_t next_checked = 0;  ///< tie that is asked next whether its object is still sent
 
   // Its link, and the effects of silence.
   bool is_counted = true;  ///< it and this site count each other: Membership

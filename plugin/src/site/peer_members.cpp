@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "site/energy_port.h"
 #include "site/peers.h"
 
 // Sites that come and go: Membership agrees on them; this file gives each its share.
@@ -14,7 +15,9 @@ void Peers::followMembers(double now) noexcept {
   if (!membership_.follows()) return;
   for (const Peer& peer : peers_)
     if (peer.link->hasLeft()) membership_.forget(peer.id);
+  const std::optional<PeerId> before = membership_.leader();
   if (membership_.agree(now)) beginSharing(now);
+  if (membership_.leader() != before) beginJoin();
   if (!ramp_.isOver()) moveShares(now);
   for (Peer& peer : peers_)
     if (peer.is_counted != membership_.isTied(peer.id, peer.is_counted)) count(peer);
@@ -25,9 +28,14 @@ void Peers::followMembers(double now) noexcept {
 void Peers::beginSharing(double now) noexcept {
   ++log_.counters.members_changed;
   ramp_.start(shares_, computeShares(settings_.coordination_mode, countSites()), now);
-  for (SharedObject& object : bodies_.objects)
-    object.joins = membership_.leader().has_value() && !object.tool_of;
   island_.wake();
+}
+
+/// All objects are taken over from another leader, or from none.
+void Peers::beginJoin() noexcept {
+  const std::optional<PeerId>& leader = membership_.leader();
+  for (SharedObject& object : bodies_.objects) object.joins = leader && !object.tool_of;
+  if (Peer* peer = leader ? find(*leader) : nullptr) peer->counted_at = peer->packets_heard;
 }
 
 void Peers::moveShares(double now) noexcept {
@@ -42,8 +50,11 @@ void Peers::moveShares(double now) noexcept {
 void Peers::applyStandIn(const Peer& peer) noexcept {
   if (!peer.user.body || !peer.user.coupler) return;
   const ProxySettings& proxy = stand_in_.proxy;
-  const Vec3& inertia_B = island_.body(*peer.user.body).inertia_B;
-  island_.setMass(*peer.user.body, proxy.mass, inertia_B, proxy.damping);
+  const IslandBody& body = island_.body(*peer.user.body);
+  const RigidState& state = island_.state(*peer.user.body);
+  energy_.countNeighbour(body, state, -1.0);
+  island_.setMass(*peer.user.body, proxy.mass, body.inertia_B, proxy.damping);
+  energy_.countNeighbour(body, state, 1.0);
 }
 
 /// Begins or ends to count a peer. Its next packet then begins as after a silence.
@@ -73,8 +84,10 @@ bool Peers::mayYetTell(const Peer& leader) const noexcept {
   return leader.packets_heard - leader.counted_at < findPatience(leader);
 }
 
+/// True if the leader has told the object since it counts us. Before, it was perhaps elsewhere.
 bool Peers::mustJoin(const SharedObject& object, const Peer& leader) const noexcept {
-  return object.joins && leader.ties[object.id].sequence.has_value();
+  const Tie& tie = leader.ties[object.id];
+  return object.joins && tie.sequence && tie.heard_at >= leader.counted_at;
 }
 
 /// Takes over the leader's copy, whatever the epoch of ours.

@@ -124,6 +124,7 @@ class Peers {
 
   // peer_members.cpp
   void beginSharing(double now) noexcept;
+  void beginJoin() noexcept;
   void moveShares(double now) noexcept;
   void applyStandIn(const Peer& peer) noexcept;
   void count(Peer& peer) noexcept;

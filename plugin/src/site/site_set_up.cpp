@@ -5,6 +5,7 @@
 #include "tandem/bullet_bridge/shapes.h"
 
 #include "bullet_bridge/src/world/world_access.h"
+#include "coordination/src/bad_value.h"
 #include "site/site_impl.h"
 
 namespace tandem {
@@ -134,6 +135,9 @@ void Site::Impl::connect(PeerId id, Link& link, const Vec3& start_W) {
   checkOpenToSetUp();
   if (id == settings.self)
     throw std::invalid_argument("a site cannot be its own remote; give each peer its own id");
+  if (settings.membership.follows && !SiteSet::all().has(id))
+    throwBadValue("id of a remote, with membership.follows", static_cast<std::uint32_t>(id),
+                  "1 to 64");
   Peer peer = peers.make(id, link, start_W);
   if (peer.user.body) host_step->addProxy(peer, start_W);
   host_step->leaveNeighbours();

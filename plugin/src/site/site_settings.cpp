@@ -32,6 +32,8 @@ void checkMembership(const SiteSettings& s) {
     throw std::invalid_argument(
         "membership.follows = 1: needs contact_model = island, injection = handoff and "
         "link_loss.enabled = 1; or set it to 0, and `peers` to the number of sites");
+  require(SiteSet::all().has(s.self), "self, with membership.follows", static_cast<double>(s.self),
+          "1 to 64");
 }
 
 }  // namespace

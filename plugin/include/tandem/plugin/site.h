@@ -261,6 +261,7 @@ class Site {
   [[nodiscard]] bool isHeld(ObjectId id) const noexcept;
   [[nodiscard]] int remoteCount() const noexcept;
   /// N at the latest tick: sites that share the objects, this one too. SiteSettings::membership.
+  /// For the thread that ticks, or in betweenTicks().
   [[nodiscard]] int memberCount() const noexcept;
   /// Null if the scheme has no body for a remote user.
   [[nodiscard]] const RigidState* proxy(int remote) const noexcept;
