@@ -218,12 +218,25 @@ TEST(Drag, OfCommonMotionIsThatOfTheDelay) {
   EXPECT_NEAR(computeDrag(makeSecond(StandInKind::kHeld)), 208.4, 0.05);
 }
 
+TEST(Growth, TakesARateWithoutAPeriodAsTheNextOne) {
+  LoopSettings settings;
+  for (const double rate : {128.0, 60.0, 128.123456, 127.3219, 99.0 * std::sqrt(2.0), 1000.0}) {
+    settings.packet_rate = rate;
+    EXPECT_NEAR(findAnalysedPacketRate(settings), rate, 1e-4 * rate);
+  }
+  // Neighbours in between have nearly the same growth.
+  settings.packet_rate = 128.0;
+  const double at_128 = rateOf(settings, MotionMode::kDifference);
+  settings.packet_rate = 128.003;
+  EXPECT_NEAR(rateOf(settings, MotionMode::kDifference), at_128, 0.5);
+}
+
 TEST(Growth, RefusesWhatItCannotAnalyse) {
   LoopSettings settings;
   settings.delay = 0.6;
   EXPECT_THROW((void)rateOf(settings, MotionMode::kCommon), std::invalid_argument);
   settings = {};
-  settings.packet_rate = 128.123456;
+  settings.packet_rate = 0.3;
   EXPECT_THROW((void)rateOf(settings, MotionMode::kCommon), std::invalid_argument);
   settings = {};
   settings.users = 1;

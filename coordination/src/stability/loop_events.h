@@ -27,7 +27,11 @@ struct Cycle {
 /// Moments closer than this are one [s].
 inline constexpr double kOneMoment = 1e-10;
 
-/// Throws std::invalid_argument if the two rates have no common period of at most 2000 ticks.
+/// The rate of packets that is analysed: with the haptic rate it has a period of at most 2000
+/// ticks. Throws std::invalid_argument if none is within 0.1 % [Hz].
+[[nodiscard]] double roundPacketRate(const LoopSettings& settings);
+
+/// Throws as roundPacketRate() does.
 [[nodiscard]] Cycle makeCycle(const LoopModel& model);
 
 }  // namespace tandem::stability

@@ -1,5 +1,7 @@
 #include "stability/loop_model.h"
 
+#include <algorithm>
+
 #include "schemes/coordination_shares.h"
 
 // One axis, all contacts closed. With n = N - 1 others, R what a site hears, s the share of a
@@ -31,6 +33,28 @@ struct Row {
   }
 };
 
+double findDelay(const LoopSettings& s, std::size_t from, std::size_t to) {
+  const bool is_own = !s.areUsersAlike() && !s.each[from].delays.empty();
+  return is_own ? s.delay * s.each[from].delays[to] : s.delay;
+}
+
+/// Packets of a site that take equally long are one channel.
+std::size_t addChannel(LoopModel& model, const Channel& wanted) {
+  std::vector<Channel>& all = model.channels;
+  const auto known = std::find_if(all.begin(), all.end(), [&](const Channel& channel) {
+    return channel.source == wanted.source && channel.delay == wanted.delay;
+  });
+  if (known != all.end()) return static_cast<std::size_t>(known - all.begin());
+  all.push_back(wanted);
+  return all.size() - 1;
+}
+
+CouplerGains findContact(const LoopSettings& s, int site) {
+  if (s.areUsersAlike()) return s.contact;
+  const LoopUser& user = s.each[static_cast<std::size_t>(site)];
+  return {user.contact_stiffness * s.contact.stiffness, user.contact_damping * s.contact.damping};
+}
+
 double findStandInShare(const LoopSettings& s) {
   return s.stand_in_share.value_or(computeShares(s.mode, s.users).stand_in);
 }
@@ -38,6 +62,11 @@ double findStandInShare(const LoopSettings& s) {
 }  // namespace
 
 LoopModel makeModeModel(const LoopSettings& settings, MotionMode mode) {
+  if (!settings.areUsersAlike()) {
+    LoopModel model = makeFullModel(settings);
+    if (mode == MotionMode::kDeaf) model.weights.setZero();
+    return model;
+  }
   LoopModel model{settings, 1, {{0, settings.delay, 0.0}}, Eigen::MatrixXd::Zero(1, 1)};
   if (mode == MotionMode::kCommon) model.weights(0, 0) = settings.users - 1.0;
   if (mode == MotionMode::kDifference) model.weights(0, 0) = -1.0;
@@ -45,13 +74,22 @@ LoopModel makeModeModel(const LoopSettings& settings, MotionMode mode) {
 }
 
 LoopModel makeFullModel(const LoopSettings& settings, const std::vector<double>& phases) {
+  const auto users = static_cast<std::size_t>(settings.users);
   LoopModel model;
   model.settings = settings;
   model.sites = settings.users;
-  for (int i = 0; i < settings.users; ++i)
-    model.channels.push_back({i, settings.delay, phases[static_cast<std::size_t>(i)]});
-  model.weights = Eigen::MatrixXd::Ones(settings.users, settings.users) -
-                  Eigen::MatrixXd::Identity(settings.users, settings.users);
+  std::vector<std::vector<std::size_t>> heard(users);  // channels, by who hears
+  for (std::size_t from = 0; from < users; ++from)
+    for (std::size_t to = 0; to < users; ++to) {
+      if (from == to) continue;
+      const double phase = phases.empty() ? 0.0 : phases[from];
+      heard[to].push_back(
+          addChannel(model, {static_cast<int>(from), findDelay(settings, from, to), phase}));
+    }
+  model.weights = Eigen::MatrixXd::Zero(settings.users, static_cast<int>(model.channels.size()));
+  for (std::size_t to = 0; to < users; ++to)
+    for (const std::size_t channel : heard[to])
+      model.weights(static_cast<int>(to), static_cast<int>(channel)) = 1.0;
   return model;
 }
 
@@ -92,10 +130,12 @@ void LoopSystem::placeAll(const LoopModel& model) {
 void LoopSystem::addDevice(const LoopModel& model, int i) {
   const LoopSettings& s = model.settings;
   const SitePlaces& at = site(i);
-  const double mass = s.device_mass + s.hand.mass;
+  const LoopUser user = s.areUsersAlike() ? LoopUser() : s.each[static_cast<std::size_t>(i)];
+  const double mass = user.device_mass * s.device_mass + s.hand.mass;
+  const double damping = user.device_damping * s.device_damping + s.hand.damping;
   rates_(at.device, at.device + 1) = 1.0;
   rates_(at.device + 1, at.device) = -s.hand.stiffness / mass;
-  rates_(at.device + 1, at.device + 1) = -(s.device_damping + s.hand.damping) / mass;
+  rates_(at.device + 1, at.device + 1) = -damping / mass;
   rates_(at.device + 1, at.force) = 1.0 / mass;
   rates_(at.device + 1, push()) = 1.0 / mass;
   rates_(at.hip, at.hip + 1) = 1.0;
@@ -104,6 +144,7 @@ void LoopSystem::addDevice(const LoopModel& model, int i) {
 void LoopSystem::addProxy(const LoopModel& model, int i) {
   const LoopSettings& s = model.settings;
   const SitePlaces& at = site(i);
+  const CouplerGains contact = findContact(s, i);
   const double others = s.users - 1.0;
   Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(size());
   Row row{force};
@@ -112,7 +153,7 @@ void LoopSystem::addProxy(const LoopModel& model, int i) {
     row.add(channels_[c].device, share * s.coordination.stiffness, share * s.coordination.damping);
   }
   row.add(at.proxy, -s.coordination.stiffness, -s.coordination.damping - s.proxy_damping);
-  row.pull(s.has_object ? at.object : at.hip, at.proxy, s.contact);
+  row.pull(s.has_object ? at.object : at.hip, at.proxy, contact);
   rates_(at.proxy, at.proxy + 1) = 1.0;
   rates_.row(at.proxy + 1) = force / s.proxy_mass;
 }
@@ -120,11 +161,12 @@ void LoopSystem::addProxy(const LoopModel& model, int i) {
 void LoopSystem::addObject(const LoopModel& model, int i) {
   const LoopSettings& s = model.settings;
   const SitePlaces& at = site(i);
+  const CouplerGains contact = findContact(s, i);
   const double others = s.users - 1.0, stand_in = findStandInShare(s);
   const double share = computeShares(s.mode, s.users).object;
   Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(size());
   Row row{force};
-  row.pull(at.hip, at.object, s.contact);
+  row.pull(at.hip, at.object, contact);
   row.add(at.object, -share * others * s.coordination.stiffness,
           -share * others * s.coordination.damping - s.object_damping);
   for (std::size_t c = 0; c < channels_.size(); ++c) {
@@ -132,13 +174,13 @@ void LoopSystem::addObject(const LoopModel& model, int i) {
     row.add(channels_[c].object, share * heard * s.coordination.stiffness,
             share * heard * s.coordination.damping);
     if (s.stand_in == StandInKind::kHeld)
-      row.add(channels_[c].device, stand_in * heard * s.contact.stiffness,
-              stand_in * heard * s.contact.damping);
+      row.add(channels_[c].device, stand_in * heard * contact.stiffness,
+              stand_in * heard * contact.damping);
   }
   if (s.stand_in == StandInKind::kHeld)
-    row.add(at.object, -stand_in * others * s.contact.stiffness,
-            -stand_in * others * s.contact.damping);
-  if (at.proxy >= 0) row.pull(at.proxy, at.object, s.contact, stand_in * others);
+    row.add(at.object, -stand_in * others * contact.stiffness,
+            -stand_in * others * contact.damping);
+  if (at.proxy >= 0) row.pull(at.proxy, at.object, contact, stand_in * others);
   rates_(at.object, at.object + 1) = 1.0;
   rates_.row(at.object + 1) = force / (s.object_mass / s.users);
 }
@@ -146,15 +188,16 @@ void LoopSystem::addObject(const LoopModel& model, int i) {
 void LoopSystem::addForce(const LoopModel& model, int i) {
   const LoopSettings& s = model.settings;
   const SitePlaces& at = site(i);
+  const CouplerGains contact = findContact(s, i);
   const double others = s.users - 1.0, stand_in = findStandInShare(s);
   Eigen::RowVectorXd& force = forces_.emplace_back(Eigen::RowVectorXd::Zero(size()));
   Row row{force};
-  if (s.has_object) return row.pull(at.object, at.hip, s.contact);
-  if (at.proxy >= 0) return row.pull(at.proxy, at.hip, s.contact, stand_in * others);
-  row.add(at.hip, -stand_in * others * s.contact.stiffness, -stand_in * others * s.contact.damping);
+  if (s.has_object) return row.pull(at.object, at.hip, contact);
+  if (at.proxy >= 0) return row.pull(at.proxy, at.hip, contact, stand_in * others);
+  row.add(at.hip, -stand_in * others * contact.stiffness, -stand_in * others * contact.damping);
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     const double heard = stand_in * model.weights(i, static_cast<Eigen::Index>(c));
-    row.add(channels_[c].device, heard * s.contact.stiffness, heard * s.contact.damping);
+    row.add(channels_[c].device, heard * contact.stiffness, heard * contact.damping);
   }
 }
 

@@ -23,12 +23,12 @@ struct LoopModel {
   Eigen::MatrixXd weights;  ///< site by channel: how much of it the site hears
 };
 
-/// One site for a mode of equal users: it hears its own past N - 1 times, with a sign, or not.
+/// Of equal users one site: it hears its own past N - 1 times, with a sign, or not. Of others all.
 [[nodiscard]] LoopModel makeModeModel(const LoopSettings& settings, MotionMode mode);
 
-/// All users by themselves, whose packets are sent `phases` of a period apart.
+/// All users by themselves, whose packets are sent `phases` of a period apart; empty: in phase.
 [[nodiscard]] LoopModel makeFullModel(const LoopSettings& settings,
-                                      const std::vector<double>& phases);
+                                      const std::vector<double>& phases = {});
 
 /// Places of the values in a state: position, then velocity behind it. -1: there is none.
 struct SitePlaces {

@@ -1,5 +1,6 @@
 #include "stability/monodromy.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -179,6 +180,11 @@ std::vector<std::complex<double>> Monodromy::watchDevice(Eigen::VectorXcd state,
   const int place = system_.site(site).device + 1;
   walk.run([&](const Eigen::MatrixXcd& values) { velocities.push_back(values(place, 0)); });
   return velocities;
+}
+
+int Monodromy::deviceVelocity(int site) const noexcept {
+  const auto at = std::find(kept_.begin(), kept_.end(), system_.site(site).device + 1);
+  return static_cast<int>(at - kept_.begin());
 }
 
 Eigen::VectorXd Monodromy::makeShift() const {

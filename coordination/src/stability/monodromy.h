@@ -32,6 +32,9 @@ class Monodromy {
   [[nodiscard]] std::vector<std::complex<double>> watchDevice(Eigen::VectorXcd state,
                                                               int site) const;
 
+  /// Place of the velocity of a site's device in a state.
+  [[nodiscard]] int deviceVelocity(int site) const noexcept;
+
   /// 1 for each position of a state, 0 for each velocity: everything moved along the axis.
   [[nodiscard]] Eigen::VectorXd makeShift() const;
 

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "bad_value.h"
+#include "stability/dominant.h"
 #include "stability/monodromy.h"
 
 namespace tandem {
@@ -23,6 +24,25 @@ void checkPositive(const char* name, double value) {
 
 void checkNotNegative(const char* name, double value) {
   check(name, value, value >= 0.0, "a finite number, 0 or more");
+}
+
+void checkUsers(const LoopSettings& s) {
+  if (s.areUsersAlike()) return;
+  check("users", s.users, s.users <= kMostUnlikeUsers,
+        "at most 4 if they differ; more take too long");
+  check("size of each", static_cast<double>(s.each.size()),
+        s.each.size() == static_cast<std::size_t>(s.users), "one for each of `users`, or 0");
+  for (const LoopUser& user : s.each) {
+    checkPositive("each.device_mass", user.device_mass);
+    checkNotNegative("each.device_damping", user.device_damping);
+    checkNotNegative("each.contact_stiffness", user.contact_stiffness);
+    checkNotNegative("each.contact_damping", user.contact_damping);
+    check("size of each.delays", static_cast<double>(user.delays.size()),
+          user.delays.empty() || user.delays.size() == s.each.size(),
+          "one for each of `users`, or 0");
+    for (const double delay : user.delays)
+      check("each.delays", delay, delay >= 0.0 && delay <= 1.0, "parts of `delay`, 0 to 1");
+  }
 }
 
 void checkSettings(const LoopSettings& s) {
@@ -45,6 +65,7 @@ void checkSettings(const LoopSettings& s) {
         "above 0, at most the haptic rate");
   check("delay", s.delay, s.delay >= 0.0 && s.delay <= kLongestDelay,
         "0 to 0.5 s; packets on their way are states, and more of them take too long");
+  checkUsers(s);
   if (!s.has_object && s.stand_in == StandInKind::kNone)
     throw std::invalid_argument(
         "has_object = 0: users who are felt through shared objects only need one");
@@ -69,14 +90,17 @@ Eigen::MatrixXd deflate(const Eigen::MatrixXd& matrix, Eigen::VectorXd shift) {
   return reflected.bottomRightCorner(n, n);
 }
 
-/// Multipliers of a cycle that `matrix` leads through.
-Eigen::VectorXcd findMultipliers(const stability::Monodromy& loop, const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(deflate(matrix, loop.makeShift()), false);
-  return solver.eigenvalues();
+std::complex<double> findMultiplier(const stability::Monodromy& loop,
+                                    const Eigen::MatrixXd& matrix) {
+  return stability::computeDominant(deflate(matrix, loop.makeShift()));
 }
 
-double computeRate(const stability::Monodromy& loop, const Eigen::MatrixXd& matrix) {
-  return std::log(findMultipliers(loop, matrix).cwiseAbs().maxCoeff()) / loop.period();
+double computeRate(const stability::Monodromy& loop, std::complex<double> multiplier) {
+  return std::log(std::abs(multiplier)) / loop.period();
+}
+
+double computeRate(const stability::Monodromy& loop) {
+  return computeRate(loop, findMultiplier(loop, loop.makeMatrix()));
 }
 
 /// Turns of a device's velocity over a cycle, from tick to tick: several a period of the cycle
@@ -96,6 +120,28 @@ double computeFrequency(const std::vector<std::complex<double>>& velocities,
   return is_real ? 0.5 * changes / period : std::abs(turn) / (2.0 * kPi * period);
 }
 
+/// The user whose device moves fastest, in a motion.
+int findFastest(const stability::Monodromy& loop, const Eigen::VectorXcd& state,
+                const LoopSettings& settings) {
+  int fastest = 0;
+  if (settings.areUsersAlike()) return fastest;
+  const auto speed = [&](int user) { return std::abs(state(loop.deviceVelocity(user))); };
+  for (int user = 1; user < settings.users; ++user)
+    if (speed(user) > speed(fastest)) fastest = user;
+  return fastest;
+}
+
+std::vector<double> compareDevices(const stability::Monodromy& loop, const Eigen::VectorXcd& state,
+                                   int fastest, const LoopSettings& settings) {
+  const std::complex<double> most = state(loop.deviceVelocity(fastest));
+  std::vector<double> shares;
+  for (int user = 0; user < settings.users; ++user) {
+    const std::complex<double> share = state(loop.deviceVelocity(user)) / most;
+    shares.push_back(std::copysign(std::abs(share), share.real()));
+  }
+  return shares;
+}
+
 }  // namespace
 
 const char* name(MotionMode mode) noexcept {
@@ -104,16 +150,29 @@ const char* name(MotionMode mode) noexcept {
       return "common";
     case MotionMode::kDifference:
       return "difference";
+    case MotionMode::kAny:
+      return "any";
     case MotionMode::kDeaf:
       break;
   }
   return "deaf";
 }
 
+std::vector<MotionMode> listLastingModes(const LoopSettings& settings) {
+  if (settings.areUsersAlike()) return {MotionMode::kCommon, MotionMode::kDifference};
+  return {MotionMode::kAny};
+}
+
+std::vector<MotionMode> listModes(const LoopSettings& settings) {
+  std::vector<MotionMode> modes = listLastingModes(settings);
+  modes.push_back(MotionMode::kDeaf);
+  return modes;
+}
+
 double computeGrowthRate(const LoopSettings& settings, MotionMode mode) {
   checkSettings(settings);
   const stability::Monodromy loop(stability::makeModeModel(settings, mode));
-  return computeRate(loop, loop.makeMatrix());
+  return computeRate(loop);
 }
 
 double computeRateAtPhase(const LoopSettings& settings, double phase) {
@@ -122,20 +181,21 @@ double computeRateAtPhase(const LoopSettings& settings, double phase) {
   std::vector<double> phases(static_cast<std::size_t>(settings.users), phase);
   phases.front() = 0.0;
   const stability::Monodromy loop(stability::makeFullModel(settings, phases));
-  return computeRate(loop, loop.makeMatrix());
+  return computeRate(loop);
 }
 
 Growth computeGrowth(const LoopSettings& settings, MotionMode mode) {
   checkSettings(settings);
   const stability::Monodromy loop(stability::makeModeModel(settings, mode));
   const Eigen::MatrixXd matrix = loop.makeMatrix();
-  const double rate = computeRate(loop, matrix);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
-  const double largest = std::exp(rate * loop.period());
-  Eigen::Index worst = 0;
-  (solver.eigenvalues().cwiseAbs().array() - largest).abs().minCoeff(&worst);
-  const auto velocities = loop.watchDevice(solver.eigenvectors().col(worst), 0);
-  return {rate, computeFrequency(velocities, solver.eigenvalues()(worst), loop.period())};
+  const std::complex<double> multiplier = findMultiplier(loop, matrix);
+  const Eigen::VectorXcd state = stability::computeEigenvector(matrix, multiplier);
+  const int fastest = findFastest(loop, state, settings);
+  Growth growth{computeRate(loop, multiplier),
+                computeFrequency(loop.watchDevice(state, fastest), multiplier, loop.period()),
+                {}};
+  if (!settings.areUsersAlike()) growth.shares = compareDevices(loop, state, fastest, settings);
+  return growth;
 }
 
 // In a steady motion by v each cycle moves the state on by v P: (M - I) y + F g = v P e. A motion
@@ -144,18 +204,26 @@ double computeDrag(const LoopSettings& settings) {
   checkSettings(settings);
   if (settings.hand.stiffness != 0.0)
     throw std::invalid_argument("hand.stiffness: must be 0, as such a hand lets nothing move on");
-  const stability::Monodromy loop(stability::makeModeModel(settings, MotionMode::kCommon));
+  const stability::Monodromy loop(
+      stability::makeModeModel(settings, listLastingModes(settings).front()));
   Eigen::MatrixXd equations = loop.makeMatrix();
   equations.diagonal().array() -= 1.0;
   equations.col(0) = loop.makePush();
   return equations.colPivHouseholderQr().solve(loop.period() * loop.makeShift())(0);
 }
 
+double findAnalysedPacketRate(const LoopSettings& settings) {
+  checkSettings(settings);
+  return stability::roundPacketRate(settings);
+}
+
 std::vector<std::complex<double>> computeMultipliers(const LoopSettings& settings,
                                                      MotionMode mode) {
   checkSettings(settings);
   const stability::Monodromy loop(stability::makeModeModel(settings, mode));
-  const Eigen::VectorXcd values = findMultipliers(loop, loop.makeMatrix());
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(deflate(loop.makeMatrix(), loop.makeShift()),
+                                                   false);
+  const Eigen::VectorXcd& values = solver.eigenvalues();
   std::vector<std::complex<double>> all(values.data(), values.data() + values.size());
   std::sort(all.begin(), all.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace tandem {
@@ -59,6 +60,10 @@ constexpr const GainRow& rowOf(LoopGain gain) { return kGains[static_cast<std::s
 double findMost(LoopGain gain, double value) {
   const double most = kRange * value;
   return gain == LoopGain::kDelay ? std::min(most, kLongestDelay) : most;
+}
+
+bool growsSlower(const ModeGrowth& a, const ModeGrowth& b) noexcept {
+  return a.growth.rate < b.growth.rate;
 }
 
 double rateAt(LoopSettings settings, LoopGain gain, double value) {
@@ -146,13 +151,21 @@ void setValue(LoopSettings& settings, LoopGain gain, double value) noexcept {
 }
 
 double computeWorstRate(const LoopSettings& settings) {
-  return std::max(computeGrowthRate(settings, MotionMode::kCommon),
-                  computeGrowthRate(settings, MotionMode::kDifference));
+  double worst = -HUGE_VAL;
+  for (const MotionMode mode : listLastingModes(settings))
+    worst = std::max(worst, computeGrowthRate(settings, mode));
+  return worst;
 }
 
-WorstGrowth computeWorstGrowth(const LoopSettings& settings) {
-  return findWorst(computeGrowth(settings, MotionMode::kCommon),
-                   computeGrowth(settings, MotionMode::kDifference));
+ModeGrowth computeWorstGrowth(const LoopSettings& settings) {
+  std::vector<ModeGrowth> lasting;
+  for (const MotionMode mode : listLastingModes(settings))
+    lasting.push_back({mode, computeGrowth(settings, mode)});
+  return *std::max_element(lasting.begin(), lasting.end(), &growsSlower);
+}
+
+const ModeGrowth& Advice::worst() const noexcept {
+  return *std::max_element(modes.begin(), std::prev(modes.end()), &growsSlower);
 }
 
 GainMargin computeMargin(const LoopSettings& settings, LoopGain gain, bool searches) {
@@ -175,8 +188,8 @@ Advice advise(const LoopSettings& settings) {
 
 Advice advise(const LoopSettings& settings, std::vector<GainMargin> margins) {
   Advice advice;
-  for (const MotionMode mode : kMotionModes)
-    advice.modes[static_cast<std::size_t>(mode)] = computeGrowth(settings, mode);
+  for (const MotionMode mode : listModes(settings))
+    advice.modes.push_back({mode, computeGrowth(settings, mode)});
   advice.margins = std::move(margins);
   const auto strongest = std::max_element(advice.margins.begin(), advice.margins.end(),
                                           [](const GainMargin& a, const GainMargin& b) {

@@ -30,10 +30,10 @@ nlohmann::json orNull(const std::optional<double>& value) {
 std::string describeModes(const Analysis& a) {
   std::string text = fmt::format("{:<28}{:>12}{:>10}  {:<22}{}\n", "motion", "rate [1/s]", "[Hz]",
                                  "", "held hand [1/s]");
-  for (std::size_t i = 0; i < kMotionModes.size(); ++i) {
-    const Growth& growth = a.advice.modes[i];
-    text += fmt::format("{:<28}{:>+12.4f}{:>10.1f}  {:<22}{}\n", explain(kMotionModes[i]),
-                        growth.rate, growth.frequency, describeTime(growth.rate),
+  for (std::size_t i = 0; i < a.advice.modes.size(); ++i) {
+    const auto& [mode, growth] = a.advice.modes[i];
+    text += fmt::format("{:<28}{:>+12.4f}{:>10.1f}  {:<22}{}\n", explain(mode), growth.rate,
+                        growth.frequency, describeTime(growth.rate),
                         i < a.held_rates.size() ? fmt::format("{:+.4f}", a.held_rates[i]) : "");
   }
   return text;
@@ -51,11 +51,15 @@ std::string describeGains(const Analysis& a) {
 std::string describeVerdict(const Analysis& a) {
   const Advice& advice = a.advice;
   const bool is_stable = isStable(a);
-  const WorstGrowth worst = advice.worst();
+  const ModeGrowth& worst = advice.worst();
   std::string text =
       fmt::format("\n{}: motion {} {}.\n", is_stable ? "Stable" : "Unstable with lasting contact",
                   explain(worst.mode), describeTime(worst.growth.rate));
-  if (!is_stable && a.held_rates[0] < 0.0 && a.held_rates[1] < 0.0)
+  for (std::size_t i = 0; i < worst.growth.shares.size(); ++i)
+    text +=
+        fmt::format("{} {:+.2f}{}", i == 0 ? "In it move: user 1" : fmt::format("user {}", i + 1),
+                    worst.growth.shares[i], i + 1 < worst.growth.shares.size() ? ", " : ".\n");
+  if (!is_stable && std::ranges::all_of(a.held_rates, [](double rate) { return rate < 0.0; }))
     text += "Hands that hold their devices (300 N/m, 5 N s/m) calm it.\n";
   if (advice.remedy)
     text += fmt::format("Smallest change that calms it, with 20 % to spare: {} = {:.4g} {}.\n",
@@ -70,7 +74,27 @@ std::string describeVerdict(const Analysis& a) {
     text += fmt::format(
         "Live, packets drift against each other: the worst of 8 phases has {:+.4g} 1/s.\n",
         *a.worst_phase);
+  text += fmt::format(
+      "Half a packet less and more delay, with jitter: the worst has {:+.4g} 1/s, "
+      "at {:.4g} ms.\n",
+      a.worst_delay.rate, 1e3 * a.worst_delay.delay);
+  if (std::abs(a.packet_rate / a.loop.packet_rate - 1.0) > 1e-9)
+    text += fmt::format("network.rate = {} is taken as {:.9g} Hz, which meets the ticks again.\n",
+                        a.loop.packet_rate, a.packet_rate);
   text += fmt::format("Moving on together each user feels {:.3g} N s/m.\n", a.drag);
+  return text;
+}
+
+std::string describeContact(const Analysis& a) {
+  if (!a.contact) return {};
+  std::string text = fmt::format("A touch gives back {:.3g} of the speed", a.contact->restitution);
+  if (a.contact->changes)
+    text += fmt::format(": at a held user contact changes about {:.0f} times until it rests",
+                        *a.contact->changes);
+  text += ".\n";
+  if (a.contact->comes_and_goes)
+    text += fmt::format("Contact comes and goes as long as they push, about each {:.2g} s.\n",
+                        a.contact->period);
   return text;
 }
 
@@ -95,18 +119,35 @@ std::optional<double> findWorstPhase(const LoopSettings& loop) {
   return worst;
 }
 
+void lookAtDelays(const LoopSettings& loop, double jitter, Analysis& analysis) {
+  constexpr int kDelays = 9;
+  const double half = 0.5 / loop.packet_rate;
+  const double least = std::max(0.0, loop.delay - half - jitter);
+  const double most = std::min(kLongestDelay, loop.delay + half + jitter);
+  analysis.worst_delay.rate = -HUGE_VAL;
+  for (int i = 0; i < kDelays; ++i) {
+    LoopSettings there = loop;
+    there.delay = least + (most - least) * i / (kDelays - 1);
+    const double rate = computeWorstRate(there);
+    if (rate > analysis.worst_delay.rate) analysis.worst_delay = {rate, there.delay};
+  }
+}
+
 }  // namespace
 
-Analysis analyse(const LoopSettings& loop) {
+Analysis analyse(const LoopSettings& loop, double jitter) {
   Analysis analysis;
   analysis.loop = loop;
   analysis.advice = advise(loop, computeMargins(loop));
   LoopSettings held = loop;
   held.hand = kHeldHand;
-  for (std::size_t i = 0; i < analysis.held_rates.size(); ++i)
-    analysis.held_rates[i] = computeGrowthRate(held, kMotionModes[i]);
+  for (const MotionMode mode : listLastingModes(loop))
+    analysis.held_rates.push_back(computeGrowthRate(held, mode));
+  analysis.packet_rate = findAnalysedPacketRate(loop);
   analysis.drag = computeDrag(loop);
   analysis.worst_phase = findWorstPhase(loop);
+  lookAtDelays(loop, jitter, analysis);
+  if (!loop.has_object) analysis.contact = computeOutlook(loop);
   return analysis;
 }
 
@@ -116,6 +157,8 @@ const char* explain(MotionMode mode) noexcept {
       return "all together";
     case MotionMode::kDifference:
       return "against each other";
+    case MotionMode::kAny:
+      return "of all";
     case MotionMode::kDeaf:
       break;
   }
@@ -126,13 +169,20 @@ bool isStable(const Analysis& analysis) noexcept {
   return analysis.advice.worst().growth.rate < 0.0;
 }
 
+bool isStableAtWorst(const Analysis& analysis) noexcept {
+  return isStable(analysis) && analysis.worst_delay.rate < 0.0 &&
+         analysis.worst_phase.value_or(-1.0) < 0.0;
+}
+
 nlohmann::json toJson(const Analysis& a) {
   nlohmann::json json;
   json["stable"] = isStable(a);
-  for (std::size_t i = 0; i < kMotionModes.size(); ++i) {
-    nlohmann::json mode = {{"name", name(kMotionModes[i])},
-                           {"rate", a.advice.modes[i].rate},
-                           {"frequency", a.advice.modes[i].frequency}};
+  for (std::size_t i = 0; i < a.advice.modes.size(); ++i) {
+    const Growth& growth = a.advice.modes[i].growth;
+    nlohmann::json mode = {{"name", name(a.advice.modes[i].mode)},
+                           {"rate", growth.rate},
+                           {"frequency", growth.frequency}};
+    if (!growth.shares.empty()) mode["users"] = growth.shares;
     if (i < a.held_rates.size()) mode["held_rate"] = a.held_rates[i];
     json["modes"].push_back(std::move(mode));
   }
@@ -147,13 +197,20 @@ nlohmann::json toJson(const Analysis& a) {
         {"key", name(remedy->gain)}, {"value", remedy->value}, {"rate", remedy->rate}};
   if (a.advice.strongest) json["strongest"] = name(*a.advice.strongest);
   json["largest_coordination_stiffness"] = orNull(a.advice.largest_coordination_stiffness);
+  json["packet_rate"] = a.packet_rate;
   json["drag"] = a.drag;
   json["worst_phase_rate"] = orNull(a.worst_phase);
+  json["worst_delay"] = {{"rate", a.worst_delay.rate}, {"delay", a.worst_delay.delay}};
+  if (a.contact)
+    json["contact"] = {{"comes_and_goes", a.contact->comes_and_goes},
+                       {"period", a.contact->period},
+                       {"restitution", a.contact->restitution},
+                       {"changes", orNull(a.contact->changes)}};
   return json;
 }
 
 std::string describe(const Analysis& a) {
-  return describeModes(a) + describeGains(a) + describeVerdict(a);
+  return describeModes(a) + describeGains(a) + describeVerdict(a) + describeContact(a);
 }
 
 }  // namespace tandem::demos

@@ -14,7 +14,7 @@
 namespace tandem::demos {
 namespace {
 
-std::optional<WorstGrowth> findGrowth(const Scenario& scenario) {
+std::optional<ModeGrowth> findGrowth(const Scenario& scenario) {
   try {
     return computeWorstGrowth(makeLoop(scenario));
   } catch (const UsageError&) {

@@ -1,5 +1,8 @@
 #include "analyse/loop_of_scenario.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "scenario/site_delays.h"
@@ -20,44 +23,77 @@ void checkKind(const Scenario& s) {
         "rate and are not analysed");
 }
 
-/// Refuses the first value in which a site differs from the first one.
-void checkAlike(const Scenario& s) {
-  const auto refuse = [](std::size_t i, const char* key, double value, double first) {
-    throw UsageError(
-        fmt::format("site{}.{} = {}: site 1 has {}; an analysis is of users who are alike", i + 1,
-                    key, value, first));
-  };
-  const DeviceScenario first = s.sites[0].makeDevice(s.device);
-  const CouplerGains contact = s.sites[0].makeContact(s.site.contact);
-  const double delay = computeDelay(s, 0, 1);
-  for (std::size_t i = 0; i < s.sites.size(); ++i) {
-    const DeviceScenario device = s.sites[i].makeDevice(s.device);
-    const CouplerGains own = s.sites[i].makeContact(s.site.contact);
-    if (device.mass != first.mass) refuse(i, "device_mass", device.mass, first.mass);
-    if (device.damping != first.damping) refuse(i, "device_damping", device.damping, first.damping);
-    if (own.stiffness != contact.stiffness)
-      refuse(i, "contact_stiffness", own.stiffness, contact.stiffness);
-    if (own.damping != contact.damping) refuse(i, "contact_damping", own.damping, contact.damping);
+/// Factors of the largest of all values, which goes into `most`.
+template <typename Get>
+std::vector<double> compareSites(const Scenario& s, double& most, Get get) {
+  std::vector<double> values;
+  for (const SiteScenario& site : s.sites) values.push_back(get(site));
+  most = std::ranges::max(values);
+  for (double& value : values) value = value == most ? 1.0 : value / most;
+  return values;
+}
+
+double findLongestDelay(const Scenario& s) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < s.sites.size(); ++i)
     for (std::size_t k = 0; k < s.sites.size(); ++k)
-      if (k != i && computeDelay(s, i, k) != delay)
-        throw UsageError(
-            fmt::format("the delay from site {} to site {} is {} s, from 1 to 2 {} s; an analysis "
-                        "is of users who are alike",
-                        i + 1, k + 1, computeDelay(s, i, k), delay));
+      if (k != i) longest = std::max(longest, computeDelay(s, i, k));
+  return longest;
+}
+
+bool isAsAll(const LoopUser& user) {
+  return user.device_mass == 1.0 && user.device_damping == 1.0 && user.contact_stiffness == 1.0 &&
+         user.contact_damping == 1.0 &&
+         std::ranges::all_of(user.delays, [](double part) { return part == 1.0; });
+}
+
+/// Largest values of devices, contacts and delays, and how each user differs from them.
+void takeUsers(const Scenario& s, LoopSettings& loop) {
+  const auto contact = [&](const SiteScenario& site) { return site.makeContact(s.site.contact); };
+  const auto device = [&](const SiteScenario& site) { return site.makeDevice(s.device); };
+  const auto masses =
+      compareSites(s, loop.device_mass, [&](const auto& site) { return device(site).mass; });
+  const auto dampings =
+      compareSites(s, loop.device_damping, [&](const auto& site) { return device(site).damping; });
+  const auto contacts = compareSites(s, loop.contact.stiffness,
+                                     [&](const auto& site) { return contact(site).stiffness; });
+  const auto contact_dampings = compareSites(
+      s, loop.contact.damping, [&](const auto& site) { return contact(site).damping; });
+  loop.delay = findLongestDelay(s);
+  for (std::size_t i = 0; i < s.sites.size(); ++i) {
+    LoopUser& user = loop.each.emplace_back();
+    user.device_mass = masses[i];
+    user.device_damping = dampings[i];
+    user.contact_stiffness = contacts[i];
+    user.contact_damping = contact_dampings[i];
+    for (std::size_t k = 0; k < s.sites.size(); ++k)
+      user.delays.push_back(k == i || loop.delay == 0.0 ? 1.0 : computeDelay(s, i, k) / loop.delay);
   }
+  if (std::ranges::all_of(loop.each, &isAsAll)) loop.each.clear();
 }
 
 StandInKind findStandIn(const std::string& scheme) {
-  if (scheme == "virtual_coupling") return StandInKind::kNone;
-  return scheme == "kinematic_proxy" ? StandInKind::kHeld : StandInKind::kDynamic;
+  for (const StandInKind kind : {StandInKind::kNone, StandInKind::kHeld})
+    if (scheme == schemeOf(kind)) return kind;
+  return StandInKind::kDynamic;
 }
 
 }  // namespace
 
+const char* schemeOf(StandInKind kind) noexcept {
+  switch (kind) {
+    case StandInKind::kNone:
+      return "virtual_coupling";
+    case StandInKind::kHeld:
+      return "kinematic_proxy";
+    case StandInKind::kDynamic:
+      break;
+  }
+  return "remote_dynamic_proxy";
+}
+
 LoopSettings makeLoop(const Scenario& s) {
   checkKind(s);
-  checkAlike(s);
-  const DeviceScenario device = s.sites[0].makeDevice(s.device);
   LoopSettings loop;
   loop.stand_in = findStandIn(s.scheme);
   loop.users = static_cast<int>(s.sites.size());
@@ -65,15 +101,12 @@ LoopSettings makeLoop(const Scenario& s) {
   loop.has_object = s.hasObject();
   loop.object_mass = s.object_mass;
   loop.object_damping = s.object_damping;
-  loop.contact = s.sites[0].makeContact(s.site.contact);
+  takeUsers(s, loop);
   loop.coordination = s.site.coordination;
   loop.proxy_mass = s.site.proxy.mass;
   loop.proxy_damping = s.site.proxy.damping;
-  loop.device_mass = device.mass;
-  loop.device_damping = device.damping;
   loop.haptic_rate = s.site.haptic_rate;
   loop.packet_rate = s.site.packet_rate;
-  loop.delay = computeDelay(s, 0, 1);
   return loop;
 }
 

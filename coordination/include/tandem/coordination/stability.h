@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <complex>
 #include <optional>
 #include <string>
@@ -30,7 +29,22 @@ struct HandImpedance {
   double damping = 0.0;    ///< [N s/m]
 };
 
-/// A cooperation of equal users along one axis.
+/// A hand that holds its device, as people do who do not push.
+inline constexpr HandImpedance kHeldHand{0.0, 300.0, 5.0};
+
+/// How a user differs from what LoopSettings says of all: factors, 0 or more.
+struct LoopUser {
+  double device_mass = 1.0;  ///< above 0
+  double device_damping = 1.0;
+  double contact_stiffness = 1.0, contact_damping = 1.0;  ///< of all contacts at this site
+  /// To each user, by number, 0 to 1; the own one is unused. Empty: all 1.
+  std::vector<double> delays;
+};
+
+/// Most users that may differ: all of them are analysed together.
+inline constexpr int kMostUnlikeUsers = 4;
+
+/// A cooperation along one axis.
 struct LoopSettings {
   StandInKind stand_in = StandInKind::kDynamic;
   int users = 2;  ///< N, 2 or more
@@ -49,21 +63,26 @@ struct LoopSettings {
   double haptic_rate = 1000.0;  ///< [Hz]
   double packet_rate = 128.0;   ///< [Hz]
   double delay = 0.05;          ///< T_d, one way [s], at most kLongestDelay
+  std::vector<LoopUser> each;   ///< one for each user; empty: all are alike
+
+  [[nodiscard]] bool areUsersAlike() const noexcept { return each.empty(); }
 };
 
 /// Longest delay that is analysed [s]: packets on their way are states.
 inline constexpr double kLongestDelay = 0.5;
 
-/// A pattern of motion of equal users.
+/// A pattern of motion.
 enum class MotionMode {
-  kCommon,      ///< all together
-  kDifference,  ///< against each other
+  kCommon,      ///< all together, of users who are alike
+  kDifference,  ///< against each other, of users who are alike
+  kAny,         ///< any motion, of users who differ
   kDeaf,        ///< one user, whom the others do not answer yet
 };
 
-/// All, in the order of their values. The first two go on; kDeaf ends with an answer.
-inline constexpr std::array<MotionMode, 3> kMotionModes = {
-    MotionMode::kCommon, MotionMode::kDifference, MotionMode::kDeaf};
+/// All that a cooperation has. kDeaf is the last: it ends with an answer, the others go on.
+[[nodiscard]] std::vector<MotionMode> listModes(const LoopSettings& settings);
+/// The same without kDeaf.
+[[nodiscard]] std::vector<MotionMode> listLastingModes(const LoopSettings& settings);
 
 [[nodiscard]] const char* name(MotionMode mode) noexcept;
 
@@ -71,10 +90,12 @@ inline constexpr std::array<MotionMode, 3> kMotionModes = {
 struct Growth {
   double rate = 0.0;       ///< of its size [1/s]; below 0: it dies out
   double frequency = 0.0;  ///< [Hz]
+  /// Of users who differ: speed of each one's device, over the fastest one's. Below 0: against it.
+  std::vector<double> shares;
 };
 
-/// Growth of the fastest growing motion of a mode. Throws std::invalid_argument that names a
-/// setting out of range.
+/// Growth of the fastest growing motion of a mode that the cooperation has. Throws
+/// std::invalid_argument that names a setting out of range.
 [[nodiscard]] Growth computeGrowth(const LoopSettings& settings, MotionMode mode);
 
 /// The same for its rate alone, in a third of the time.
@@ -85,10 +106,14 @@ struct Growth {
 /// long as a mode.
 [[nodiscard]] double computeRateAtPhase(const LoopSettings& settings, double phase);
 
-/// Force that each user needs for each m/s while all move on together, in [N s/m]: the delay's
-/// drag, and that of devices, copies and proxies. Throws as computeGrowth() does, and for a hand
-/// with stiffness, which lets nothing move on.
+/// Force that each user needs for each m/s while all move on together, in [N s/m], a mean of users
+/// who differ: the delay's drag, and that of devices, copies and proxies. Throws as computeGrowth()
+/// does, and for a hand with stiffness, which lets nothing move on.
 [[nodiscard]] double computeDrag(const LoopSettings& settings);
+
+/// The packet rate that is analysed [Hz]: ticks and packets meet again within 2000 ticks. Others
+/// are rounded, mostly by 1e-6 to 1e-4 of them, at most by 1e-3. Throws as computeGrowth() does.
+[[nodiscard]] double findAnalysedPacketRate(const LoopSettings& settings);
 
 /// All multipliers of a mode over one period of its packets and ticks, largest first.
 [[nodiscard]] std::vector<std::complex<double>> computeMultipliers(const LoopSettings& settings,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -29,22 +28,18 @@ enum class LoopGain {
 [[nodiscard]] const char* name(LoopGain gain) noexcept;
 [[nodiscard]] const char* unit(LoopGain gain) noexcept;
 
+/// Of users who differ: what all share; each has its factor.
 [[nodiscard]] double valueOf(const LoopSettings& settings, LoopGain gain) noexcept;
 void setValue(LoopSettings& settings, LoopGain gain, double value) noexcept;
 
-/// Growth of the worst of the modes that last: all together, or against each other.
-struct WorstGrowth {
+/// Growth of a mode.
+struct ModeGrowth {
   MotionMode mode = MotionMode::kCommon;
   Growth growth;
 };
 
-[[nodiscard]] inline WorstGrowth findWorst(const Growth& common,
-                                           const Growth& difference) noexcept {
-  if (common.rate > difference.rate) return {MotionMode::kCommon, common};
-  return {MotionMode::kDifference, difference};
-}
-
-[[nodiscard]] WorstGrowth computeWorstGrowth(const LoopSettings& settings);
+/// Of the mode that lasts and grows fastest.
+[[nodiscard]] ModeGrowth computeWorstGrowth(const LoopSettings& settings);
 [[nodiscard]] double computeWorstRate(const LoopSettings& settings);
 
 /// How a gain stands to stability, all others as they are.
@@ -70,7 +65,7 @@ struct Remedy {
 
 /// Tells a user before a touch how the gains behave.
 struct Advice {
-  std::array<Growth, kMotionModes.size()> modes;  ///< in the order of kMotionModes
+  std::vector<ModeGrowth> modes;  ///< in the order of listModes()
   std::vector<GainMargin> margins;
   std::optional<LoopGain> strongest;  ///< gain whose change by 1 % moves the rate most
   std::optional<double> largest_coordination_stiffness;  ///< stable at this delay; empty: no bound
@@ -78,7 +73,7 @@ struct Advice {
       remedy;  ///< smallest single change, if it is unstable; empty: there is none
 
   /// Of the modes that last.
-  [[nodiscard]] WorstGrowth worst() const noexcept { return findWorst(modes[0], modes[1]); }
+  [[nodiscard]] const ModeGrowth& worst() const noexcept;
 };
 
 /// Throws as computeGrowth() does.
