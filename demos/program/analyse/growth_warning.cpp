@@ -5,34 +5,49 @@
 
 #include <fmt/format.h>
 
-#include "tandem/coordination/stability_advice.h"
-
 #include "analyse/analysis.h"
 #include "analyse/loop_of_scenario.h"
+#include "analyse/safe_gains.h"
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
 namespace {
 
-std::optional<ModeGrowth> findGrowth(const Scenario& scenario) {
+/// Checks what makeLoop() does not: numbers that LoopSettings may not have.
+bool mayBeAnalysed(const LoopSettings& loop) {
   try {
-    return computeWorstGrowth(makeLoop(scenario));
-  } catch (const UsageError&) {
-    return std::nullopt;
+    return std::isfinite(computeGrowthRate(loop, MotionMode::kDeaf));
   } catch (const std::invalid_argument&) {
-    return std::nullopt;
+    return false;
   }
 }
 
 }  // namespace
 
-std::optional<std::string> warnOfGrowth(const Scenario& scenario) {
-  const auto worst = findGrowth(scenario);
-  if (!worst || worst->growth.rate < 0.0) return std::nullopt;
+std::optional<LoopSettings> findLoop(const Scenario& scenario) {
+  try {
+    const LoopSettings loop = makeLoop(scenario);
+    if (mayBeAnalysed(loop)) return loop;
+  } catch (const UsageError&) {
+  }
+  return std::nullopt;
+}
+
+std::string describeGrowth(const ModeGrowth& worst) {
   return fmt::format(
-      "with lasting contact and empty hands, motion {} doubles in {:.2g} s, at {:.1f} Hz; tandem "
-      "analyse tells which gain to turn",
-      explain(worst->mode), std::log(2.0) / worst->growth.rate, worst->growth.frequency);
+      "with lasting contact and empty hands, motion {} doubles in {:.2g} s, at {:.1f} Hz",
+      explain(worst.mode), std::log(2.0) / worst.growth.rate, worst.growth.frequency);
+}
+
+std::vector<std::string> warnBeforeTouch(const Scenario& scenario) {
+  std::vector<std::string> lines;
+  if (const auto chosen = tellChosenGains(scenario)) lines.push_back(*chosen);
+  const auto loop = findLoop(scenario);
+  if (!loop) return lines;
+  const ModeGrowth worst = computeWorstGrowth(*loop);
+  if (!(worst.growth.rate < 0.0))
+    lines.push_back(describeGrowth(worst) + "; tandem analyse tells which gain to turn");
+  return lines;
 }
 
 }  // namespace tandem::demos

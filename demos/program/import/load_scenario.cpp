@@ -1,3 +1,4 @@
+#include "analyse/safe_gains.h"
 #include "import/file_scenario.h"
 #include "import/import_world.h"
 #include "import/shape_files.h"
@@ -15,6 +16,7 @@ Scenario loadScenario(const std::filesystem::path& file,
   importWorld(scenario);
   readShapeFiles(scenario);
   if (is_world) placeUsers(scenario);
+  chooseGains(scenario);
   return scenario;
 }
 

@@ -10,6 +10,7 @@
 #include "tandem/falcon/monotonic_clock.h"
 #include "tandem/plugin/key_file.h"
 
+#include "analyse/growth_warning.h"
 #include "command/command.h"
 #include "device/device_options.h"
 #include "peer/peer_meeting.h"
@@ -126,8 +127,10 @@ void runPeer(const PeerOptions& options) {
   PeerUser user{device.get(), {}, PeerPurpose::kResults, !folder};
   if (device && device->hasGrip()) user.wants_grip = [&] { return device->isGripPressed(); };
   PeerMeeting meeting(scenario, options.line, std::move(user));
-  if (!options.quiet)
+  if (!options.quiet) {
     fmt::print("site {} on {}\n", options.line.site, describePlace(options.line, meeting));
+    for (const std::string& line : warnBeforeTouch(scenario)) fmt::print("note: {}\n", line);
+  }
   PeerWatch watch = makeWatch(options);
   if (publisher)
     watch.after_step = [&](double time, const HapticLoop&) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kReportPeriod = 1.0;  // [s]
 constexpr double kMostBehind = 0.1;    ///< a site later than this joins running ones [s]
+constexpr double kFirstLook = 2.0;     ///< by then the round trip is known [s]
 
 std::vector<PeerId> listIds(const std::vector<UdpPeer>& peers) {
   std::vector<PeerId> ids;
@@ -36,7 +37,8 @@ PeerRun::PeerRun(const Scenario& scenario, int site, const UdpMeshSettings& sett
       purpose_(purpose),
       places_(places),
       others_(listIds(peers)),
-      peers_(settings, std::move(peers), std::move(relay)) {
+      peers_(settings, std::move(peers), std::move(relay)),
+      growth_(scenario) {
   if (scenario.site.contact_model != ContactModel::kIsland ||
       scenario.site.injection != Injection::kHandoff)
     throw UsageError(
@@ -167,6 +169,7 @@ void PeerRun::run(const std::function<bool()>& stop,
       if (time < next_report) continue;
       report(makeReport(time));
       noteDifferences(note);
+      noteGrowth(time, note);
       next_report += kReportPeriod;
     }
     loop.stop();
@@ -183,6 +186,16 @@ void PeerRun::noteDifferences(const std::function<void(const std::string&)>& not
     noted_.push_back(status.peer);
     note(fmt::format("site {} {}", static_cast<std::uint32_t>(status.peer), *difference));
   }
+}
+
+/// Tells when the gains do not fit the delay to the farthest peer.
+void PeerRun::noteGrowth(double time, const std::function<void(const std::string&)>& note) {
+  if (time < kFirstLook) return;
+  double longest = -1.0;
+  for (const PeerStatus& status : statuses())
+    if (status.phase == PeerPhase::kLive)
+      longest = std::max(longest, 0.5 * status.round_trip + status.wait);
+  if (const auto line = growth_.look(longest)) note(*line);
 }
 
 double PeerRun::computeCoherency() const noexcept {

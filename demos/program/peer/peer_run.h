@@ -9,6 +9,7 @@
 #include "tandem/plugin/haptic_loop.h"
 #include "tandem/plugin/live_peers.h"
 
+#include "analyse/growth_watch.h"
 #include "peer/answer_check.h"
 #include "run/site_record.h"
 #include "world/scene.h"
@@ -64,7 +65,8 @@ class PeerRun {
 
   /// Runs until the scenario's duration is over or `stop` asks to end. Then the force fades and the
   /// other sites get a BYE. Calls `note` with one line for each right that the system refuses the
-  /// haptic thread, and `after_step` after each host step with its time [s] and the loop.
+  /// haptic thread, and when gains do not fit the measured delay; and `after_step` after each host
+  /// step with its time [s] and the loop.
   void run(const std::function<bool()>& stop, const std::function<void(const PeerReport&)>& report,
            const std::function<void(const std::string&)>& note,
            const std::function<void(double, const HapticLoop&)>& after_step = {});
@@ -87,6 +89,7 @@ class PeerRun {
   void joinLate(double now);
   [[nodiscard]] PeerReport makeReport(double time);
   void noteDifferences(const std::function<void(const std::string&)>& note);
+  void noteGrowth(double time, const std::function<void(const std::string&)>& note);
   [[nodiscard]] double computeCoherency() const noexcept;
 
   Scenario scenario_;
@@ -100,6 +103,7 @@ class PeerRun {
   std::unique_ptr<SiteWorld> world_;
   std::unique_ptr<SiteRecord> record_;
   LoopReport loop_;
+  GrowthWatch growth_;
   std::vector<PeerId> noted_;  ///< sites of which the user knows that they have another scenario
 };
 

@@ -51,7 +51,7 @@ class RunCommand final : public Command {
     if (folder_) folder.emplace(*folder_, "--out " + *folder_);
     VirtualRun run(scenario);
     if (!quiet_ && !json_)
-      if (const auto warning = warnOfGrowth(scenario)) fmt::print("note: {}\n", *warning);
+      for (const std::string& line : warnBeforeTouch(scenario)) fmt::print("note: {}\n", line);
     {
       ProgressLine line(quiet_);
       run.run([&](double share) { line.show(fmt::format("of {} s", scenario.duration), share); });

@@ -81,6 +81,32 @@ ScenarioKey boxesKey() {
   return key;
 }
 
+bool isAuto(const toml::node& node) { return node.value<std::string>() == "auto"; }
+
+/// A gain of coordination, or "auto".
+ScenarioKey gainKey(const char* field, bool AutoGains::*is_auto) {
+  ScenarioKey key = siteKey(field);
+  key.allowed += "; or [`auto`](stability.md#gains-that-are-safe)";
+  key.read = [read = key.read, is_auto](S& s, const Place& place, const toml::node& node) {
+    s.automatic.*is_auto = isAuto(node);
+    if (!isAuto(node)) read(s, place, node);
+  };
+  return key;
+}
+
+/// `coordination = "auto"`: a file has this in place of the table, so it has no value to show.
+ScenarioKey autoKey() {
+  ScenarioKey key =
+      makeKey({"coordination", "in place of its table: both gains are `auto`", "", "", "none"},
+              describeChoices({"auto"}));
+  key.read = [](S& s, const Place& place, const toml::node& node) {
+    if (!isAuto(node)) refuse(place, node, "\"auto\", or a table with keys of its own");
+    s.automatic = {true, true};
+  };
+  key.show = [](const S&) { return nlohmann::json(); };
+  return key;
+}
+
 std::vector<std::string> schemeNames() {
   std::vector<std::string> names;
   for (const Scheme* scheme : allSchemes()) names.emplace_back(scheme->name());
@@ -120,8 +146,9 @@ Keys makeCouplingKeys() {
           {"sum", "average"}, [](auto& s) -> auto& { return s.site.coordination_mode; }),
       siteFlagKey("coordination.follows_users", "membership.follows",
                   " ([users](users.md#who-takes-part))"),
-      siteKey("coordination.stiffness"),
-      siteKey("coordination.damping"),
+      autoKey(),
+      gainKey("coordination.stiffness", &AutoGains::stiffness),
+      gainKey("coordination.damping", &AutoGains::damping),
       numberKey({"coordination.angular_stiffness", "turns cube copies towards each other",
                  "N m/rad", "both or neither", "K_t J/m"},
                 kNotNegative, &S::angular_stiffness),

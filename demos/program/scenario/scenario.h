@@ -31,6 +31,12 @@ inline constexpr const char* kGripNeeds =
     "a hand holds the cube with experiment.guide = false, contact.model = island and "
     "bridge.injection = handoff";
 
+/// Gains of coordination that a file leaves to the delay: "auto". loadScenario() chooses them.
+struct AutoGains {
+  bool stiffness = false, damping = false;
+  [[nodiscard]] bool hasAny() const noexcept { return stiffness || damping; }
+};
+
 /// A scenario file, checked. Keys, meanings and units: docs/scenarios.md.
 struct Scenario {
   std::string title;
@@ -45,6 +51,7 @@ struct Scenario {
 
   /// Numbers of all sites. The members beside it set the rest, such as scheme and guide.
   SiteSettings site;
+  AutoGains automatic;
   double angular_stiffness = -1.0;  ///< below 0: derived from the linear gains, see SiteSettings
   double angular_damping = -1.0;
 
@@ -86,7 +93,8 @@ struct Scenario {
   [[nodiscard]] bool isWorld() const { return kind == "world"; }
 };
 
-/// Reads a scenario, applies `overrides` ("key=value", dotted key), and imports its world file.
+/// Reads a scenario, applies `overrides` ("key=value", dotted key), imports its world file, and
+/// chooses gains that are "auto".
 /// A world file may stand in place of a scenario: users' hands begin beside the first shared body.
 /// Throws UsageError, one line: file, key, value, allowed values.
 [[nodiscard]] Scenario loadScenario(const std::filesystem::path& file,

@@ -4,6 +4,7 @@
 
 #include "tandem/falcon/monotonic_clock.h"
 
+#include "analyse/growth_warning.h"
 #include "session/paced_time.h"
 
 namespace tandem::view {
@@ -20,11 +21,12 @@ LiveSession::LiveSession(const demos::Scenario& scenario, HapticDevice& device,
       second_(start.second),
       record_(start.records ? std::make_unique<PairRecord>(scenario, pair_, *start.records)
                             : nullptr),
-      network_(scenario.network),
+      scenario_(scenario),
       scene_look_(pair_.own()),
       may_hold_(scenario.mayGrip()),
       has_threads_(hasHapticThreads(scenario)),
       pace_(start.pace) {
+  warn(demos::warnBeforeTouch(scenario_));
   lookAtWorlds(0.0);
   if (needsThreads()) startThreads();
   host_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
@@ -39,7 +41,8 @@ bool LiveSession::hasHapticThreads(const demos::Scenario& scenario) {
 
 void LiveSession::setNetwork(const Impairments& network) {
   pair_.network().change(network);
-  network_ = network;
+  scenario_.network = network;
+  warn(demos::warnBeforeTouch(scenario_));
 }
 
 void LiveSession::setPace(const Pace& pace) {
@@ -54,7 +57,7 @@ Pace LiveSession::pace() const {
 
 demos::ScenePlaces LiveSession::end() {
   host_ = {};
-  if (const auto record = std::exchange(record_, nullptr)) record->store(network_);
+  if (const auto record = std::exchange(record_, nullptr)) record->store(scenario_.network);
   const auto hand_W = [](demos::SiteWorld& world) { return world.site().hip().p_W; };
   return {{hand_W(pair_.own()), hand_W(pair_.other())}, pair_.own().places()};
 }

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "device/live_device.h"
+#include "scenario/scenario.h"
 #include "session/pace.h"
 #include "session/pair_record.h"
 #include "session/session.h"
@@ -55,7 +56,7 @@ class LiveSession final : public Session {
   SitePair pair_;
   demos::LiveDevice* second_;           ///< null: user 2 is simulated
   std::unique_ptr<PairRecord> record_;  ///< null: none is wanted, or it is stored
-  Impairments network_;
+  demos::Scenario scenario_;            ///< with the network as it is now
   SceneLook scene_look_;
   bool may_hold_, has_threads_;
   std::atomic<int> steps_ = 0;  ///< that the user still wants

@@ -6,6 +6,7 @@
 
 #include "tandem/falcon/monotonic_clock.h"
 
+#include "analyse/growth_warning.h"
 #include "peer/peer_output.h"
 
 namespace tandem::view {
@@ -18,6 +19,7 @@ PeerSession::PeerSession(const demos::Scenario& scenario, const demos::PeerLine&
                {&device,
                 {},
                 records ? demos::PeerPurpose::kRecordedSession : demos::PeerPurpose::kSession}) {
+  warn(demos::warnBeforeTouch(scenario));
   lookAtWorld(0.0, nullptr);
   thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
 }

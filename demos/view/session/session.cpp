@@ -43,12 +43,19 @@ WorldDetails Session::details() const {
 
 std::vector<std::string> Session::notes() const {
   const std::lock_guard lock(mutex_);
-  return notes_;
+  std::vector<std::string> all = warnings_;
+  all.insert(all.end(), notes_.begin(), notes_.end());
+  return all;
 }
 
 void Session::tell(const std::vector<std::string>& notes) {
   const std::lock_guard lock(mutex_);
   notes_ = notes;
+}
+
+void Session::warn(const std::vector<std::string>& warnings) {
+  const std::lock_guard lock(mutex_);
+  warnings_ = warnings;
 }
 
 bool Session::goesOn() const {

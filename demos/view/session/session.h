@@ -54,7 +54,7 @@ class Session {
   void hold(bool wants) noexcept { wants_hold_ = wants; }
   /// Chooses what looks show besides bodies.
   void showDetails(const WorldDetails& details);
-  /// Rights that the haptic threads did not get, with the remedy.
+  /// Warnings, and rights that the haptic threads did not get, with the remedy.
   [[nodiscard]] std::vector<std::string> notes() const;
   /// False once the session has ended. Throws what ended it early.
   [[nodiscard]] bool goesOn() const;
@@ -66,6 +66,8 @@ class Session {
   [[nodiscard]] bool wantsHold() const noexcept { return wants_hold_; }
   /// From now on these are the notes.
   void tell(const std::vector<std::string>& notes);
+  /// From now on these lines come before the notes.
+  void warn(const std::vector<std::string>& warnings);
   // For the thread that steps the world:
 
   /// Runs `live`, the whole session. What it throws is for goesOn().
@@ -81,7 +83,7 @@ class Session {
   double next_look_ = 0.0;    ///< [s]
   mutable std::mutex mutex_;  // of all below
   WorldDetails details_;
-  std::vector<std::string> notes_;
+  std::vector<std::string> warnings_, notes_;
   std::exception_ptr problem_;
   bool has_ended_ = false;
   std::shared_ptr<const SessionLook> look_;  ///< shared with the window, which draws it meanwhile
