@@ -84,6 +84,56 @@ TEST(Analyse, ARunWarnsOfGrowth) {
   EXPECT_EQ(run({"--set", "device.damping=3"}).out.find("note"), std::string::npos);
 }
 
+TEST(Analyse, AnyPacketRateIsTakenAsOneWithAPeriod) {
+  const auto odd = analyse("experiment1.toml", {"--set", "network.rate=127.3219"});
+  EXPECT_NEAR(odd["packet_rate"].get<double>(), 127.3219, 1e-3);
+  EXPECT_NE(odd["packet_rate"].get<double>(), 127.3219);
+  EXPECT_NEAR(odd["modes"][1]["rate"].get<double>(), 1.9, 0.5);
+  EXPECT_EQ(analyse("experiment1.toml")["packet_rate"], 128.0);
+  const Outcome words = runTandem(line("experiment1.toml", {"--set", "network.rate=127.3219"}));
+  EXPECT_NE(words.out.find("network.rate = 127.3219 is taken as"), std::string::npos);
+}
+
+TEST(Analyse, TakesUsersWhoDiffer) {
+  const auto heavy = analyse("experiment1.toml", {"--set", "site2.device_mass=0.3"});
+  EXPECT_EQ(heavy["modes"][0]["name"], "any");
+  ASSERT_EQ(heavy["modes"][0]["users"].size(), 2u);
+  EXPECT_EQ(heavy["gains"].size(), 6u);
+  const Outcome words = runTandem(line("experiment1.toml", {"--set", "site2.device_mass=0.3"}));
+  EXPECT_NE(words.out.find("In it move: user 1"), std::string::npos) << words.out;
+}
+
+TEST(Analyse, TellsWhetherContactLasts) {
+  const auto wall = analyse("experiment2.toml", {"--set", "experiment.scheme=kinematic_proxy"});
+  EXPECT_NEAR(wall["contact"]["restitution"].get<double>(), 0.946, 1e-3);
+  EXPECT_TRUE(wall["contact"]["comes_and_goes"].get<bool>());
+  EXPECT_TRUE(analyse("experiment1.toml")["contact"].is_null());
+}
+
+TEST(Analyse, WorstPhaseMayDecide) {
+  const Words near_border = {"--check", "--set", "experiment.scheme=virtual_coupling", "--set",
+                             "coordination.stiffness=375"};
+  Words at_worst = near_border;
+  at_worst.push_back("--worst-phase");
+  EXPECT_EQ(runTandem(line("experiment1.toml", near_border)).status, 0);
+  EXPECT_EQ(runTandem(line("experiment1.toml", at_worst)).status, 3);
+}
+
+TEST(Analyse, GainsMayBeLeftToTheDelay) {
+  const auto chosen = analyse("experiment1.toml", {"--set", "coordination=auto"});
+  EXPECT_TRUE(chosen["stable"].get<bool>());
+  EXPECT_NEAR(chosen["gains"][0]["value"].get<double>(), 74.0, 8.0);
+  const auto damped = analyse("experiment1.toml",
+                              {"--set", "experiment.scheme=virtual_coupling", "--set",
+                               "coordination.damping=auto", "--set", "coordination.stiffness=100"});
+  EXPECT_EQ(damped["gains"][0]["value"], 100.0);
+  EXPECT_TRUE(damped["stable"].get<bool>());
+  const Outcome run = runTandem({"run", test::scenarioPath("experiment1.toml"), "--set",
+                                 "coordination=auto", "--set", "experiment.duration=0.1"});
+  EXPECT_EQ(run.out.rfind("note: coordination for 50 ms: stiffness", 0), 0u) << run.out;
+  EXPECT_EQ(run.out.find("doubles"), std::string::npos);
+}
+
 TEST(Analyse, OnlyACheckFails) {
   EXPECT_EQ(runTandem(line("experiment1.toml", {"--check"})).status, 3);
   EXPECT_EQ(runTandem(line("experiment1.toml",
@@ -95,8 +145,11 @@ TEST(Analyse, OnlyACheckFails) {
 TEST(Analyse, RefusesByALine) {
   const auto with = [](const Words& more) { return runTandem(line("experiment1.toml", more)); };
   expectLine(with({"--set", "network.delay=0.6"}), 2, "delay");
-  expectLine(with({"--set", "network.rate=127.3219"}), 2, "no short period");
-  expectLine(with({"--set", "site2.device_mass=0.3"}), 2, "site2.device_mass = 0.3");
+  expectLine(with({"--set", "network.rate=0.3"}), 2, "no period of at most 2000 ticks");
+  expectLine(with({"--set", "site2.device_mass=0.3", "--users", "3"}), 2, "--users: the scenario");
+  expectLine(with({"--set", "coordination=200"}), 2, "\"auto\", or a table");
+  expectLine(runTandem(line("playground.toml", {"--set", "coordination=auto"})), 2,
+             "coordination = \"auto\": experiment.kind");
   expectLine(with({"--set", "contact.model=native_rigid"}), 2, "contact.model");
   expectLine(runTandem(line("playground.toml")), 2, "three dimensions");
   expectLine(with({"--users", "1"}), 2, "--users 1: must be 2 to 64");

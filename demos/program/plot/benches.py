@@ -7,6 +7,7 @@ from matplotlib.colors import ListedColormap
 from canvas import LEFT, PT, Figure, line, points, set_log_axis
 from runs import parse_object
 from table import read_text
+from words import DIGITS
 
 # Looks of ways to simulate: colour, marker, and "none" for a hollow one; equal in all figures.
 _METHODS = {
@@ -20,7 +21,6 @@ _WAYS = {"Bullet 60 Hz": ("#999999", "o", "none"), "Bullet 240 Hz": ("#e69f00", 
          "whole world 1 kHz": ("#d55e00", "s"), "Bullet 60 Hz + island": ("#0072b2", "^")}
 _CELLS = {"stable": ("#56b4e9", "comes to rest"), "grows": ("#e69f00", "grows"),
           "not_finite": ("#a50f15", "not finite")}
-_DIGITS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def bench_figures(path):
@@ -41,7 +41,7 @@ def _decades(values):
     high = math.ceil(math.log10(max(values)) + 0.1)
     step = max(1, -(-(high - low) // 6))
     return (10.0 ** low, 10.0 ** high), {
-        10.0 ** power: f"10{str(power).translate(_DIGITS)}" for power in range(low, high + 1, step)}
+        10.0 ** power: f"10{str(power).translate(DIGITS)}" for power in range(low, high + 1, step)}
 
 
 def _accuracy_figures(bench):
@@ -158,7 +158,7 @@ def _stability_figures(bench):
             set_log_axis(axes, "x", (min(x), max(x)), {t: f"{t}" for t in (1, 2, 5, 10, 20, 33)})
             set_log_axis(axes, "y", (y[0], y[-1]), {
                 10.0 ** power: "" if p % 3 else str(10 ** power) if power < 3 else
-                f"10{str(power).translate(_DIGITS)}" for power in range(1, 7)})
+                f"10{str(power).translate(DIGITS)}" for power in range(1, 7)})
             axes.grid(False)
             kinds = [[names.index(cell) if cell in names else math.nan for cell in row]
                      for row in one["cells"]]

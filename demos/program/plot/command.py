@@ -9,15 +9,18 @@ from multiprocessing import get_context
 from table import UsageError
 
 
-def load_runs(folders):
-    """Each folder once, in the order given."""
+def load_folders(folders):
+    """Runs and atlases of the folders, each once, in the order given."""
+    from atlas import is_atlas, load_atlas
     from runs import load_run
-    places = {}
+    runs, atlases = {}, {}
     for folder in folders:
         place = os.path.realpath(folder)
-        if place not in places:
-            places[place] = load_run(folder)
-    return list(places.values())
+        if is_atlas(folder):
+            atlases[place] = atlases.get(place) or load_atlas(folder)
+        elif place not in runs:
+            runs[place] = load_run(folder)
+    return list(runs.values()), list(atlases.values())
 
 
 _jobs = []  # figures to draw and their folder; processes that fork inherit them
@@ -49,7 +52,8 @@ def draw(figures, folder):
 def marks(folders):
     """Identity and age of all summaries; another result in a folder changes them."""
     return [(stat.st_ino, stat.st_mtime_ns) for folder in folders
-            for name in ("summary.json", *(f"site{site}.json" for site in range(1, 17)))
+            for name in ("summary.json", "stability.json",
+                         *(f"site{site}.json" for site in range(1, 17)))
             if (stat := _stat(os.path.join(folder, name)))]
 
 
@@ -78,9 +82,9 @@ def publish(draft, home):
 def plot_runs(folders):
     """Draws all aside first, so that a failure leaves what was there."""
     before = marks(folders)
-    runs = load_runs(folders)
+    runs, atlases = load_folders(folders)
     from report import Report
-    report, home = Report(runs), folders[0]
+    report, home = Report(runs, atlases), folders[0]
     draft = os.path.join(home, ".plot-draft")
     shutil.rmtree(draft, ignore_errors=True)  # a killed program may have left it
     try:
@@ -102,6 +106,11 @@ def main(arguments):
         if arguments[0] == "bench":
             from benches import bench_figures
             draw(bench_figures(arguments[1]), os.path.dirname(arguments[1]))
+        elif arguments[0] == "analysis":
+            from atlas import load_atlas
+            from atlas_figures import atlas_figures
+            folder = os.path.dirname(arguments[1])
+            draw(atlas_figures(load_atlas(folder)), folder)
         else:
             from film import use_program
             from words import know_schemes

@@ -74,6 +74,15 @@ int draw(const std::string& what, const std::vector<std::string>& arguments, boo
   return runAndWait(command, is_silent);
 }
 
+/// Draws the figures of one file into its folder.
+void drawBeside(const std::string& what, const fs::path& json) {
+  if (draw(what, {json.string()}, true) != 0)
+    throw Error(
+        fmt::format("{}: its figures could not be drawn; is the folder writable and the disk not "
+                    "full?",
+                    json.string()));
+}
+
 /// The program that draws films, beside this one; empty if it is not built.
 std::string findFilmProgram() {
   std::error_code ignored;
@@ -96,12 +105,8 @@ int plotRuns(const std::vector<std::string>& folders) {
   return status;
 }
 
-void drawBench(const fs::path& json) {
-  if (draw("bench", {json.string()}, true) != 0)
-    throw Error(
-        fmt::format("{}: its figures could not be drawn; is the folder writable and the disk not "
-                    "full?",
-                    json.string()));
-}
+void drawBench(const fs::path& json) { drawBeside("bench", json); }
+
+void drawAnalysis(const fs::path& json) { drawBeside("analysis", json); }
 
 }  // namespace tandem::demos

@@ -21,4 +21,7 @@ void requireDrawing();
 /// Draws the figures of a bench's JSON file beside it. Throws Error.
 void drawBench(const std::filesystem::path& json);
 
+/// Draws the figures of an analysis beside its stability.json. Throws Error.
+void drawAnalysis(const std::filesystem::path& json);
+
 }  // namespace tandem::demos

@@ -11,7 +11,8 @@ namespace {
 class PlotCommand final : public Command {
  public:
   void declare(Arguments& arguments) override {
-    arguments.several("folders", folders_, "folders of runs; the report goes into the first");
+    arguments.several("folders", folders_,
+                      "folders of runs and analyses; the report goes into the first");
   }
 
   ExitStatus run() override {

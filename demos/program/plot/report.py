@@ -3,6 +3,7 @@
 import math
 from html import escape
 
+from atlas_section import stability_figures
 from film import Film, can_film
 from findings import coherency_findings, contact_findings, sweep_findings
 from grouping import Grouping, text_without_scheme
@@ -25,9 +26,11 @@ _KINDS = {COOPERATION: "Cooperation", CONTACT: "User-to-user contact", PLAYGROUN
 class Report:
     """Pieces of HTML, and figures that are drawn before the page is written."""
 
-    def __init__(self, runs):
-        self.title = f"Tandem: {runs[0].title}" if len(runs) == 1 else \
-            f"Tandem: {len(runs)} runs compared"
+    def __init__(self, runs, atlases=()):
+        named = [*runs, *atlases]
+        self.title = f"Tandem: {named[0].title}" if len(named) == 1 else \
+            f"Tandem: {len(runs)} runs compared" if runs else \
+            f"Tandem: stability of {len(atlases)} scenarios"
         self.blocks, self.figures = [], []
         self.heading(1, self.title)
         self.paragraph(
@@ -46,6 +49,7 @@ class Report:
         self._add_playgrounds([run for run in virtual if run.kind == PLAYGROUND])
         self._add_many(group_many(many))
         self._add_live([(run, _twin_of(run, virtual)) for run in runs if run.is_live])
+        self._add_stability(list(atlases))
         self._add_numbers(virtual)
 
     def heading(self, level, text, difference=""):
@@ -156,6 +160,19 @@ class Report:
             columns.setdefault(text_without_scheme(pair[0]), []).append(pair)
         for number, members in enumerate(columns.values(), 1):
             self.figure(live_motion(members, f"live-{number}"))
+
+    def _add_stability(self, atlases):
+        if not atlases:
+            return
+        self.heading(2, "Stability with lasting contact")
+        self.paragraph(
+            "Whether a small motion dies out while all contacts last, along one line: the tick, "
+            "packets and delay are as in a run. It tells what no single run can: how far gains "
+            "are from the border, and what the delay costs.")
+        for text, pictures in stability_figures(atlases):
+            self.paragraph(text)
+            for picture in pictures:
+                self.figure(picture)
 
     def _add_numbers(self, runs):
         if not runs:

@@ -11,6 +11,17 @@ _MARKERS = ["s", "^", "o", "x"]
 USER_COLOURS = {1: "#444444", 2: "#cc79a7", 3: "#0072b2", 4: "#e69f00", 5: "#009e73", 6: "#d55e00",
                 7: "#56b4e9", 8: "#7a3e9d"}
 
+# Names of gains on axes, their unit there, and that unit for one of SI.
+GAIN_LABELS = {
+    "coordination.stiffness": ("coordination stiffness K_t", "N/m", 1),
+    "coordination.damping": ("coordination damping B_t", "N s/m", 1),
+    "contact.stiffness": ("contact stiffness K_vc", "N/m", 1),
+    "contact.damping": ("contact damping B_vc", "N s/m", 1),
+    "device.damping": ("device damping b_dev", "N s/m", 1),
+    "network.delay": ("delay T_d", "ms", 1000)}
+
+DIGITS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")  # to raised ones
+
 # Settings with a name of their own; others are called by their key.
 _SETTINGS = {
     "contact.stiffness": "N/m", "contact.damping": "N s/m",
