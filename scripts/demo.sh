@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program, runs both experiments under all schemes, with two and
-# more users, and the playground, and draws one report. Its path is the last line. Runs from any folder.
+# more users, and the playground, analyses their stability, and draws one report. Its path is the last
+# line. Runs from any folder.
 #
 #   scripts/demo.sh                   Bullet in double precision
 #   scripts/demo.sh --float           Bullet in single precision
@@ -16,7 +17,7 @@ case "${1:-}" in
   "")      ;;
   --two-processes) live=yes; out="$checkout/out/live" ;;
   --float) program="tandem-float"; out="$checkout/out/demo-float" ;;
-  -h|--help) sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+  -h|--help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
   *)       echo "demo.sh: $1: no such option; allowed: --float, --two-processes" >&2; exit 2 ;;
 esac
 scenarios="$checkout/demos/scenarios"
@@ -25,6 +26,7 @@ damping_sweep=(0 0.25 0.5 1 2)   # b_dev [N s/m]; 0.5 is the scenarios' own valu
 all_schemes=(remote_dynamic_proxy kinematic_proxy virtual_coupling)
 contact_schemes=(remote_dynamic_proxy kinematic_proxy)   # virtual coupling has no remote user to touch
 runs=()
+analyses=()
 
 # run NAME SCENARIO [KEY=VALUE...]: runs once for each name, however many parts of the report use it.
 run() {
@@ -74,6 +76,12 @@ move_together() {   # N SCHEME MODE
 
 stand_in_a_row() {   # N SCHEME
   run "many-row-$1-$2" experiment2_many.toml "$(list_sites "$1" 3 0 0)" "experiment.scheme=$2"
+}
+
+# Maps and curves of growth with lasting contact. Coarser maps than usual save half of the time.
+analyse() {   # NAME SCENARIO
+  "$tandem" analyse "$scenarios/$2" --figures --points 40x32 --out "$out/$1" >/dev/null
+  analyses+=("$out/$1")
 }
 
 # cooperate_live NAME SCENARIO DELAY_MS [KEY=VALUE...]: runs two sites with `tandem link` between them. Site 2 only
@@ -165,8 +173,12 @@ if [[ -f "$scenarios/playground.toml" ]]; then
   run playground playground.toml
 fi
 
-step "Drawing the figures of ${#runs[@]} runs"
-"$tandem" plot "${runs[@]}" >/dev/null
+step "Stability of both experiments: maps, and curves over delay and users"
+analyse stability1 experiment1.toml
+analyse stability2 experiment2.toml
+
+step "Drawing the figures of ${#runs[@]} runs and ${#analyses[@]} analyses"
+"$tandem" plot "${runs[@]}" "${analyses[@]}" >/dev/null
 
 step "Done. Open this report in a browser:"
 echo "${runs[0]}/report.html"
