@@ -14,6 +14,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 long_simulations='NotWithAHandAloneInTheHeap|BulletsExample.GetsNoEnergy|PegInHole|PlanarReferenceInBullet'
 long_simulations+='|GuestBench.HardlyAnything|Model.AgreesForParameters|JointsForAMinute|ArmsAtRates.AFreeArm|BenchSpeed'
 long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory|AveragePosition'
+long_simulations+='|AveragedUsers|DrawnRow|DrawnPoint|UnlikeUsersInRuns'
 long_simulations+='|Room.ManyAtRest|Room.ABudget|PlanarReferenceConverges/(row16|tower9)'
 
 preset=${1:-release}
