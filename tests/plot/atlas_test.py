@@ -10,7 +10,8 @@ import numpy as np
 from support import KP, RDP, VC, FolderTest, message_of
 
 from atlas import is_atlas, load_atlas
-from atlas_figures import damping_figure, fine_figure, limits_figure, users_figure
+from atlas_figures import (damping_figure, fine_figure, limits_figure, touch_figure,
+                           users_figure)
 from atlas_maps import log_tics, map_figure
 from canvas import Sheet
 from command import main
@@ -184,6 +185,12 @@ class CurveTest(AtlasFolder):
         drawing = paint(fine_figure([self.atlas], "fine"))
         self.assertEqual([axes.get_title() for axes in drawing.axes],
                          ["virtual coupling", "kinematic proxy", "remote dynamic proxy"])
+
+    def test_touches_have_a_curve_for_each_stiffness(self):
+        atlas = load_atlas(self.make_atlas("walls", has_object=False,
+                                           touch=curves("500", "2000", x=(0.0, 0.5, 1.0))))
+        drawing = paint(touch_figure(atlas, "touch"))
+        self.assertEqual(legend_of(drawing)[:2], ["K_vc = 500 N/m", "K_vc = 2000 N/m"])
 
 
 def run(*arguments):

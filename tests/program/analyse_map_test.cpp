@@ -109,12 +109,14 @@ TEST(AnalyseFigures, ShowAllSchemesAndBecomeAReport) {
   const Outcome other =
       analyse("experiment2.toml", {"--figures", "--points", "2", "--out", folder / "other"});
   ASSERT_EQ(other.status, 0) << other.err;
+  const Words files = listFolder(folder / "other");
+  EXPECT_EQ(std::count(files.begin(), files.end(), "touch.svg"), 1);
   const Outcome plot = runTandem({"plot", folder / "one", folder / "other"});
   ASSERT_EQ(plot.status, 0) << plot.err;
   EXPECT_EQ(plot.out, folder / "one/report.html\n");
   const std::string report = readFile(folder / "one/report.html");
   for (const char* words : {"Stability with lasting contact", "stability-map-2",
-                            "stability-damping", "stability-limits-1"})
+                            "stability-damping", "stability-limits-1", "stability-touch-1"})
     EXPECT_NE(report.find(words), std::string::npos) << words;
 }
 

@@ -60,7 +60,7 @@ std::vector<std::string> listAllFiles() {
   std::vector<std::string> files;
   for (const StandInKind kind : {StandInKind::kNone, StandInKind::kHeld, StandInKind::kDynamic})
     files.push_back(fmt::format("map-{}.csv", schemeOf(kind)));
-  for (const char* figure : {"map", "damping", "users", "limits", "fine"})
+  for (const char* figure : {"map", "damping", "users", "limits", "fine", "touch"})
     for (const char* suffix : {"svg", "png"}) files.push_back(fmt::format("{}.{}", figure, suffix));
   return files;
 }
@@ -108,6 +108,7 @@ StabilityAtlas makeWholeAtlas(const std::string& title, const LoopSettings& loop
   add("coordination_limits", addCoordinationLimitJobs);
   add("contact_limits", addContactLimitJobs);
   add("fine", addFineJobs);
+  add("touch", addTouchJobs);
   runOnAllCores(jobs, show);
   return atlas;
 }

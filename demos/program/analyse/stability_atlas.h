@@ -34,7 +34,8 @@ using AtlasProgress = std::function<void(double share)>;
                                           const MapSize& size, const AtlasProgress& show);
 
 /// A map and curves for each scheme: the stiffness that meets the delay first, damping, users,
-/// criteria, and fine steps of the delay. Curves over the delay have four points for each of a map.
+/// criteria, fine steps of the delay, and touches. Curves over the delay have four points for each
+/// of a map.
 [[nodiscard]] StabilityAtlas makeWholeAtlas(const std::string& title, const LoopSettings& loop,
                                             const MapSize& size, const AtlasProgress& show);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tandem/coordination/contact_outlook.h"
 #include "tandem/coordination/stability_advice.h"
 
 #include "analyse/analysis.h"
@@ -184,6 +185,23 @@ void addFineJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs) {
   for (const StandInKind kind : listStandIns(loop))
     addCurve(set, schemeOf(kind), jobs,
              [=](double delay) { return computeWorstRate(change(loop, kind, delay)); });
+}
+
+void addTouchJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs) {
+  constexpr double kStep = 0.05;  // [N s/m]
+  constexpr int kSteps = 60;
+  if (loop.has_object) return;
+  set.x.clear();
+  for (int i = 0; i <= kSteps; ++i) set.x.push_back(i * kStep);
+  for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
+    LoopSettings there = change(makePair(loop), StandInKind::kHeld, loop.delay);
+    there.contact.stiffness *= factor;
+    addCurve(set, fmt::format("{:.4g}", there.contact.stiffness), jobs, [=](double damping) {
+      LoopSettings touch = there;
+      touch.device_damping = damping;
+      return computeRestitution(touch);
+    });
+  }
 }
 
 }  // namespace tandem::demos

@@ -50,4 +50,8 @@ void addContactLimitJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs);
 /// scheme.
 void addFineJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs);
 
+/// Over the damping of the devices, 0 to 3 N s/m: the restitution of a touch of a kinematic proxy,
+/// for a quarter of the loop's contact stiffness to twice of it. Nothing with an object.
+void addTouchJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs);
+
 }  // namespace tandem::demos

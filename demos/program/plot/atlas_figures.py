@@ -151,11 +151,40 @@ def fine_figure(atlases, name):
                   top - 24 + row * -(-len(panels) // columns), paint)
 
 
+_STIFFNESSES = ("#9ecae1", "#4292c6", "#08519c", "#08306b")  # from the softest on
+
+
+def touch_figure(atlas, name):
+    """What a touch of a kinematic proxy leaves of the speed, over the damping of the device."""
+    def paint(sheet):
+        curves = atlas.curves["touch"]
+        axes = sheet.panel(LEFT, 96, INNER, 280, "", "b_dev [N s/m]", "speed after / before")
+        own = line("#777777", 1.4, (2, 3))
+        looks = {}
+        for colour, (stiffness, values) in zip(_STIFFNESSES, curves.curves.items()):
+            label = f"K_vc = {stiffness} N/m"
+            looks[label] = line(colour, 2)
+            axes.plot(curves.x, values, **looks[label])
+        axes.axhline(1.0, **_ZERO)
+        damping = atlas.gains["device.damping"]
+        if damping <= curves.x[-1]:
+            axes.axvline(damping, **own)
+        sheet.legend([*looks.items(), ("gains energy above", _ZERO), ("b_dev of the scenario", own)],
+                     66)
+        set_axis(axes, "x", span(curves.x, share=0.0), 60)
+        set_axis(axes, "y", span(*curves.curves.values(), [1.0]), 34)
+
+    return Figure(name, f"A touch of a kinematic proxy: {atlas.short_title}",
+                  "The part of its speed that an empty hand keeps in one touch of a user who does not "
+                  "answer yet. Near 1 contact comes and goes many times until it rests.", 434, paint)
+
+
 def atlas_figures(atlas):
     """The figures of one folder, named for its files."""
     figures = [map_figure(atlas, "map")]
     makers = (("damping", lambda: damping_figure([atlas], "damping")),
               ("users", lambda: users_figure(atlas, "users")),
               ("contact_limits", lambda: limits_figure(atlas, "limits")),
-              ("fine", lambda: fine_figure([atlas], "fine")))
+              ("fine", lambda: fine_figure([atlas], "fine")),
+              ("touch", lambda: touch_figure(atlas, "touch")))
     return figures + [make() for key, make in makers if key in atlas.curves]

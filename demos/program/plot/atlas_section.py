@@ -1,6 +1,7 @@
 """The report's section on stability: what is said of its figures, and the figures."""
 
-from atlas_figures import damping_figure, fine_figure, limits_figure, users_figure
+from atlas_figures import (damping_figure, fine_figure, limits_figure, touch_figure,
+                           users_figure)
 from atlas_maps import map_figure
 
 _MAPS = (
@@ -19,6 +20,10 @@ _LIMITS = (
 _FINE = (
     "A packet’s age goes up and down by a packet period, and growth with it. A border of the delay "
     "is no single number.")
+
+_TOUCH = (
+    "A kinematic proxy is a wall until its user answers. Sampling makes a stiff wall give back more "
+    "than it should: above 1 each touch gains energy.")
 
 
 def _numbered(make, atlases, curves, name):
@@ -41,5 +46,6 @@ def stability_figures(atlases):
         (_DAMPING, _together(damping_figure, atlases, "damping", "stability-damping")),
         (_USERS, _numbered(users_figure, atlases, "users", "stability-users")),
         (_LIMITS, _numbered(limits_figure, atlases, "contact_limits", "stability-limits")),
-        (_FINE, _together(fine_figure, atlases, "fine", "stability-fine"))]
+        (_FINE, _together(fine_figure, atlases, "fine", "stability-fine")),
+        (_TOUCH, _numbered(touch_figure, atlases, "touch", "stability-touch"))]
     return [(text, figures) for text, figures in parts if figures]
