@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tandem/coordination/site_set.h"
+
 #include "bullet_bridge/src/native/native_coupling.h"
 #include "coordination/src/bad_value.h"
 
