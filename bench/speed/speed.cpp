@@ -157,6 +157,12 @@ std::vector<Plan> makePlans(bool quick) {
             {}},
            kAllWays,
            touch == SpeedTouch::kCube ? turns : 3 * turns});
+  for (const int users : quick ? std::vector<int>{2, 8} : std::vector<int>{2, 4, 8, 16})
+    plans.push_back({{fmt::format("{} users, cube pressed from both sides", users),
+                      {2, false, 1, SpeedTouch::kCube, users},
+                      {}},
+                     {SpeedWay::kBare60, SpeedWay::kIsland},
+                     turns});
   return plans;
 }
 

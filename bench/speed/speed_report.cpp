@@ -42,6 +42,7 @@ nlohmann::json caseJson(const SpeedCase& c) {
           {"bodies", c.scene.bodies},
           {"awake", c.scene.awake},
           {"objects", c.scene.objects},
+          {"users", c.scene.users},
           {"touch", touches[static_cast<int>(c.scene.touch)]},
           {"results", std::move(results)}};
 }

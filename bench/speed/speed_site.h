@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+
 #include "tandem/coordination/link.h"
 #include "tandem/falcon/haptic_device.h"
 #include "tandem/plugin/site.h"
@@ -8,7 +10,7 @@
 
 namespace tandem::demos::bench {
 
-/// A scene with a site in a host at 60 Hz: a device, and a remote user whose packets come 128 times
+/// A scene with a site in a host at 60 Hz: a device, and remote users whose packets come 128 times
 /// per second.
 class SpeedSite {
  public:
@@ -39,12 +41,21 @@ class SpeedSite {
   /// Packets carry no objects: these stay tied to where they were shared.
   class PathLink final : public Link {
    public:
-    explicit PathLink(const SpeedScene& scene) : scene_(scene) { packet_.sender = PeerId{2}; }
+    /// `place`: of the remote user; the first is 0.
+    PathLink(const SpeedScene& scene, int place) : scene_(scene), place_(place) {
+      packet_.sender = id();
+    }
+    [[nodiscard]] PeerId id() const noexcept {
+      return PeerId{static_cast<std::uint32_t>(place_) + 2};
+    }
+    /// The first touches the cube, the others stand beside it in a row.
+    [[nodiscard]] PointState findUser(double now) const;
     void send(const StatePacket&, double) noexcept override {}
     std::optional<Arrival> receive(double from, double until) noexcept override;
 
    private:
     SpeedScene scene_;
+    int place_;
     StatePacket packet_;
   };
 
@@ -52,7 +63,7 @@ class SpeedSite {
 
   SpeedWorld world_;
   PathDevice device_;
-  PathLink link_;
+  std::deque<PathLink> links_;
   Site site_;
 };
 

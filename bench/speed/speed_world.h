@@ -25,6 +25,7 @@ struct SpeedScene {
   bool awake = false;  ///< these never sleep; else they never wake
   int objects = 1;     ///< shared cubes, also on the floor
   SpeedTouch touch = SpeedTouch::kNothing;
+  int users = 2;  ///< all but one are remote; the first of these touches the cube, too
 };
 
 [[nodiscard]] inline bool isPressed(const SpeedScene& scene) {

@@ -105,9 +105,10 @@ def _speed_figures(bench):
         ("many shared, none touched", "objects", "nothing", False)]
 
     def cases_of(_, count, touch, awake):
-        # Sweeps over objects are in a world of their own size.
+        # Sweeps over objects are in a world of their own size, and those over users in the table.
         return [case for case in bench["cases"] if case["touch"] == touch and
-                case["awake"] == awake and ("shared" in case["name"]) == (count == "objects")]
+                case["awake"] == awake and "users" not in case["name"] and
+                ("shared" in case["name"]) == (count == "objects")]
 
     def paint(sheet):
         looks = {way: _looks(*look) for way, look in _WAYS.items()}
