@@ -35,14 +35,10 @@ bool Membership::agree(double now) noexcept {
   });
   const SiteSet before = members_;
   members_ = findMembers();
-  if (members_ != before) joins_ = before == alone_ || (joins_ && members_ != alone_);
-  if (!joins_) {
-    leader_.reset();
-  } else if (!isLed(now)) {
-    leader_ = findLeader(now);
-    joins_ = leader_.has_value();
-  }
-  return members_ != before;
+  const bool has_changed = members_ != before;
+  const bool joins = leader_ || (has_changed && before == alone_);
+  if (joins && !isLed(now)) leader_ = findLeader(now);
+  return has_changed;
 }
 
 bool Membership::isTied(PeerId peer, bool was_tied) const noexcept {
@@ -66,6 +62,7 @@ const Membership::Other& Membership::of(PeerId peer) const noexcept {
 /// Those who are heard, if they agree; else those of the members who are. Who left counts no more,
 /// though a newcomer is not heard by all.
 SiteSet Membership::findMembers() const noexcept {
+  if (heard_ == members_) return members_;
   for (const SiteSet part : {SiteSet::all(), members_})
     if (doAllHear(part)) return heard_ & part;
   return members_;

@@ -48,10 +48,7 @@ class Membership {
   /// The member whose copies this site takes over; empty if it joins nobody.
   [[nodiscard]] const std::optional<PeerId>& leader() const noexcept { return leader_; }
   /// It has taken them over, or nothing of them comes.
-  void endJoin() noexcept {
-    joins_ = false;
-    leader_.reset();
-  }
+  void endJoin() noexcept { leader_.reset(); }
   /// What the others are told at `now` [s]. A site that joins counts nobody until its copies have
   /// come over.
   [[nodiscard]] std::optional<RollCall> tell(double now) const noexcept;
@@ -77,7 +74,6 @@ class Membership {
   MembershipSettings settings_;
   SiteSet alone_;            ///< this site
   SiteSet heard_, members_;  ///< with this site
-  bool joins_ = false;       ///< it was alone, and its copies have not come over
   std::optional<PeerId> leader_;
   std::optional<double> begun_at_;  ///< [s]
   std::array<Other, kMaxPeerId> others_;
