@@ -7,6 +7,7 @@
 
 #include "tandem/coordination/stability_advice.h"
 
+#include "stability/loop_checks.h"
 #include "stability/loop_model.h"
 
 // One touch: the tick of LoopModel with contact that opens. Within a tick it may open and close
@@ -80,7 +81,7 @@ class Touch {
 }  // namespace
 
 double computeRestitution(const LoopSettings& settings) {
-  (void)computeGrowthRate(settings, MotionMode::kDeaf);  // refuses settings out of range
+  stability::checkLoop(settings);
   if (settings.has_object)
     throw std::invalid_argument("has_object = 1: a restitution is of users who touch each other");
   Touch touch(settings);

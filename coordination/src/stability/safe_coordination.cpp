@@ -5,6 +5,8 @@
 
 #include "tandem/coordination/stability_advice.h"
 
+#include "stability/loop_checks.h"
+
 namespace tandem {
 namespace {
 
@@ -102,7 +104,7 @@ class Search {
 }  // namespace
 
 SafeCoordination chooseCoordination(const LoopSettings& settings, const GivenCoordination& given) {
-  (void)computeGrowthRate(settings, MotionMode::kDeaf);  // refuses settings out of range
+  stability::checkLoop(settings);
   const Search search(settings, given);
   SafeCoordination chosen;
   std::optional<CouplerGains> gains = search.findStiffest();

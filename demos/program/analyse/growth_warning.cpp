@@ -11,26 +11,17 @@
 #include "terminal/usage_error.h"
 
 namespace tandem::demos {
-namespace {
-
-/// Checks what makeLoop() does not: numbers that LoopSettings may not have.
-bool mayBeAnalysed(const LoopSettings& loop) {
-  try {
-    return std::isfinite(computeGrowthRate(loop, MotionMode::kDeaf));
-  } catch (const std::invalid_argument&) {
-    return false;
-  }
-}
-
-}  // namespace
 
 std::optional<LoopSettings> findLoop(const Scenario& scenario) {
   try {
     const LoopSettings loop = makeLoop(scenario);
-    if (mayBeAnalysed(loop)) return loop;
+    (void)findAnalysedPacketRate(loop);  // refuses numbers that no loop may have
+    return loop;
   } catch (const UsageError&) {
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 std::string describeGrowth(const ModeGrowth& worst) {
