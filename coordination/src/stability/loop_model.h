@@ -23,7 +23,8 @@ struct LoopModel {
   Eigen::MatrixXd weights;  ///< site by channel: how much of it the site hears
 };
 
-/// Of equal users one site: it hears its own past N - 1 times, with a sign, or not. Of others all.
+/// Equal users need one site, which hears its own past N - 1 times, with a sign, or not. Others
+/// need all sites.
 [[nodiscard]] LoopModel makeModeModel(const LoopSettings& settings, MotionMode mode);
 
 /// All users by themselves, whose packets are sent `phases` of a period apart; empty: in phase.

@@ -8,10 +8,8 @@
 namespace tandem {
 namespace {
 
-constexpr double kStep = 1.15;       // of a search
-constexpr double kRange = 1000.0;    // of a search
-constexpr double kPrecision = 1e-5;  // of a border
-constexpr double kBeyond = 1.2;      // of a remedy
+constexpr double kRange = 1000.0;  // of a search, as a factor
+constexpr double kBeyond = 1.2;    // of a remedy
 
 /// A gain, by its place in LoopGain.
 struct GainRow {
@@ -71,27 +69,8 @@ double rateAt(LoopSettings settings, LoopGain gain, double value) {
   return computeWorstRate(settings);
 }
 
-/// The border between two values, one of which is stable.
-double bisect(const LoopSettings& settings, LoopGain gain, double stays, double changes,
-              bool is_stable) {
-  while (std::abs(changes / stays - 1.0) > kPrecision) {
-    const double middle = std::sqrt(stays * changes);
-    (rateAt(settings, gain, middle) < 0.0) == is_stable ? stays = middle : changes = middle;
-  }
-  return std::sqrt(stays * changes);
-}
-
-/// Searches from a value by factors of `step` for a change of stability.
-std::optional<double> findBorder(const LoopSettings& settings, LoopGain gain, double from,
-                                 double step, bool is_stable) {
-  const double most = findMost(gain, from), least = from / kRange;
-  for (double last = from;;) {
-    const double next = std::min(last * step, most);
-    if (next == last || next < least) return std::nullopt;
-    if ((rateAt(settings, gain, next) < 0.0) != is_stable)
-      return bisect(settings, gain, last, next, is_stable);
-    last = next;
-  }
+bool isStable(const LoopSettings& settings, LoopGain gain, double value) {
+  return rateAt(settings, gain, value) < 0.0;
 }
 
 /// The rate over the logarithm of a gain, by a change of 2 % each way.
@@ -122,9 +101,8 @@ std::optional<double> findLargestStiffness(const LoopSettings& settings, const G
                                            bool is_stable) {
   if (is_stable) return margin.above;
   if (!margin.below) return 0.0;
-  return rateAt(settings, margin.gain, *margin.below / (1.0 + 10.0 * kPrecision)) < 0.0
-             ? margin.below
-             : std::nullopt;
+  const double beyond = 1.0 + 10.0 * BorderSearch().precision;
+  return isStable(settings, margin.gain, *margin.below / beyond) ? margin.below : std::nullopt;
 }
 
 }  // namespace
@@ -168,15 +146,32 @@ const ModeGrowth& Advice::worst() const noexcept {
   return *std::max_element(modes.begin(), std::prev(modes.end()), &growsSlower);
 }
 
+std::optional<double> findBorder(const LoopSettings& settings, LoopGain gain,
+                                 const BorderSearch& search) {
+  const bool is_stable = computeWorstRate(settings) < 0.0;
+  double stays = search.from, changes = search.from;
+  do {
+    if (changes == search.to) return std::nullopt;
+    stays = changes;
+    changes = search.step > 1.0 ? std::min(stays * search.step, search.to)
+                                : std::max(stays * search.step, search.to);
+  } while (isStable(settings, gain, changes) == is_stable);
+  while (std::abs(changes / stays - 1.0) > search.precision) {
+    const double middle = std::sqrt(stays * changes);
+    (isStable(settings, gain, middle) == is_stable ? stays : changes) = middle;
+  }
+  return std::sqrt(stays * changes);
+}
+
 GainMargin computeMargin(const LoopSettings& settings, LoopGain gain, bool searches) {
   GainMargin margin{gain, valueOf(settings, gain), {}, {}, 0.0};
   margin.slope = computeSlope(settings, gain, margin.value);
   if (!searches) return margin;
-  const bool is_stable = computeWorstRate(settings) < 0.0;
   const double from = std::max(margin.value, rowOf(gain).least);
+  const BorderSearch up{from, findMost(gain, from)};
   if (margin.value >= from)
-    margin.below = findBorder(settings, gain, margin.value, 1.0 / kStep, is_stable);
-  margin.above = findBorder(settings, gain, from, kStep, is_stable);
+    margin.below = findBorder(settings, gain, {from, from / kRange, 1.0 / up.step});
+  margin.above = findBorder(settings, gain, up);
   return margin;
 }
 

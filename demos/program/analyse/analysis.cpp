@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "analyse/jobs.h"
 
 namespace tandem::demos {
 namespace {
@@ -100,12 +101,12 @@ std::string describeContact(const Analysis& a) {
 
 /// The searches for borders take nearly all of the time.
 std::vector<GainMargin> computeMargins(const LoopSettings& loop) {
-  std::vector<std::future<GainMargin>> running;
-  for (const LoopGain gain : allLoopGains())
-    running.push_back(
-        std::async(std::launch::async, [&loop, gain] { return computeMargin(loop, gain); }));
-  std::vector<GainMargin> margins;
-  for (auto& one : running) margins.push_back(one.get());
+  std::vector<GainMargin> margins(allLoopGains().size());
+  Jobs jobs;
+  for (std::size_t i = 0; i < margins.size(); ++i)
+    jobs.emplace_back(
+        [&loop, &margins, i] { margins[i] = computeMargin(loop, allLoopGains()[i]); });
+  runOnAllCores(jobs, [](double) {});
   return margins;
 }
 

@@ -49,7 +49,7 @@ GrowthWatch::Verdict GrowthWatch::judge(LoopSettings loop, double delay) {
   return verdict;
 }
 
-std::string GrowthWatch::tell(const Verdict& verdict) const {
+std::string GrowthWatch::tell(const Verdict& verdict) {
   const double delay_ms = 1e3 * verdict.delay;
   if (verdict.worst.growth.rate < 0.0)
     return fmt::format("at the measured delay of {:.0f} ms the gains fit again", delay_ms);

@@ -31,7 +31,7 @@ class GrowthWatch {
 
   [[nodiscard]] static Verdict judge(LoopSettings loop, double delay);
   [[nodiscard]] bool isNews(double delay) const noexcept;
-  [[nodiscard]] std::string tell(const Verdict& verdict) const;
+  [[nodiscard]] static std::string tell(const Verdict& verdict);
 
   std::optional<LoopSettings> loop_;
   std::future<Verdict> running_;

@@ -25,24 +25,6 @@ bool isStable(LoopSettings loop, LoopGain gain, double value) {
   return computeWorstRate(loop) < 0.0;
 }
 
-/// Where stability changes: searches from `from` by factors to `to`, above or below. Empty if it
-/// does not change.
-std::optional<double> findChange(const LoopSettings& loop, LoopGain gain, double from, double to,
-                                 double factor) {
-  const bool is_stable = isStable(loop, gain, from);
-  double stays = from, changes = from;
-  do {
-    if (factor > 1.0 ? changes >= to : changes <= to) return std::nullopt;
-    stays = changes;
-    changes *= factor;
-  } while (isStable(loop, gain, changes) == is_stable);
-  while (std::abs(changes - stays) > kPrecision * std::abs(changes)) {
-    const double middle = 0.5 * (stays + changes);
-    (isStable(loop, gain, middle) == is_stable ? stays : changes) = middle;
-  }
-  return 0.5 * (stays + changes);
-}
-
 /// Makes a curve whose values are computed by jobs, one for each x.
 void addCurve(CurveSet& set, const std::string& name, Jobs& jobs,
               const std::function<std::optional<double>(double x)>& compute) {
@@ -72,8 +54,9 @@ double computeHeldRate(LoopSettings loop, double users) {
 std::optional<double> findLargest(const LoopSettings& loop, LoopGain gain) {
   constexpr double kStep = 1.2, kMost = 1e6, kLeast = 1e-2;  // [N/m]
   const double value = valueOf(loop, gain);
-  return isStable(loop, gain, value) ? findChange(loop, gain, value, kMost, kStep)
-                                     : findChange(loop, gain, value, kLeast, 1.0 / kStep);
+  const bool is_stable = isStable(loop, gain, value);
+  return findBorder(
+      loop, gain, {value, is_stable ? kMost : kLeast, is_stable ? kStep : 1.0 / kStep, kPrecision});
 }
 
 /// A criterion over the delays of a set; empty where it allows no stiffness.
@@ -127,10 +110,11 @@ void addDampingJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs) {
   constexpr double kFirst = 0.05, kMost = 200.0, kStep = 1.5;  // [N s/m], and the search's factor
   for (const StandInKind kind : listStandIns(loop))
     addCurve(set, schemeOf(kind), jobs, [=](double delay) -> std::optional<double> {
-      const LoopSettings there = change(loop, kind, delay);
+      LoopSettings there = change(loop, kind, delay);
       if (isStable(there, LoopGain::kDeviceDamping, 0.0)) return 0.0;
-      if (isStable(there, LoopGain::kDeviceDamping, kFirst)) return kFirst;
-      return findChange(there, LoopGain::kDeviceDamping, kFirst, kMost, kStep);
+      there.device_damping = kFirst;
+      if (computeWorstRate(there) < 0.0) return kFirst;
+      return findBorder(there, LoopGain::kDeviceDamping, {kFirst, kMost, kStep, kPrecision});
     });
 }
 

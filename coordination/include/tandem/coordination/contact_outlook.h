@@ -17,7 +17,7 @@ namespace tandem {
 /// an object.
 [[nodiscard]] double computeRestitution(const LoopSettings& settings);
 
-/// What a user contact will do whom a hand begins to push steadily.
+/// Tells how the contact of two users goes on, once a hand begins to push steadily.
 struct ContactOutlook {
   /// Motion with lasting contact grows (computeWorstRate() >= 0): it comes and goes as long as the
   /// users push, about once in a round trip.

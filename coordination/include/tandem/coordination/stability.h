@@ -90,7 +90,8 @@ enum class MotionMode {
 struct Growth {
   double rate = 0.0;       ///< of its size [1/s]; below 0: it dies out
   double frequency = 0.0;  ///< [Hz]
-  /// Of users who differ: speed of each one's device, over the fastest one's. Below 0: against it.
+  /// Speed of each user's device, over the fastest one's; below 0: against it. Empty if users are
+  /// alike.
   std::vector<double> shares;
 };
 

@@ -28,7 +28,7 @@ enum class LoopGain {
 [[nodiscard]] const char* name(LoopGain gain) noexcept;
 [[nodiscard]] const char* unit(LoopGain gain) noexcept;
 
-/// Of users who differ: what all share; each has its factor.
+/// A gain as all users share it; who differs has a factor of it.
 [[nodiscard]] double valueOf(const LoopSettings& settings, LoopGain gain) noexcept;
 void setValue(LoopSettings& settings, LoopGain gain, double value) noexcept;
 
@@ -38,9 +38,20 @@ struct ModeGrowth {
   Growth growth;
 };
 
-/// Of the mode that lasts and grows fastest.
+/// Finds the mode that grows fastest of those that last.
 [[nodiscard]] ModeGrowth computeWorstGrowth(const LoopSettings& settings);
 [[nodiscard]] double computeWorstRate(const LoopSettings& settings);
+
+/// A search for the border of stability of a gain: by factors of `step`, below or above 1.
+struct BorderSearch {
+  double from = 0.0, to = 0.0;  ///< from the gain's value, or from the least above it
+  double step = 1.15;
+  double precision = 1e-5;  ///< part of the border
+};
+
+/// Nearest value at which stability is another than at the gain's own; empty if none is found.
+[[nodiscard]] std::optional<double> findBorder(const LoopSettings& settings, LoopGain gain,
+                                               const BorderSearch& search);
 
 /// How a gain stands to stability, all others as they are.
 struct GainMargin {
@@ -72,7 +83,7 @@ struct Advice {
   std::optional<Remedy>
       remedy;  ///< smallest single change, if it is unstable; empty: there is none
 
-  /// Of the modes that last.
+  /// Gives the mode that grows fastest of those that last.
   [[nodiscard]] const ModeGrowth& worst() const noexcept;
 };
 
