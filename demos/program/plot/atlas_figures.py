@@ -9,6 +9,7 @@ from words import scheme_colour, scheme_label, scheme_marker
 _DASH = (6, 4)
 _DASHES = (None, _DASH, (2, 3))  # of the first, second and third scenario
 _ZERO = line("#000000", 1.2)
+_OWN = line("#777777", 1.4, (2, 3))  # the scenario's own value
 
 
 def _looks(scheme, dash=None):
@@ -28,10 +29,9 @@ def damping_figure(atlases, name):
                 label = f"{atlas.short_title}, {label}"
             looks[label] = _looks(scheme, _DASHES[atlases.index(atlas) % len(_DASHES)])
             axes.plot(1e3 * x, values, **looks[label])
-        own = line("#777777", 1.4, (2, 3))
         for damping in {atlas.gains["device.damping"] for atlas in atlases}:
-            axes.axhline(damping, **own)
-        sheet.legend([*looks.items(), ("b_dev of the scenario", own)], 66)
+            axes.axhline(damping, **_OWN)
+        sheet.legend([*looks.items(), ("b_dev of the scenario", _OWN)], 66)
         set_axis(axes, "x", span(*(1e3 * x for _, _, x, _ in rows), share=0.0), 60)
         set_axis(axes, "y", (0, 1.08 * max(1.0, *(np.nanmax(values, initial=0.0)
                                                  for *_, values in rows))), 34)
@@ -126,8 +126,7 @@ def fine_figure(atlases, name):
     width = (INNER - gap * (columns - 1)) / columns
 
     def paint(sheet):
-        own = line("#777777", 1.4, (2, 3))
-        sheet.legend([("border", _ZERO), ("the scenario’s own delay", own)], 55)
+        sheet.legend([("border", _ZERO), ("the scenario’s own delay", _OWN)], 55)
         for p, (atlas, scheme) in enumerate(panels):
             curves = atlas.curves["fine"]
             title = scheme_label(scheme)
@@ -141,7 +140,7 @@ def fine_figure(atlases, name):
             low, high = span(values)
             if low < 0 < high:
                 axes.axhline(0.0, **_ZERO)
-            axes.axvline(1e3 * atlas.gains["network.delay"], **own)
+            axes.axvline(1e3 * atlas.gains["network.delay"], **_OWN)
             set_axis(axes, "x", span(1e3 * curves.x, share=0.0), 50)
             set_axis(axes, "y", (low, high), 34)
 
@@ -159,7 +158,6 @@ def touch_figure(atlas, name):
     def paint(sheet):
         curves = atlas.curves["touch"]
         axes = sheet.panel(LEFT, 96, INNER, 280, "", "b_dev [N s/m]", "speed after / before")
-        own = line("#777777", 1.4, (2, 3))
         looks = {}
         for colour, (stiffness, values) in zip(_STIFFNESSES, curves.curves.items()):
             label = f"K_vc = {stiffness} N/m"
@@ -168,8 +166,8 @@ def touch_figure(atlas, name):
         axes.axhline(1.0, **_ZERO)
         damping = atlas.gains["device.damping"]
         if damping <= curves.x[-1]:
-            axes.axvline(damping, **own)
-        sheet.legend([*looks.items(), ("gains energy above", _ZERO), ("b_dev of the scenario", own)],
+            axes.axvline(damping, **_OWN)
+        sheet.legend([*looks.items(), ("gains energy above", _ZERO), ("b_dev of the scenario", _OWN)],
                      66)
         set_axis(axes, "x", span(curves.x, share=0.0), 60)
         set_axis(axes, "y", span(*curves.curves.values(), [1.0]), 34)
