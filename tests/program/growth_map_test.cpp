@@ -11,28 +11,14 @@
 #include "demos/program/analyse/map_options.h"
 #include "demos/program/analyse/stability_curves.h"
 #include "demos/program/terminal/usage_error.h"
+#include "stability/papers_loops.h"
 
 namespace tandem {
 namespace {
 
 using namespace demos;
 
-LoopSettings makeCoupled() {
-  LoopSettings loop;
-  loop.stand_in = StandInKind::kNone;
-  return loop;
-}
-
-/// Experiment II: users push each other.
-LoopSettings makeTouching(StandInKind kind) {
-  LoopSettings loop;
-  loop.stand_in = kind;
-  loop.has_object = false;
-  loop.contact = {2000.0, 1.0};
-  loop.coordination = {200.0, 10.0};
-  loop.delay = 0.1;
-  return loop;
-}
+LoopSettings makeCoupled() { return test::makeFirstExperiment(StandInKind::kNone); }
 
 void run(const Jobs& jobs) {
   runOnAllCores(jobs, [](double) {});
@@ -159,7 +145,7 @@ TEST(StabilityCurves, DampingIsWhatEachSchemeNeeds) {
   expectNear(computeAt(addDampingJobs, first, 0, delays), {0.0, 0.0, 0.0, 0.63, 1.11}, 0.01);
   expectNear(computeAt(addDampingJobs, first, 1, delays), {7.1, 9.0, 12.8, 12.9, 13.2}, 0.06);
   expectNear(computeAt(addDampingJobs, first, 2, delays), {2.3, 1.7, 2.4, 2.3, 2.0}, 0.06);
-  const LoopSettings second = makeTouching(StandInKind::kDynamic);
+  const LoopSettings second = test::makeSecondExperiment(StandInKind::kDynamic);
   expectNear(computeAt(addDampingJobs, second, 0, delays), {14.6, 17.2, 18.7, 19.4, 19.4}, 0.06);
   expectNear(computeAt(addDampingJobs, second, 1, delays), {0.0, 0.0, 1.14, 2.68, 3.25}, 0.01);
 }
@@ -188,11 +174,12 @@ TEST(StabilityCurves, LimitsAreTheExactBorders) {
   const std::vector<double> delays = {0.02, 0.05, 0.1, 0.2};
   expectNear(computeAt(addCoordinationLimitJobs, LoopSettings(), 0, delays),
              {1598.0, 389.5, 178.8, 104.5}, 0.1);
-  expectNear(computeAt(addContactLimitJobs, makeTouching(StandInKind::kHeld), 0, delays),
-             {97.2, 42.99, 22.42, 12.49}, 0.06);
+  expectNear(
+      computeAt(addContactLimitJobs, test::makeSecondExperiment(StandInKind::kHeld), 0, delays),
+      {97.2, 42.99, 22.42, 12.49}, 0.06);
   CurveSet none;
   Jobs jobs;
-  addCoordinationLimitJobs(makeTouching(StandInKind::kHeld), none, jobs);
+  addCoordinationLimitJobs(test::makeSecondExperiment(StandInKind::kHeld), none, jobs);
   EXPECT_TRUE(none.curves.empty() && jobs.empty());
 }
 

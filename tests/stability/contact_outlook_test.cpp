@@ -6,18 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include "stability/papers_loops.h"
+
 namespace tandem {
 namespace {
 
-/// Experiment II: users push each other, 100 ms.
+/// Experiment II with another contact and device.
 LoopSettings makeTouch(StandInKind kind, double stiffness, double device_damping) {
-  LoopSettings settings;
-  settings.stand_in = kind;
-  settings.has_object = false;
-  settings.contact = {stiffness, 1.0};
-  settings.coordination = {200.0, 10.0};
+  LoopSettings settings = test::makeSecondExperiment(kind);
+  settings.contact.stiffness = stiffness;
   settings.device_damping = device_damping;
-  settings.delay = 0.1;
   return settings;
 }
 

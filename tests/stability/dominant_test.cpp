@@ -24,16 +24,13 @@ double computeRadius(const Eigen::MatrixXd& matrix) {
 
 /// A loop with many packets on their way, drawn.
 LoopSettings drawLongLoop(test::Random& random, int i) {
-  const auto draw = [&](double least, double most) {
-    return least * std::pow(most / least, random.uniform(0.0, 1.0));
-  };
   LoopSettings settings;
   settings.stand_in = static_cast<StandInKind>(i % 3);
   settings.packet_rate = i % 4 == 0 ? 60.0 : 128.0;
-  settings.delay = draw(0.15, 0.5);
-  settings.coordination = {draw(10.0, 2000.0), draw(1.0, 100.0)};
-  settings.contact = {draw(100.0, 8000.0), draw(0.2, 5.0)};
-  settings.device_damping = draw(0.1, 10.0);
+  settings.delay = random.logUniform(0.15, 0.5);
+  settings.coordination = {random.logUniform(10.0, 2000.0), random.logUniform(1.0, 100.0)};
+  settings.contact = {random.logUniform(100.0, 8000.0), random.logUniform(0.2, 5.0)};
+  settings.device_damping = random.logUniform(0.1, 10.0);
   return settings;
 }
 

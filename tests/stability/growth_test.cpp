@@ -9,27 +9,13 @@
 #include "tandem/coordination/stability.h"
 
 #include "coordination/src/stability/monodromy.h"
+#include "stability/papers_loops.h"
 
 namespace tandem {
 namespace {
 
-/// Experiment I: one shared cube, 50 ms.
-LoopSettings makeFirst(StandInKind stand_in) {
-  LoopSettings settings;
-  settings.stand_in = stand_in;
-  return settings;
-}
-
-/// Experiment II: users push each other, 100 ms.
-LoopSettings makeSecond(StandInKind stand_in) {
-  LoopSettings settings;
-  settings.stand_in = stand_in;
-  settings.has_object = false;
-  settings.contact = {2000.0, 1.0};
-  settings.coordination = {200.0, 10.0};
-  settings.delay = 0.1;
-  return settings;
-}
+using test::makeFirstExperiment;
+using test::makeSecondExperiment;
 
 double rateOf(const LoopSettings& settings, MotionMode mode) {
   return computeGrowthRate(settings, mode);
@@ -43,20 +29,22 @@ struct Row {
 
 TEST(Growth, PapersRowsAreThoseThatRunsConfirmed) {
   const Row rows[] = {
-      {"I virtual coupling", makeFirst(StandInKind::kNone), -2.43, -0.583},
-      {"I kinematic", makeFirst(StandInKind::kHeld), 8.05, 7.24},
-      {"I dynamic", makeFirst(StandInKind::kDynamic), 1.08, 1.91},
-      {"II kinematic", makeSecond(StandInKind::kHeld), 10.52, 13.69},
-      {"II dynamic", makeSecond(StandInKind::kDynamic), -0.28, 1.46},
+      {"I virtual coupling", makeFirstExperiment(StandInKind::kNone), -2.43, -0.583},
+      {"I kinematic", makeFirstExperiment(StandInKind::kHeld), 8.05, 7.24},
+      {"I dynamic", makeFirstExperiment(StandInKind::kDynamic), 1.08, 1.91},
+      {"II kinematic", makeSecondExperiment(StandInKind::kHeld), 10.52, 13.69},
+      {"II dynamic", makeSecondExperiment(StandInKind::kDynamic), -0.28, 1.46},
   };
   for (const Row& row : rows) {
     EXPECT_NEAR(rateOf(row.settings, MotionMode::kCommon), row.common, 0.006) << row.name;
     EXPECT_NEAR(rateOf(row.settings, MotionMode::kDifference), row.difference, 0.006) << row.name;
   }
-  EXPECT_NEAR(computeGrowth(makeFirst(StandInKind::kDynamic), MotionMode::kDifference).frequency,
-              23.8, 0.05);
-  EXPECT_NEAR(computeGrowth(makeSecond(StandInKind::kDynamic), MotionMode::kDifference).frequency,
-              4.1, 0.05);
+  EXPECT_NEAR(
+      computeGrowth(makeFirstExperiment(StandInKind::kDynamic), MotionMode::kDifference).frequency,
+      23.8, 0.05);
+  EXPECT_NEAR(
+      computeGrowth(makeSecondExperiment(StandInKind::kDynamic), MotionMode::kDifference).frequency,
+      4.1, 0.05);
 }
 
 // Runs of 50 to 200 s have these boundaries, within 0.01 %.
@@ -74,21 +62,21 @@ TEST(Growth, IsZeroAtTheBoundariesOfRuns) {
   const auto b_dev = [](LoopSettings& s) -> double& { return s.device_damping; };
   const auto delay = [](LoopSettings& s) -> double& { return s.delay; };
   constexpr auto kDifference = MotionMode::kDifference;
-  const LoopSettings coupled = makeFirst(StandInKind::kNone);
+  const LoopSettings coupled = makeFirstExperiment(StandInKind::kNone);
   expectBoundary(coupled, K_t, 389.451, kDifference);
   expectBoundary(coupled, B_t, 8.41134, kDifference);
   expectBoundary(coupled, B_t, 38.4306, kDifference);
   expectBoundary(coupled, delay, 0.0849262, kDifference);
   expectBoundary(coupled, K_vc, 4423.77, kDifference);
   expectBoundary(coupled, B_vc, 0.605915, kDifference);
-  const LoopSettings dynamic = makeFirst(StandInKind::kDynamic);
+  const LoopSettings dynamic = makeFirstExperiment(StandInKind::kDynamic);
   expectBoundary(dynamic, K_vc, 390.671, kDifference);
   expectBoundary(dynamic, b_dev, 2.36404, kDifference);
-  const LoopSettings touched = makeSecond(StandInKind::kDynamic);
+  const LoopSettings touched = makeSecondExperiment(StandInKind::kDynamic);
   expectBoundary(touched, K_t, 73.9438, kDifference);
   expectBoundary(touched, b_dev, 2.67771, kDifference);
   expectBoundary(touched, K_vc, 20.4861, kDifference);
-  LoopSettings held = makeFirst(StandInKind::kNone);
+  LoopSettings held = makeFirstExperiment(StandInKind::kNone);
   held.hand = {0.0, 300.0, 5.0};
   expectBoundary(held, K_t, 2101.17, kDifference);
 }
@@ -96,7 +84,7 @@ TEST(Growth, IsZeroAtTheBoundariesOfRuns) {
 // A wall: one tick leads (x, v) by a matrix of two rows.
 TEST(Growth, OfAHandAtAWallIsThatOfItsTwoRows) {
   for (const double K : {500.0, 2000.0, 4000.0}) {
-    LoopSettings wall = makeSecond(StandInKind::kHeld);
+    LoopSettings wall = makeSecondExperiment(StandInKind::kHeld);
     wall.contact.stiffness = K;
     const double T = 1e-3, m = wall.device_mass, b = wall.device_damping, B = wall.contact.damping;
     const double a = b * T / m, p1 = (1.0 - std::exp(-a)) / a, p2 = (1.0 - p1) / a;
@@ -110,7 +98,7 @@ TEST(Growth, OfAHandAtAWallIsThatOfItsTwoRows) {
 
 // The hold alone gives energy: rho - 1 = K T^2 / (4 m) for each tick.
 TEST(Growth, OfTheHoldAloneIsASmallShareOfTheSpring) {
-  LoopSettings hold = makeFirst(StandInKind::kNone);
+  LoopSettings hold = makeFirstExperiment(StandInKind::kNone);
   hold.coordination = {0.0, 0.0};
   hold.contact.damping = hold.device_damping = 0.0;
   hold.packet_rate = hold.haptic_rate;
@@ -125,7 +113,8 @@ TEST(Growth, OfTheHoldAloneIsASmallShareOfTheSpring) {
 
 TEST(Growth, MovingEverythingAlongMeetsNoForce) {
   for (const StandInKind kind : {StandInKind::kNone, StandInKind::kHeld, StandInKind::kDynamic}) {
-    const stability::Monodromy loop(stability::makeModeModel(makeFirst(kind), MotionMode::kCommon));
+    const stability::Monodromy loop(
+        stability::makeModeModel(makeFirstExperiment(kind), MotionMode::kCommon));
     const Eigen::VectorXd shift = loop.makeShift();
     EXPECT_LT((loop.makeMatrix() * shift - shift).norm(), 1e-10 * shift.norm());
   }
@@ -143,7 +132,7 @@ std::vector<double> listSizes(const stability::Monodromy& loop) {
 TEST(Growth, OfEqualUsersIsThatOfOneWhoHearsHimself) {
   for (const int users : {2, 3, 4}) {
     for (const CoordinationMode mode : {CoordinationMode::kSum, CoordinationMode::kAverage}) {
-      LoopSettings settings = makeFirst(StandInKind::kDynamic);
+      LoopSettings settings = makeFirstExperiment(StandInKind::kDynamic);
       settings.users = users;
       settings.mode = mode;
       settings.hand = {0.0, 300.0, 5.0};  // no multiplier is 1
@@ -174,7 +163,7 @@ TEST(Growth, DependsOnThePhaseOfPackets) {
     }
     return range;
   };
-  const LoopSettings coupled = makeFirst(StandInKind::kNone);
+  const LoopSettings coupled = makeFirstExperiment(StandInKind::kNone);
   const double in_phase =
       std::max(rateOf(coupled, MotionMode::kCommon), rateOf(coupled, MotionMode::kDifference));
   EXPECT_NEAR(computeRateAtPhase(coupled, 0.0), in_phase, 1e-8);
@@ -182,14 +171,14 @@ TEST(Growth, DependsOnThePhaseOfPackets) {
   const auto [least, most] = findRange(coupled);
   EXPECT_NEAR(least, -0.678, 2e-3);
   EXPECT_NEAR(most, -0.517, 2e-3);
-  const auto [least_dynamic, most_dynamic] = findRange(makeFirst(StandInKind::kDynamic));
+  const auto [least_dynamic, most_dynamic] = findRange(makeFirstExperiment(StandInKind::kDynamic));
   EXPECT_NEAR(least_dynamic, 1.91, 0.01);
   EXPECT_NEAR(most_dynamic, 2.62, 0.01);
 }
 
 // By average alone, whole proxies make three users unstable; proxies of 1/(N-1) do not.
 TEST(Growth, ThreeAveragedUsersNeedProxiesOfHalfAUser) {
-  LoopSettings three = makeFirst(StandInKind::kDynamic);
+  LoopSettings three = makeFirstExperiment(StandInKind::kDynamic);
   three.users = 3;
   three.object_mass = 0.3;
   three.mode = CoordinationMode::kAverage;
@@ -208,14 +197,14 @@ TEST(Growth, ThreeAveragedUsersNeedProxiesOfHalfAUser) {
 // Rule: b_dev + n w K_t tau, with the age tau of what a site knows; right to 1 %, as the ripple of
 // packets goes through the damper.
 TEST(Drag, OfCommonMotionIsThatOfTheDelay) {
-  LoopSettings settings = makeFirst(StandInKind::kNone);
+  LoopSettings settings = makeFirstExperiment(StandInKind::kNone);
   EXPECT_NEAR(computeDrag(settings), 11.193, 1e-3);
   settings.users = 8;
   EXPECT_NEAR(computeDrag(settings), 76.96, 0.01);
   settings.mode = CoordinationMode::kAverage;
   EXPECT_NEAR(computeDrag(settings), 9.965, 1e-3);
-  EXPECT_NEAR(computeDrag(makeFirst(StandInKind::kDynamic)), 20.5, 0.05);
-  EXPECT_NEAR(computeDrag(makeSecond(StandInKind::kHeld)), 208.4, 0.05);
+  EXPECT_NEAR(computeDrag(makeFirstExperiment(StandInKind::kDynamic)), 20.5, 0.05);
+  EXPECT_NEAR(computeDrag(makeSecondExperiment(StandInKind::kHeld)), 208.4, 0.05);
 }
 
 TEST(Growth, TakesARateWithoutAPeriodAsTheNextOne) {
@@ -241,7 +230,7 @@ TEST(Growth, RefusesWhatItCannotAnalyse) {
   settings = {};
   settings.users = 1;
   EXPECT_THROW((void)rateOf(settings, MotionMode::kCommon), std::invalid_argument);
-  settings = makeSecond(StandInKind::kNone);
+  settings = makeSecondExperiment(StandInKind::kNone);
   EXPECT_THROW((void)rateOf(settings, MotionMode::kCommon), std::invalid_argument);
 }
 

@@ -4,17 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "demos/program/analyse/loop_of_scenario.h"
 #include "demos/program/world/scene_frame.h"
 
 namespace tandem::test {
 namespace {
 
 const HandImpedance kAcross{0.0, 300.0, 5.0};
-
-const char* nameScheme(StandInKind kind) {
-  if (kind == StandInKind::kNone) return "virtual_coupling";
-  return kind == StandInKind::kHeld ? "kinematic_proxy" : "remote_dynamic_proxy";
-}
 
 constexpr double kDepth = 1e-3, kDeepest = 1e-2;  // of a hand in the cube, about [m]
 constexpr double kLeastSpeed = 0.02;  // of a hand that leaves and does not open contact [m/s]
@@ -46,7 +42,7 @@ void tellSites(const LoopSettings& settings, demos::Scenario& s) {
 demos::Scenario makeScenario(const LoopSettings& settings, bool has_guide) {
   demos::Scenario s;
   s.kind = settings.has_object ? "cooperative_manipulation" : "user_contact";
-  s.scheme = nameScheme(settings.stand_in);
+  s.scheme = demos::schemeOf(settings.stand_in);
   s.guide = has_guide;
   s.sites.resize(static_cast<std::size_t>(settings.users));
   s.site.coordination_mode = settings.mode;
