@@ -148,6 +148,7 @@ TEST(Analyse, RefusesByALine) {
   expectLine(with({"--set", "network.rate=0.3"}), 2, "no period of at most 2000 ticks");
   expectLine(with({"--set", "site2.device_mass=0.3", "--users", "3"}), 2, "--users: the scenario");
   expectLine(with({"--set", "coordination=200"}), 2, "\"auto\", or a table");
+  expectLine(with({"--set", "coordination.damping=autos"}), 2, "a finite number, or \"auto\"");
   expectLine(runTandem(line("playground.toml", {"--set", "coordination=auto"})), 2,
              "coordination = \"auto\": experiment.kind");
   expectLine(with({"--set", "contact.model=native_rigid"}), 2, "contact.model");

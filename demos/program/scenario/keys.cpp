@@ -88,6 +88,7 @@ ScenarioKey gainKey(const char* field, bool AutoGains::*is_auto) {
   ScenarioKey key = siteKey(field);
   key.allowed += "; or [`auto`](stability.md#gains-that-are-safe)";
   key.read = [read = key.read, is_auto](S& s, const Place& place, const toml::node& node) {
+    if (node.is_string() && !isAuto(node)) refuse(place, node, "a finite number, or \"auto\"");
     s.automatic.*is_auto = isAuto(node);
     if (!isAuto(node)) read(s, place, node);
   };
