@@ -14,13 +14,15 @@ const HandImpedance kAcross{0.0, 300.0, 5.0};
 
 constexpr double kDepth = 1e-3, kDeepest = 1e-2;  // of a hand in the cube, about [m]
 constexpr double kLeastSpeed = 0.02;  // of a hand that leaves and does not open contact [m/s]
+constexpr double kLightly = 0.1;  // part of the force, where nothing keeps the cube from turning
 
 /// Force of a user towards the others. Those of both sides add up to 0.
-double computePush(const LoopSettings& settings, int site) {
+double computePush(const LoopSettings& settings, int site, Keeping keeping) {
   const CouplerGains& contact = settings.contact;
   const double depth =
       std::clamp(kLeastSpeed * contact.damping / contact.stiffness, kDepth, kDeepest);
-  const double push = depth * (contact.stiffness + 2.0 * settings.hand.stiffness);
+  const double part = keeping == Keeping::kNothing ? kLightly : 1.0;
+  const double push = part * depth * (contact.stiffness + 2.0 * settings.hand.stiffness);
   if (site % 2 == 0) return push;
   const int right = settings.users / 2;
   return -push * (settings.users - right) / right;
@@ -39,19 +41,20 @@ void tellSites(const LoopSettings& settings, demos::Scenario& s) {
   }
 }
 
-demos::Scenario makeScenario(const LoopSettings& settings, bool has_guide) {
+demos::Scenario makeScenario(const LoopSettings& settings, Keeping keeping) {
   demos::Scenario s;
   s.kind = settings.has_object ? "cooperative_manipulation" : "user_contact";
   s.scheme = demos::schemeOf(settings.stand_in);
-  s.guide = has_guide;
+  s.guide = keeping == Keeping::kGuide;
   s.sites.resize(static_cast<std::size_t>(settings.users));
   s.site.coordination_mode = settings.mode;
   s.site.contact = settings.contact;
   s.site.coordination = settings.coordination;
   s.object_mass = settings.object_mass;
   s.object_damping = settings.object_damping;
-  s.object_size = 0.2;  // contacts are far from its middle, and hands from each other
-  s.site.proxy.radius = 0.03;
+  // Contacts are far from the cube's middle, and hands from each other or, if it may turn, near.
+  s.object_size = keeping == Keeping::kNothing ? 0.1 : 0.2;
+  s.site.proxy.radius = keeping == Keeping::kNothing ? 0.004 : 0.03;
   s.site.proxy.mass = settings.proxy_mass;
   s.site.proxy.damping = settings.proxy_damping;
   s.device.mass = settings.device_mass + settings.hand.mass;
@@ -67,7 +70,6 @@ demos::Scenario makeScenario(const LoopSettings& settings, bool has_guide) {
   return s;
 }
 
-/// A free cube turns between hands beside its middle, which no analysis along a line tells of.
 void keepOnLine(btRigidBody& cube) {
   cube.setLinearFactor(btVector3(1, 0, 0));
   cube.setAngularFactor(0);
@@ -75,17 +77,17 @@ void keepOnLine(btRigidBody& cube) {
 
 }  // namespace
 
-PressedSites::PressedSites(const LoopSettings& settings, const HandImpedance& calm, bool has_guide)
-    : scenario_(makeScenario(settings, has_guide)), links_(scenario_) {
+PressedSites::PressedSites(const LoopSettings& settings, const HandImpedance& calm, Keeping keeping)
+    : scenario_(makeScenario(settings, keeping)), links_(scenario_) {
   for (int i = 0; i < settings.users; ++i) {
     const SimulatedDeviceSettings device = makeDevice(i);
-    auto hand = std::make_unique<PressingHand>(computePush(settings, i), device.start_W,
+    auto hand = std::make_unique<PressingHand>(computePush(settings, i, keeping), device.start_W,
                                                settings.hand, calm, kAcross);
     hands_.push_back(hand.get());
     devices_.push_back(std::make_unique<SimulatedDevice>(device, std::move(hand)));
     worlds_.push_back(
         std::make_unique<demos::SiteWorld>(scenario_, i, links_.of(i), *devices_.back()));
-    if (!has_guide) keepOnLine(worlds_.back()->site().objectBody(0));
+    if (keeping == Keeping::kFactors) keepOnLine(worlds_.back()->site().objectBody(0));
   }
 }
 
@@ -150,8 +152,11 @@ double PressedSites::findLeastDepth(Site& site) const {
   double least = side * site.force().x() / scenario_.site.contact.stiffness;
   // Contact never pulls: it opens where its damper takes away what its spring gives.
   const auto add = [&](const RigidState& user) {
-    const double way = user.p_W.x() - middle.p_W.x();
-    const double leaving = (user.v_W.x() - middle.v_W.x()) * (way < 0.0 ? -1.0 : 1.0);
+    const Vec3 way_W = user.p_W - middle.p_W;
+    const Vec3 v_W = user.v_W - middle.v_W - middle.w_W.cross(way_W);
+    const Quat q_BW = has_object ? middle.q_WB.conjugate() : Quat::Identity();
+    const double way = (q_BW * way_W).x();
+    const double leaving = (q_BW * v_W).x() * (way < 0.0 ? -1.0 : 1.0);
     least = std::min(least, reach - std::abs(way) - lead * leaving);
   };
   if (has_object) add(site.hip());

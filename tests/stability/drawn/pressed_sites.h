@@ -14,14 +14,22 @@
 
 namespace tandem::test {
 
+/// What keeps the cube on the line along which users press.
+enum class Keeping {
+  kGuide,    ///< the scenario's guide, which keeps the devices, too
+  kFactors,  ///< factors of Bullet; hands keep the devices
+  kNothing   ///< the cube may turn; hands keep the devices
+};
+
 /// The sites of the scenario that an analysis is of, in virtual time, without guards that the
 /// analysis lacks. All users press the cube along a line, or each other, so that all contacts stay
 /// closed.
 class PressedSites {
  public:
-  /// `calm`: spring and damper by which hands hold their devices besides, until letGo(). Without a
-  /// guide hands keep the devices on the line, and factors of Bullet the cube.
-  PressedSites(const LoopSettings& settings, const HandImpedance& calm, bool has_guide = true);
+  /// `calm`: spring and damper by which hands hold their devices besides, until letGo(). A cube
+  /// that may turn is pressed lightly, near its middle.
+  PressedSites(const LoopSettings& settings, const HandImpedance& calm,
+               Keeping keeping = Keeping::kGuide);
 
   /// Lets all ticks of a haptic period happen.
   void tick();

@@ -8,8 +8,6 @@
 
 #include "tandem/coordination/stability_advice.h"
 
-#include "stability/drawn/pressed_sites.h"
-
 namespace tandem::test {
 namespace {
 
@@ -87,10 +85,10 @@ Eigen::VectorXd makeImpulses(const LoopSettings& settings, double speed) {
 }  // namespace
 
 std::optional<SimulatedGrowth> simulateGrowth(const LoopSettings& settings, double duration,
-                                              bool has_guide) {
+                                              Keeping keeping) {
   const Calm calm = findCalm(settings);
   if (!(calm.rate < kCalmEnough)) return std::nullopt;
-  PressedSites still(settings, calm.hand, has_guide), nudged(settings, calm.hand, has_guide);
+  PressedSites still(settings, calm.hand, keeping), nudged(settings, calm.hand, keeping);
   const double settled =
       PressingHand::kRise + (calm.rate < 0.0 ? std::min(-20.0 / calm.rate, kLongestCalm) : 0.5);
   while (still.now() < settled) {

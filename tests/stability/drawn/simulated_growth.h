@@ -5,6 +5,7 @@
 #include "tandem/coordination/stability.h"
 
 #include "stability/drawn/multiplier_fit.h"
+#include "stability/drawn/pressed_sites.h"
 
 namespace tandem::test {
 
@@ -24,6 +25,6 @@ struct SimulatedGrowth {
 /// hands that calm the start and the size of the push. Empty if no hands do.
 [[nodiscard]] std::optional<SimulatedGrowth> simulateGrowth(const LoopSettings& settings,
                                                             double duration = 20.0,
-                                                            bool has_guide = true);
+                                                            Keeping keeping = Keeping::kGuide);
 
 }  // namespace tandem::test
