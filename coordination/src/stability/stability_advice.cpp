@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kRange = 1000.0;  // of a search, as a factor
 constexpr double kBeyond = 1.2;    // of a remedy
+constexpr double kBorderPrecision = 1e-5;
 
 /// A gain, by its place in LoopGain.
 struct GainRow {
@@ -101,7 +102,7 @@ std::optional<double> findLargestStiffness(const LoopSettings& settings, const G
                                            bool is_stable) {
   if (is_stable) return margin.above;
   if (!margin.below) return 0.0;
-  const double beyond = 1.0 + 10.0 * BorderSearch().precision;
+  const double beyond = 1.0 + 10.0 * kBorderPrecision;
   return isStable(settings, margin.gain, *margin.below / beyond) ? margin.below : std::nullopt;
 }
 
@@ -156,7 +157,7 @@ std::optional<double> findBorder(const LoopSettings& settings, LoopGain gain,
     changes = search.step > 1.0 ? std::min(stays * search.step, search.to)
                                 : std::max(stays * search.step, search.to);
   } while (isStable(settings, gain, changes) == is_stable);
-  while (std::abs(changes / stays - 1.0) > search.precision) {
+  while (std::abs(changes / stays - 1.0) > kBorderPrecision) {
     const double middle = std::sqrt(stays * changes);
     (isStable(settings, gain, middle) == is_stable ? stays : changes) = middle;
   }

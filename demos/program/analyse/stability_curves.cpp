@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kLongest = 0.2;  // delay of a curve [s]
 const std::vector<double> kUsers = {2, 3, 4, 6, 8, 12, 16};
-constexpr double kPrecision = 1e-3;  // of a border
 
 bool isStable(LoopSettings loop, LoopGain gain, double value) {
   setValue(loop, gain, value);
@@ -55,8 +54,8 @@ std::optional<double> findLargest(const LoopSettings& loop, LoopGain gain) {
   constexpr double kStep = 1.2, kMost = 1e6, kLeast = 1e-2;  // [N/m]
   const double value = valueOf(loop, gain);
   const bool is_stable = isStable(loop, gain, value);
-  return findBorder(
-      loop, gain, {value, is_stable ? kMost : kLeast, is_stable ? kStep : 1.0 / kStep, kPrecision});
+  return findBorder(loop, gain,
+                    {value, is_stable ? kMost : kLeast, is_stable ? kStep : 1.0 / kStep});
 }
 
 /// A criterion over the delays of a set; empty where it allows no stiffness.
@@ -114,7 +113,7 @@ void addDampingJobs(const LoopSettings& loop, CurveSet& set, Jobs& jobs) {
       if (isStable(there, LoopGain::kDeviceDamping, 0.0)) return 0.0;
       there.device_damping = kFirst;
       if (computeWorstRate(there) < 0.0) return kFirst;
-      return findBorder(there, LoopGain::kDeviceDamping, {kFirst, kMost, kStep, kPrecision});
+      return findBorder(there, LoopGain::kDeviceDamping, {kFirst, kMost, kStep});
     });
 }
 

@@ -46,10 +46,10 @@ struct ModeGrowth {
 struct BorderSearch {
   double from = 0.0, to = 0.0;  ///< from the gain's value, or from the least above it
   double step = 1.15;
-  double precision = 1e-5;  ///< part of the border
 };
 
-/// Nearest value at which stability is another than at the gain's own; empty if none is found.
+/// Nearest value at which stability is another than at the gain's own, to 1e-5 of it; empty if none
+/// is found.
 [[nodiscard]] std::optional<double> findBorder(const LoopSettings& settings, LoopGain gain,
                                                const BorderSearch& search);
 
