@@ -18,13 +18,14 @@ Scenario load(const std::vector<std::string>& overrides) {
   return loadScenario(test::scenarioPath("experiment1.toml"), overrides);
 }
 
-/// Looks until there is a line, or an analysis had time enough to find none.
+/// Looks until there is a line, or an analysis has found none.
 std::optional<std::string> lookFor(GrowthWatch& watch, double delay) {
-  for (int look = 0; look < 200; ++look) {
-    if (auto line = watch.look(delay)) return line;
+  auto line = watch.look(delay);
+  while (!line && watch.isAnalysing()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    line = watch.look(delay);
   }
-  return std::nullopt;
+  return line;
 }
 
 TEST(GrowthWatch, TellsWhenADelayIsTooLongAndWhenItFitsAgain) {

@@ -21,6 +21,8 @@ class GrowthWatch {
   /// Takes the delay as it is measured, one way and with playout [s]. Gives a line when the verdict
   /// is another one than before; gains fit until the first.
   [[nodiscard]] std::optional<std::string> look(double delay);
+  /// True until a look() takes the analysis that an earlier one has begun.
+  [[nodiscard]] bool isAnalysing() const noexcept { return running_.valid(); }
 
  private:
   struct Verdict {
