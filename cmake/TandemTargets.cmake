@@ -19,7 +19,7 @@ target_compile_options(tandem_compile_options INTERFACE
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:
   -Wno-restrict -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow>)
 # In a batch of sources, a name of one source may shadow a name of another without harm. GCC also takes each source for
-# a header when it warns of types of one source. The preset dev has no batches and all warnings.
+# a header when it warns of types of one source. Sources that are compiled alone have all warnings.
 if(TANDEM_UNITY)
   target_compile_options(tandem_compile_options INTERFACE
     -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
@@ -49,6 +49,10 @@ function(tandem_precompile target)
     return()
   endif()
   if(ARGV1 STREQUAL "LIKE")
+    get_target_property(headers ${ARGV2} PRECOMPILE_HEADERS)
+    if(NOT headers)  # the other's sources are compiled alone
+      return()
+    endif()
     target_precompile_headers(${target} REUSE_FROM ${ARGV2})
   else()
     target_precompile_headers(${target} PRIVATE ${ARGN})
@@ -79,7 +83,9 @@ function(tandem_add_library name)
   if(BUILD_SHARED_LIBS)
     tandem_set_abi(tandem_${name} "${arg_WIDTH}")
   endif()
-  if(name STREQUAL "coordination")
+  if(TANDEM_LIBRARIES_ALONE)
+    set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS -Wshadow)
+  elseif(name STREQUAL "coordination")
     tandem_precompile(tandem_${name} <Eigen/Core> <Eigen/Geometry>)
   else()
     tandem_precompile(tandem_${name} LIKE tandem_coordination)

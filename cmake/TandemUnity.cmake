@@ -1,6 +1,7 @@
 # Compiles several sources as one. Sources are short and their includes long: most of a full build's time goes into
-# headers. The preset dev compiles each source alone, which proves its own includes.
+# headers. The preset dev compiles each source of the libraries alone, which proves its own includes.
 option(TANDEM_UNITY "Compile several sources at once, for faster full builds" ON)
+option(TANDEM_LIBRARIES_ALONE "Compile each source of the libraries alone, without precompiled headers" OFF)
 
 # tandem_unity(TARGET [ALONE sources...]): call it once the target has all its sources. Sources after ALONE are compiled
 # alone. Sources compiled as one share their anonymous namespaces. So a source joins a batch only if it uses no word
