@@ -39,10 +39,10 @@ bool isNear(const ContactStiffness& a, const ContactStiffness& b) noexcept {
 
 }  // namespace
 
-ContactFactor::ContactFactor(std::size_t max_bodies, std::size_t max_points)
+ContactFactor::ContactFactor(std::size_t max_bodies, std::size_t most_kept)
     : matrix_(max_bodies, kBlocksPerBody * max_bodies) {
-  J_.reserve(max_points);
-  D_.reserve(max_points);
+  J_.reserve(most_kept);
+  D_.reserve(most_kept);
   first_.reserve(max_bodies);
 }
 
@@ -64,6 +64,7 @@ bool ContactFactor::make(const std::vector<ContactJacobian>& J,
   for (std::size_t i = 0; i < J.size(); ++i)
     if (!(D[i] == ContactStiffness())) add(J[i], D[i]);
   if (!matrix_.factorise()) return false;
+  if (J.size() > J_.capacity()) return true;
   J_.assign(J.begin(), J.end());
   D_.assign(D.begin(), D.end());
   first_.assign(first.begin(), first.end());

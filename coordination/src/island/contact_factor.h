@@ -14,8 +14,8 @@ namespace tandem {
 /// constructor.
 class ContactFactor {
  public:
-  /// Allocates.
-  ContactFactor(std::size_t max_bodies, std::size_t max_points);
+  /// Allocates. Factors of more than `most_kept` laws are used once.
+  ContactFactor(std::size_t max_bodies, std::size_t most_kept);
 
   /// True if the factors are of nearly this matrix, of the same size. `first`: BlockMatrix.
   [[nodiscard]] bool isNear(const std::vector<ContactJacobian>& J,

@@ -29,6 +29,8 @@ constexpr int kMaxFactorisations = 20, kMaxSteps = 40;
 constexpr int kSoftSteps = 5;
 /// Groups with factors of their own.
 constexpr std::size_t kMaxFactors = 8;
+/// Laws of a group whose factors are kept, but for the first group: those of some 60 bodies.
+constexpr std::size_t kMostKept = 512;
 
 }  // namespace
 
@@ -50,8 +52,10 @@ ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points,
   D_.reserve(max_laws);
   x_.reserve(max_bodies);
   dx_.reserve(max_bodies);
-  for (std::size_t i = 0; i <= kMaxFactors; ++i)
-    factors_.push_back({{max_bodies, max_laws}, {max_bodies, max_laws}});
+  for (std::size_t i = 0; i <= kMaxFactors; ++i) {
+    const std::size_t kept = i == 0 ? max_laws : std::min(max_laws, kMostKept);
+    factors_.push_back({{max_bodies, kept}, {max_bodies, kept}});
+  }
 }
 
 bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
