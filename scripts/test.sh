@@ -25,7 +25,7 @@ targets=()
 selection=()
 case "$preset" in
   release) groups+=(hosts) ;;
-  dev) groups+=(ci); selection=(--exclude-regex "$long_simulations") ;;
+  dev) groups+=(ci); selection=(--exclude-regex "$long_simulations"); export TANDEM_GUEST_WORLDS=10 ;;  # of 30
   tsan)  groups+=(ci); targets=(tandem_thread_tests tandem_device_tests tandem_hid_tests)
          selection=(--tests-regex '^tandem_(thread|device|hid)_tests\.') ;;
   fuzz)  groups+=(ci); targets=(tandem_fuzzers); selection=(--label-regex '^fuzz$') ;;
