@@ -141,8 +141,7 @@ TEST(OutputFolder, ResultOfOneKindReplacesTheOther) {
   }
 }
 
-/// Twice the time in which two new programs publish something, on this machine under its load
-/// [us].
+/// Time in which two new programs publish something, on this machine under its load [us].
 int measurePublishing() {
   const TempFolder folder;
   const auto start = std::chrono::steady_clock::now();
@@ -154,7 +153,7 @@ int measurePublishing() {
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   for (const pid_t writer : writers) kill(writer, SIGKILL);
   for (const pid_t writer : writers) (void)waitpid(writer, nullptr, 0);
-  return std::max(4000, static_cast<int>(2.0 * time.count()));
+  return static_cast<int>(time.count());
 }
 
 // Two programs publish and are killed at random moments, many times.
@@ -163,16 +162,16 @@ TEST(OutputFolder, KilledWritersNeverLeaveAMix) {
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   std::mt19937_64 random(kSeed);
   const TempFolder folder;
-  const int longest = measurePublishing();
+  const int longest = std::max(4000, measurePublishing());
   int whole = 0;
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 300; ++round) {
     pid_t writers[2];
     for (int i = 0; i < 2; ++i) {
       writers[i] = fork();
       ASSERT_GE(writers[i], 0);
       if (writers[i] == 0) publishForever(folder.path(), std::to_string(2 * round + i) + " ");
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % longest));
+    std::this_thread::sleep_for(std::chrono::microseconds(500 + random() % longest));
     for (const pid_t writer : writers) kill(writer, SIGKILL);
     for (const pid_t writer : writers) (void)waitpid(writer, nullptr, 0);
     if (!std::filesystem::exists(folder / "mark")) continue;
@@ -180,7 +179,7 @@ TEST(OutputFolder, KilledWritersNeverLeaveAMix) {
     for (const char* name : {"a", "b"})
       ASSERT_EQ(readFile(folder / name), readFile(folder / "mark")) << "round " << round;
   }
-  EXPECT_GT(whole, 40);
+  EXPECT_GT(whole, 100);
   EXPECT_NO_THROW(OutputFolder(folder.path(), "--out x"));  // no lock is left over
   EXPECT_FALSE(std::filesystem::exists(folder / ".tandem-lock"));
 }

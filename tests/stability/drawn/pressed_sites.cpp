@@ -53,8 +53,9 @@ demos::Scenario makeScenario(const LoopSettings& settings, Keeping keeping) {
   s.object_mass = settings.object_mass;
   s.object_damping = settings.object_damping;
   // Contacts are far from the cube's middle, and hands from each other or, if it may turn, near.
-  s.object_size = keeping == Keeping::kNothing ? 0.1 : 0.2;
-  s.site.proxy.radius = keeping == Keeping::kNothing ? 0.004 : 0.03;
+  const bool may_turn = keeping == Keeping::kNothing;
+  s.object_size = may_turn ? 0.1 : 0.2;
+  s.site.proxy.radius = may_turn ? 0.004 : 0.03;
   s.site.proxy.mass = settings.proxy_mass;
   s.site.proxy.damping = settings.proxy_damping;
   s.device.mass = settings.device_mass + settings.hand.mass;

@@ -14,7 +14,7 @@
 
 namespace tandem::test {
 
-/// What keeps the cube on the line along which users press.
+/// One of these keeps the cube on the line along which users press.
 enum class Keeping {
   kGuide,    ///< the scenario's guide, which keeps the devices, too
   kFactors,  ///< factors of Bullet; hands keep the devices
