@@ -121,7 +121,7 @@ std::optional<RefuseAnswer> decodeRefuseAnswer(ByteView datagram) noexcept {
   const auto zero = reader.read<std::uint8_t>();
   answer.caller.nonce = reader.read<std::uint64_t>();
   const bool is_code = answer.code >= Code::kVersion && answer.code <= Code::kSession;
-  const bool is_version = answer.version == kVersion || answer.code == Code::kVersion;
+  const bool is_version = answer.version == kRelayVersion || answer.code == Code::kVersion;
   if (type != Type::kRefuse || zero != 0 || !is_code || !is_version) return std::nullopt;
   return answer;
 }

@@ -50,7 +50,7 @@ struct JoinedAnswer {
 struct RefuseAnswer {
   Caller caller;
   Code code = Code::kVersion;
-  std::uint8_t version = kVersion;  ///< of its sender
+  std::uint8_t version = kRelayVersion;  ///< of its sender
 };
 /// Reason and remedy: "another site has this id; give each its own". Allocates.
 [[nodiscard]] std::string explain(const RefuseAnswer& answer);

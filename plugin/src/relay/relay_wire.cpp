@@ -38,7 +38,7 @@ std::string toString(const RoomName& name) {
 std::optional<Type> readType(ByteView datagram) noexcept {
   ByteReader reader(datagram);
   if (!reader.has(kHeadSize) || reader.read<std::uint16_t>() != kMagic ||
-      reader.read<std::uint8_t>() != kVersion)
+      reader.read<std::uint8_t>() != kRelayVersion)
     return std::nullopt;
   return static_cast<Type>(reader.read<std::uint8_t>());
 }
@@ -46,7 +46,7 @@ std::optional<Type> readType(ByteView datagram) noexcept {
 bool isHelloOfAnotherVersion(ByteView datagram) noexcept {
   ByteReader reader(datagram);
   return datagram.size == kHelloSize && reader.read<std::uint16_t>() == kMagic &&
-         reader.read<std::uint8_t>() != kVersion &&
+         reader.read<std::uint8_t>() != kRelayVersion &&
          reader.read<std::uint8_t>() == static_cast<std::uint8_t>(Type::kHello);
 }
 

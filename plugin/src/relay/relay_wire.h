@@ -15,7 +15,7 @@
 /// functions are pure, check every byte, and neither throw nor allocate unless they say so.
 namespace tandem::relay {
 
-inline constexpr std::uint8_t kVersion = 1;
+inline constexpr std::uint8_t kRelayVersion = 1;
 inline constexpr std::uint16_t kMostMembers = kMaxPeerId;  ///< of a room, whose ids are peers'
 inline constexpr std::uint16_t kAllWatchers = 0xffff;  ///< as receiver: each watcher of the room
 

@@ -41,7 +41,7 @@ std::string explain(const RefuseAnswer& answer) {
   switch (answer.code) {
     case Code::kVersion:
       return "the relay speaks version " + std::to_string(answer.version) + ", this site " +
-             std::to_string(kVersion) + "; install the same release";
+             std::to_string(kRelayVersion) + "; install the same release";
     case Code::kKey:
       return "the relay has another key; give this site a copy of the relay's key file";
     case Code::kRooms:

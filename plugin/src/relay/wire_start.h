@@ -14,7 +14,7 @@ inline constexpr std::size_t kHeadSize = 16;  ///< up to nonce or sequence
 
 inline void writeStart(wire::ByteWriter& writer, Type type) noexcept {
   writer.write(kMagic);
-  writer.write(kVersion);
+  writer.write(kRelayVersion);
   writer.write(static_cast<std::uint8_t>(type));
 }
 
