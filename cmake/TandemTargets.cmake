@@ -19,11 +19,9 @@ target_compile_options(tandem_compile_options INTERFACE
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:
   -Wno-restrict -Wno-error=array-bounds -Wno-error=maybe-uninitialized -Wno-error=stringop-overflow>)
 # In a batch of sources, a name of one source may shadow a name of another without harm. GCC also takes each source for
-# a header when it warns of types of one source. Sources that are compiled alone have all warnings.
-if(TANDEM_UNITY)
-  target_compile_options(tandem_compile_options INTERFACE
-    -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-endif()
+# a header when it warns of types of one source. Targets without batches have all warnings.
+target_compile_options(tandem_compile_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:
+  -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>>)
 # Clang's -Wconversion includes the sign of indices, GCC's does not.
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 if(TANDEM_SANITIZE)
@@ -83,12 +81,12 @@ function(tandem_add_library name)
   if(BUILD_SHARED_LIBS)
     tandem_set_abi(tandem_${name} "${arg_WIDTH}")
   endif()
-  if(TANDEM_LIBRARIES_ALONE)
-    set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS -Wshadow)
-  elseif(name STREQUAL "coordination")
-    tandem_precompile(tandem_${name} <Eigen/Core> <Eigen/Geometry>)
-  else()
-    tandem_precompile(tandem_${name} LIKE tandem_coordination)
+  if(NOT TANDEM_LIBRARIES_ALONE)
+    set(headers LIKE tandem_coordination)
+    if(name STREQUAL "coordination")
+      set(headers <Eigen/Core> <Eigen/Geometry>)
+    endif()
+    tandem_precompile(tandem_${name} ${headers})
   endif()
   if(TANDEM_INSTALL)
     tandem_install_library(${name})
