@@ -15,9 +15,9 @@ long_simulations='NotWithAHandAloneInTheHeap|BulletsExample.GetsNoEnergy|PegInHo
 long_simulations+='|GuestBench.HardlyAnything|Model.AgreesForParameters|JointsForAMinute|ArmsAtRates.AFreeArm|BenchSpeed'
 long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory|AveragePosition'
 long_simulations+='|AveragedUsers|DrawnRow|DrawnPoint|UnlikeUsersInRuns'
-long_simulations+='|tests_float64.Room|PlanarReferenceConverges/(row16|tower9)|BenchStress|BenchLimits|BodiesInJointsKeep'
-long_simulations+='|FrozenContact.Agrees|AnalyseFigures|Analyse.(AnyPacketRate|TakesUsers|TellsModes|SaysInWords)'
-long_simulations+='|SafeCoordination|Advice.IsWhat|Dominant.IsTheLargest|LoneHandAtAWall.*Whatever|BulletsPile'
+long_simulations+='|Room.ManyAtRest|Room.ABudget|PlanarReferenceConverges/(row16|tower9)|BenchStress|BenchLimits'
+long_simulations+='|BenchAccuracy.BodiesInJoints|FrozenContact.Agrees|LoneHandAtAWall.*Whatever|BulletsPile'
+long_simulations+='|Analyse.(AnyPacketRate|TakesUsers|TellsModes|SaysInWords)|AnalyseFigures|SafeCoordination|Advice.IsWhat'
 
 preset=${1:-release}
 groups=(build demo view import dds test)
