@@ -46,9 +46,11 @@ class FalconOverTty : public ::testing::Test {
   bool tickUntilFault(FalconFault fault) {
     return tickUntil([fault](const FalconStatus& status) { return status.fault == fault; });
   }
-  /// Ticks until the emulated grip is pushed with the commanded force.
+  /// Ticks until the emulated grip is pushed with the commanded force, by a reading that is valid.
   bool tickUntilPushed() {
-    return tickUntil([this](const FalconStatus&) { return (force() - push_).norm() < 0.05; });
+    // A busy machine makes a reading too old for a tick now and then.
+    return tickUntil(
+        [this](const FalconStatus&) { return sample_.valid && (force() - push_).norm() < 0.05; });
   }
   bool tickUntilForceIsGone() {
     return tickUntil([this](const FalconStatus&) { return force().norm() == 0.0; });
@@ -81,7 +83,6 @@ class FalconOverTty : public ::testing::Test {
     ASSERT_TRUE(tickUntil(FalconState::kReady));
     EXPECT_EQ(device_->status().fault, FalconFault::kNone);
     ASSERT_TRUE(tickUntilPushed());
-    EXPECT_TRUE(sample_.valid);
     EXPECT_LT(sample_.hip.p_W.norm(), 0.01);
     expectLimits();
   }
