@@ -85,6 +85,28 @@ TEST(RollingFriction, HoldsABallOnASlightSlope) {
   EXPECT_GT(pushFor(1.5 * most), 0.005);
 }
 
+// The torque that held the ball went on for ever.
+TEST(RollingFriction, LetsGoOfABallWhoseCoefficientIsTakenAway) {
+  Bowl scene;
+  scene.share();
+  scene.run(0.1);
+  const double force = 0.9 * Bowl::combine(kRolling) * kMass * kGravity / kRadius;
+  const auto push = [&](double duration) {
+    scene.run(duration, 60.0, [&] {
+      scene.ball.activate(true);
+      scene.ball.applyCentralForce(btVector3(btScalar(force), 0, 0));
+    });
+  };
+  push(0.5);
+  ASSERT_NEAR(NeighbourScene::positionOf(scene.ball).x(), 0.0, 1e-5);
+  scene.ball.setRollingFriction(0);
+  scene.ball.setSpinningFriction(0);
+  push(0.5);
+  const double acceleration = force / (1.4 * kMass);
+  // A change acts from the first tick that begins after it.
+  EXPECT_NEAR(NeighbourScene::velocityOf(scene.ball).x(), 0.5 * acceleration, 1e-3 * acceleration);
+}
+
 TEST(RollingFriction, BodiesWithOtherLawsStayBullets) {
   for (const bool is_anisotropic : {true, false}) {
     Bowl scene;

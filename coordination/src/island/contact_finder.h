@@ -30,6 +30,12 @@ struct RigidContact {
   const void* surface = nullptr;
 };
 
+/// True for points of the same two bodies, or of a body and the same fixed surface.
+template <typename One, typename Other>
+[[nodiscard]] bool areOfOnePair(const One& x, const Other& y) noexcept {
+  return x.a == y.a && x.b == y.b && x.surface == y.surface;
+}
+
 /// Finds rigid contacts between bodies of the island, and with fixed surfaces.
 ///
 /// The island moves bodies and solves their contacts; others own the shapes and the search.

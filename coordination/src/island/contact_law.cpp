@@ -87,6 +87,18 @@ void PointLaw::respond(const Local& q) noexcept {
   }
 }
 
+void PointLaw::respondNear(const Local& slide) noexcept {
+  const double limit = friction * P0.n;
+  const Slide along(P0.s - rho_t * slide.s, P0.t - rho_t * slide.t, limit, rho_t);
+  D = along.D;
+  D.nn = rho_n;
+  D.sn = friction * rho_n * along.s;
+  D.tn = friction * rho_n * along.t;
+  const double s = u.s - slide.s, t = u.t - slide.t;
+  P = {P0.n - rho_n * u.n, limit * along.s - D.sn * u.n - D.ss * s - D.st * t,
+       limit * along.t - D.tn * u.n - D.st * s - D.tt * t};
+}
+
 void TwistLaw::respond(double spin_limit, double roll_limit) noexcept {
   T = {T0.n - rho_n * w.n, T0.s - rho_t * w.s, T0.t - rho_t * w.t};
   D = {};
@@ -94,6 +106,10 @@ void TwistLaw::respond(double spin_limit, double roll_limit) noexcept {
     D.nn = rho_n;
   } else {
     T.n = std::copysign(spin_limit, T.n);
+  }
+  if (!(roll_limit > 0.0)) {
+    T.s = T.t = 0.0;
+    return;
   }
   if (T.s * T.s + T.t * T.t <= roll_limit * roll_limit) {
     D.ss = D.tt = rho_t;

@@ -62,6 +62,8 @@ struct PointLaw {
   void choose(bool& has_changed, bool& is_forced) noexcept;
   /// P and D by the law of the mode.
   void respond() noexcept { respond(push()); }
+  /// P and D of sliding, linear about the velocity `slide` [m/s], at which P0 is the answer.
+  void respondNear(const Local& slide) noexcept;
 
  private:
   [[nodiscard]] Mode findMode(const Local& q) const noexcept;

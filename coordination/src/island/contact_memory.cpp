@@ -1,12 +1,18 @@
 #include "island/contact_memory.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tandem {
 namespace {
 
 /// A point nearer than this to one of the last step may be the same [m].
 constexpr double kSamePoint = 1e-3;
+/// A point as near as this to where it was expected is the same [m].
+constexpr double kCertain = 1e-6;
+/// Points and normals may go so much faster than surfaces roll and slip: a rolling ball is at the
+/// limit, and rounding passes it.
+constexpr double kMargin = 1.01;
 /// Cosine of the angle between normals of the same point.
 constexpr double kSameNormal = 0.7;
 
@@ -21,6 +27,7 @@ Vec3 turn(const Vec3& v, const Vec3& angle) noexcept {
 
 /// Rotates a vector along with a direction, the shortest way.
 Vec3 turnAlong(const Vec3& v, const Vec3& from, const Vec3& to) noexcept {
+  if (from == to) return v;
   const Vec3 axis = from.cross(to);
   const double cosine = from.dot(to);
   if (cosine <= 0.0) return Vec3::Zero();
@@ -38,30 +45,34 @@ Velocity velocityAt(BodyIndex body, const Vec3& p_W, const States& states) noexc
   return {state.v_W + state.w_W.cross(p_W - state.p_W), state.w_W};
 }
 
-double computeReach(BodyIndex body, const Vec3& p_W, const States& states) noexcept {
-  return (p_W - states[static_cast<std::size_t>(body)].p_W).norm();
-}
-
-/// Velocity of a contact point that went at `seen_W` in the last step. It is a corner of a body, or
-/// goes along curved surfaces at most as fast as they roll and slip. Else the finder has chosen
-/// another point.
+/// Velocity of a contact point that went at `seen_W` in the last step; `arm_W` leads to it from the
+/// centre of a. It is a corner of a body, or goes along curved surfaces at most as fast as they
+/// roll and slip. Else the finder has chosen another point.
 Vec3 followPoint(const Vec3& seen_W, const Velocity& of_a, const Velocity& of_b,
-                 double reach) noexcept {
-  const Vec3& nearest_W =
-      (seen_W - of_b.v_W).squaredNorm() < (seen_W - of_a.v_W).squaredNorm() ? of_b.v_W : of_a.v_W;
-  // A rolling ball is at the limit: let rounding pass.
-  const double most = 1.01 * ((of_a.v_W - of_b.v_W).norm() + reach * (of_a.w_W - of_b.w_W).norm());
-  return (seen_W - nearest_W).norm() <= most ? seen_W : nearest_W;
+                 const Vec3& arm_W) noexcept {
+  const double off_a = (seen_W - of_a.v_W).squaredNorm();
+  const double off_b = (seen_W - of_b.v_W).squaredNorm();
+  const double off = std::min(off_a, off_b);
+  const double slip = (of_a.v_W - of_b.v_W).squaredNorm();
+  // Most points slip at least as fast, and need no root.
+  if (off <= kMargin * kMargin * slip) return seen_W;
+  const double roll = std::sqrt(arm_W.squaredNorm() * (of_a.w_W - of_b.w_W).squaredNorm());
+  const double most = kMargin * (std::sqrt(slip) + roll);
+  if (off <= most * most) return seen_W;
+  return off_b < off_a ? of_b.v_W : of_a.v_W;
 }
 
 /// Turning rate of a normal that went at `seen_W`: with a body, or as fast as curved surfaces roll
 /// and slip at most. Else the finder has chosen another normal.
 Vec3 followNormal(const Vec3& seen_W, const Velocity& of_a, const Velocity& of_b,
-                  double reach) noexcept {
-  const double slip = (of_a.v_W - of_b.v_W).norm();
+                  const Vec3& arm_W) noexcept {
+  const double seen = seen_W.squaredNorm();
+  const double turn_a = of_a.w_W.squaredNorm(), turn_b = of_b.w_W.squaredNorm();
+  if (seen <= kMargin * kMargin * (turn_a + turn_b)) return seen_W;
+  const double slip = (of_a.v_W - of_b.v_W).norm(), reach = arm_W.norm();
   const double most =
-      1.01 * (of_a.w_W.norm() + of_b.w_W.norm() + (reach > 0.0 ? slip / reach : 0.0));
-  if (seen_W.norm() <= most) return seen_W;
+      kMargin * (std::sqrt(turn_a) + std::sqrt(turn_b) + (reach > 0.0 ? slip / reach : 0.0));
+  if (seen <= most * most) return seen_W;
   const bool is_nearer_a = (seen_W - of_a.w_W).squaredNorm() < (seen_W - of_b.w_W).squaredNorm();
   return is_nearer_a ? of_a.w_W : of_b.w_W;
 }
@@ -84,60 +95,85 @@ void ContactMemory::shiftOrigin(const Vec3& offset_W) noexcept {
     for (Known& known : *list) known.p_W += offset_W;
 }
 
-void ContactMemory::hold(const States& before, double h, std::vector<Wrench>& held) noexcept {
+/// A force that changes evenly moves a body by h^3 / 12 of its rate less than its mean does, and
+/// what the body leans on by as much.
+void ContactMemory::hold(const States& before, double h, std::vector<HeldWrench>& held) noexcept {
   const double half = 0.5 * h;
-  const auto middleOf = [&](BodyIndex body) {
-    const RigidState& state = before[static_cast<std::size_t>(body)];
-    return Vec3(state.p_W + half * state.v_W);
-  };
   for (Known& known : trial_) {
     known.is_taken = false;
     const double ahead = 0.5 * (known.last.h + h);
     Vec3 f_W = known.is_learned ? known.f_learned_W : known.last.f_W;
-    if (!known.is_learned && ahead < kFarthest * known.base) {
-      const Vec3 change_W = ahead * known.slope_W;
-      const double size = change_W.norm(), most = f_W.norm();
-      f_W += size > most ? Vec3(most / size * change_W) : change_W;
+    Vec3 rate_W = Vec3::Zero();
+    if (ahead < kFarthest * known.base) {
+      rate_W = known.slope_W;
+      const double time = known.is_learned ? half : ahead;
+      const double size = time * time * rate_W.squaredNorm(), most = f_W.squaredNorm();
+      if (size > most) rate_W *= std::sqrt(most / size);
+      if (!known.is_learned) f_W += ahead * rate_W;
     }
     // A contact does not pull.
-    known.f_held_W = f_W.dot(known.n_W) > 0.0 ? turn(f_W, half * known.turn_W) : Vec3(Vec3::Zero());
+    const bool pushes = f_W.dot(known.n_W) > 0.0;
+    known.f_held_W = pushes ? turn(f_W, half * known.turn_W) : Vec3(Vec3::Zero());
     known.t_held_W = known.is_learned ? known.t_learned_W : known.last.t_W;
     known.p_held_W = known.p_W + half * known.v_W;
-    Wrench& of_a = held[static_cast<std::size_t>(known.a)];
-    of_a.f_W += known.f_held_W;
-    of_a.t_W += (known.p_held_W - middleOf(known.a)).cross(known.f_held_W) + known.t_held_W;
-    if (known.b == kStanding) continue;
-    Wrench& of_b = held[static_cast<std::size_t>(known.b)];
-    of_b.f_W -= known.f_held_W;
-    of_b.t_W -= (known.p_held_W - middleOf(known.b)).cross(known.f_held_W) + known.t_held_W;
+    if (pushes)
+      rate_W += known.turn_W.cross(known.f_held_W);
+    else
+      rate_W.setZero();
+    const auto push = [&](BodyIndex body, double sign) {
+      const RigidState& state = before[static_cast<std::size_t>(body)];
+      const Vec3 arm_W = known.p_held_W - (state.p_W + half * state.v_W);
+      const Vec3 t_rate_W = arm_W.cross(rate_W) + Vec3(known.v_W - state.v_W).cross(known.f_held_W);
+      const Vec3 t_W = arm_W.cross(known.f_held_W) + known.t_held_W;
+      held[static_cast<std::size_t>(body)].add(
+          {known.f_held_W - half * rate_W, t_W - half * t_rate_W}, {rate_W, t_rate_W}, sign);
+    };
+    push(known.a, 1.0);
+    if (known.b != kStanding) push(known.b, -1.0);
+  }
+}
+
+void ContactMemory::letGo() noexcept {
+  for (Known& known : trial_) {
+    known.is_taken = false;
+    known.f_held_W = known.t_held_W = Vec3::Zero();
+    known.p_held_W = known.p_W;
   }
 }
 
 /// The nearest point of the same two bodies or surfaces that is free. Points come pair by pair, and
 /// in much the same order as before.
 ContactMemory::Known* ContactMemory::findNearest(const ContactPoint& point, double h) noexcept {
-  const auto isOfPair = [&](const Known& known) {
-    return known.a == point.contact.a && known.b == point.contact.b &&
-           known.surface == point.contact.surface;
-  };
+  const RigidContact& contact = point.contact;
   const std::size_t count = trial_.size();
   if (next_ >= count) next_ = 0;
-  std::size_t first = next_, looked = 0;
-  while (looked < count && !isOfPair(trial_[first])) first = (first + 1) % count, ++looked;
+  const auto isFree = [&](const Known& known) {
+    return !known.is_taken && known.n_W.dot(contact.n_W) >= kSameNormal;
+  };
+  const auto expected = [&](const Known& known) {
+    return (known.p_W + h * known.v_W - contact.p_W).squaredNorm();
+  };
+  // Where it is expected no other can be as near.
+  if (count > 0 && areOfOnePair(trial_[next_], contact) && isFree(trial_[next_]) &&
+      expected(trial_[next_]) < kCertain * kCertain)
+    return &trial_[next_++];
+  std::size_t looked = 0, first = next_;
+  if (first > 0 && areOfOnePair(trial_[first - 1], contact)) --first;
+  while (looked < count && !areOfOnePair(trial_[first], contact))
+    first = (first + 1) % count, ++looked;
   if (looked == count) return nullptr;
-  while (first > 0 && isOfPair(trial_[first - 1])) --first;
-  next_ = first;
+  while (first > 0 && areOfOnePair(trial_[first - 1], contact)) --first;
   Known* nearest = nullptr;
   double least = kSamePoint * kSamePoint;
-  for (std::size_t i = first; i < count && isOfPair(trial_[i]); ++i) {
+  for (std::size_t i = first; i < count && areOfOnePair(trial_[i], contact); ++i) {
     Known& known = trial_[i];
-    if (known.is_taken || known.n_W.dot(point.contact.n_W) < kSameNormal) continue;
-    const double way = std::min((known.p_W + h * known.v_W - point.contact.p_W).squaredNorm(),
-                                (known.p_W - point.contact.p_W).squaredNorm());
+    if (!isFree(known)) continue;
+    const double way = std::min(expected(known), (known.p_W - contact.p_W).squaredNorm());
     if (way >= least) continue;
     least = way;
     nearest = &known;
   }
+  if (nearest) next_ = static_cast<std::size_t>(nearest - trial_.data()) + 1;
   return nearest;
 }
 
@@ -156,6 +192,7 @@ void ContactMemory::match(std::vector<ContactPoint>& points, double h) noexcept 
     row.impulse = row.toLocal(h * PlainVec(turnAlong(f_W, known->n_W, n_W)));
     row.impulse.n = std::max(0.0, row.impulse.n);
     row.mode = point.mode_before = known->mode;
+    row.slide = row.toLocal(PlainVec(known->slide_W));
     row.twist_held = row.twist = row.toLocal(h * PlainVec(known->t_held_W));
   }
 }
@@ -185,6 +222,7 @@ ContactMemory::Known ContactMemory::describe(const ContactPoint& point, const St
   known.b = contact.b;
   known.surface = contact.surface;
   known.mode = point.row.mode;
+  known.slide_W = point.row.toWorld(point.row.slide).toVec3();
   known.p_W = contact.p_W;
   known.n_W = contact.n_W;
   known.slope_W.setZero();
@@ -199,10 +237,10 @@ ContactMemory::Known ContactMemory::describe(const ContactPoint& point, const St
   if (point.row.is_swept) limit(known.last, expectedForceOf(point));
   if (point.known < 0) return known;
   const Known& old = trial_[static_cast<std::size_t>(point.known)];
-  const double reach = computeReach(contact.a, contact.p_W, after);
-  known.v_W = followPoint((contact.p_W - old.p_W) / h, of_a, of_b, reach);
+  const Vec3 arm_W = contact.p_W - after[static_cast<std::size_t>(contact.a)].p_W;
+  known.v_W = followPoint((contact.p_W - old.p_W) / h, of_a, of_b, arm_W);
   const Vec3 spin_W = contact.n_W * contact.n_W.dot(of_b.w_W);
-  known.turn_W = followNormal(old.n_W.cross(contact.n_W) / h + spin_W, of_a, of_b, reach);
+  known.turn_W = followNormal(old.n_W.cross(contact.n_W) / h + spin_W, of_a, of_b, arm_W);
   return known;
 }
 
@@ -217,7 +255,13 @@ void ContactMemory::learn(const std::vector<ContactPoint>& points, const States&
     known.f_learned_W = turn(known.last.f_W, -h * known.turn_W);
     known.p_W -= h * known.v_W;
     known.n_W = turn(known.n_W, -h * known.turn_W).normalized();
-    known.last = point.known >= 0 ? trial_[static_cast<std::size_t>(point.known)].last : Force{};
+    known.last = {};
+    if (point.known >= 0) {
+      const Known& old = trial_[static_cast<std::size_t>(point.known)];
+      known.last = old.last;
+      known.slope_W = old.slope_W;
+      known.base = old.base;
+    }
     learned_.push_back(known);
   }
   trial_.swap(learned_);

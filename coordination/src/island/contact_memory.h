@@ -44,7 +44,10 @@ class ContactMemory {
   [[nodiscard]] bool isEmpty() const noexcept { return known_.empty() && trial_.empty(); }
 
   /// Adds the forces expected in a step of `h` [s] from `before` to `held`, by body.
-  void hold(const States& before, double h, std::vector<Wrench>& held) noexcept;
+  void hold(const States& before, double h, std::vector<HeldWrench>& held) noexcept;
+  /// Holds nothing in the coming step: none of it could be corrected. Forces are first guesses
+  /// then.
+  void letGo() noexcept;
   /// True if a point had a force in the last step, or has learned one.
   [[nodiscard]] bool hasForce(const ContactPoint& point) const noexcept {
     if (point.known < 0) return false;
@@ -92,6 +95,7 @@ class ContactMemory {
     RigidRow::Mode mode;
     Vec3 p_W, n_W;     ///< at the start of the coming step
     Vec3 v_W, turn_W;  ///< velocity of the point [m/s], turning rate of the normal [rad/s]
+    Vec3 slide_W;      ///< velocity at which it slides [m/s]
     Vec3 slope_W;      ///< rate of change of the force [N/s]
     double base;       ///< time over which it was measured [s]
     Force last;

@@ -231,7 +231,11 @@ void ContactSolver::setUpPoint(std::size_t index) noexcept {
   if (row.mode == RigidRow::Mode::kUnknown && law.mode == RigidRow::Mode::kOpen &&
       law.u.n < kTogether)
     law.mode = row.friction > 0.0 ? RigidRow::Mode::kStick : RigidRow::Mode::kSlide;
-  law.respond();
+  // Slip before the solution may have any direction, and with stiff penalties much weight.
+  if (row.mode == RigidRow::Mode::kSlide && row.impulse.n > 0.0)
+    law.respondNear(row.slide);
+  else
+    law.respond();
 }
 
 void ContactSolver::setUpTwist(std::size_t index) noexcept {
@@ -431,6 +435,7 @@ void ContactSolver::finish() noexcept {
     row.mode = law.mode;
     row.apply(law.P - law.held);
     row.impulse = law.P;
+    row.slide = {0.0, law.u.s, law.u.t};
   }
   for (std::size_t i = 0; i < twists_.size(); ++i) {
     RigidRow& row = *rows_[point_of_[i]];

@@ -14,7 +14,7 @@ ContactTally::ContactTally(std::size_t capacity) {
 }
 
 bool ContactTally::isSame(const RigidContact& x, const RigidContact& y) noexcept {
-  return x.a == y.a && x.b == y.b && x.surface == y.surface &&
+  return areOfOnePair(x, y) &&
          (x.p_W - y.p_W).squaredNorm() < kSameTalliedPoint * kSameTalliedPoint;
 }
 

@@ -39,6 +39,12 @@ std::size_t sweepImpulses(const ContactGroups::Group& group) noexcept {
   const auto patient_sweeps = static_cast<int>(kPatientRelaxations / count);
   (void)measureChange(group);
   RigidRow* const* const end = group.rows + group.row_count;
+  // Velocities have only what was held. Impulses that they lack would be taken back from nothing.
+  for (auto row = group.rows; row != end; ++row) {
+    (*row)->prepareSweeps();
+    (*row)->apply((*row)->impulse - (*row)->held);
+    (*row)->applyTwist((*row)->twist - (*row)->twist_held);
+  }
   int sweeps = 0;
   while (sweeps < kMaxSweeps) {
     for (auto hold = group.holds; hold != group.holds + group.hold_count; ++hold) (*hold)->solve();
@@ -55,6 +61,7 @@ std::size_t sweepImpulses(const ContactGroups::Group& group) noexcept {
   for (auto row = group.rows; row != end; ++row) {
     (*row)->mode = findMode(**row);
     (*row)->is_swept = true;
+    (*row)->slide = {0.0, (*row)->velocityAlong(1), (*row)->velocityAlong(2)};
   }
   return static_cast<std::size_t>(sweeps) * count;
 }

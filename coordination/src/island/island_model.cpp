@@ -9,10 +9,6 @@ namespace {
 
 /// Squares of the longest lever arms of surface points about the axes [m^2].
 Vec3 computeArms(const Shape& shape, double bounding_radius) noexcept {
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    const Vec3 h = box->half_extents.cwiseAbs2();
-    return {h.y() + h.z(), h.x() + h.z(), h.x() + h.y()};
-  }
   const double square = bounding_radius * bounding_radius;
   const auto around = [square](double radius, Axis axis) {
     Vec3 arms = Vec3::Constant(square);
@@ -26,6 +22,20 @@ Vec3 computeArms(const Shape& shape, double bounding_radius) noexcept {
   if (const auto* cone = std::get_if<Cone>(&shape))
     return around(cone->radius + cone->rounding, cone->axis);
   return Vec3::Constant(square);
+}
+
+/// Largest velocity per impulse that a push on a box's surface gives by turning it [1/kg].
+///
+/// A push along the normal of a face has arms in that face. Over an edge or corner it is a mixture
+/// of these whose arms are shorter: each axis then has the difference of two of them.
+double computeBoxTurning(const Box& box, const Vec3& inverse_inertia_B, bool is_even) noexcept {
+  const Vec3 h = box.half_extents.cwiseAbs2();
+  // Uneven factors mix the axes.
+  const Vec3 inverse =
+      is_even ? inverse_inertia_B : Vec3(Vec3::Constant(inverse_inertia_B.maxCoeff()));
+  return std::max({inverse.y() * h.z() + inverse.z() * h.y(),
+                   inverse.x() * h.z() + inverse.z() * h.x(),
+                   inverse.x() * h.y() + inverse.y() * h.x()});
 }
 
 MassFactors computeFactors(const IslandBody& settings) noexcept {
@@ -64,6 +74,10 @@ void ModelBody::takeMass(const IslandBody& changed, bool is_guided) noexcept {
   for (int axis = 0; axis < 3; ++axis)
     if (settings.inertia_B[axis] > 0.0)
       inverse_inertia_B[axis] = factors.angular / settings.inertia_B[axis];
+  if (const auto* box = std::get_if<Box>(&settings.shape)) {
+    mobility += computeBoxTurning(*box, inverse_inertia_B, factors.turn_is_even);
+    return;
+  }
   const double radius = bounding_radius;
   mobility += std::min(inverse_inertia_B.maxCoeff() * radius * radius,
                        inverse_inertia_B.dot(computeArms(settings.shape, radius)));

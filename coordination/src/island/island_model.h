@@ -8,6 +8,7 @@
 #include "island/joint_source.h"
 #include "island/touch_memory.h"
 #include "island/touched_faces.h"
+#include "island/wrench.h"
 
 /// \file
 /// Data shared by the island's laws of motion. Private to coordination.
@@ -177,12 +178,6 @@ struct IslandModel {
   [[nodiscard]] static bool isIn(const std::vector<BodyIndex>& list, BodyIndex body) noexcept {
     return std::find(list.begin(), list.end(), body) != list.end();
   }
-};
-
-/// Force and torque about the centre of mass, in W [N, N m].
-struct Wrench {
-  Vec3 f_W = Vec3::Zero();
-  Vec3 t_W = Vec3::Zero();
 };
 
 /// Force and torque of a coupler on its follower.

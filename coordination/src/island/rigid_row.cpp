@@ -48,24 +48,32 @@ void RigidRow::setUp(RigidMover& mover_a, RigidMover& mover_b, const PlainVec& a
   makeTangents(n_W, axis_[1].direction, axis_[2].direction);
   for (Axis& axis : axis_) {
     axis.arm_a = cross(arm_a, axis.direction);
-    axis.turn_a = a->turnBy(axis.arm_a);
-    if (b_moves_) {
-      axis.arm_b = cross(arm_b, axis.direction);
-      axis.turn_b = b->turnBy(axis.arm_b);
-    }
+    if (b_moves_) axis.arm_b = cross(arm_b, axis.direction);
     axis.surface = dot(axis.direction, surface_W);
   }
+  findTurns(axis_[0]);
   const double normal = mobility(0, 0);
   const bool are_free = a->is_free && (!b_moves_ || b->is_free);
   const double free_normal = a->inverse_mass + (b_moves_ ? b->inverse_mass : 0.0);
   const bool is_locked = !are_free && isLocked(normal, free_normal);
   inverse_normal = normal > 0.0 && !is_locked ? 1.0 / normal : 0.0;
+}
+
+void RigidRow::findTurns(Axis& axis) const noexcept {
+  axis.turn_a = a->turnBy(axis.arm_a);
+  if (b_moves_) axis.turn_b = b->turnBy(axis.arm_b);
+}
+
+void RigidRow::prepareSweeps() noexcept {
+  findTurns(axis_[1]);
+  findTurns(axis_[2]);
   normal_to_s_ = mobility(1, 0);
   normal_to_t_ = mobility(2, 0);
   const double ss = mobility(1, 1), st = mobility(1, 2), tt = mobility(2, 2);
   const double determinant = ss * tt - st * st;
   const double sum = ss + tt;
   slide_ = sum > 0.0 ? 1.0 / sum : 0.0;
+  const bool are_free = a->is_free && (!b_moves_ || b->is_free);
   if (determinant > (are_free ? kOneTangent : kOneTangentWithFactors) * (ss * ss + tt * tt)) {
     stick_ss_ = tt / determinant;
     stick_st_ = -st / determinant;

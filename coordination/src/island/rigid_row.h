@@ -85,6 +85,8 @@ class RigidRow {
     return of_a - dot(axis.direction, b->v) - dot(axis.arm_b, b->w);
   }
 
+  /// Before the first solve().
+  void prepareSweeps() noexcept;
   /// One relaxation: sets the normal velocity to `wanted`, then removes slip within Coulomb's cone.
   void solve() noexcept {
     const double normal_before = impulse.n;
@@ -112,7 +114,7 @@ class RigidRow {
       impulse.s = s;
       impulse.t = t;
     }
-    apply(change);
+    applySwept(change);
     if (resistsTurning()) [[unlikely]]
       resistTurning();
   }
@@ -121,25 +123,26 @@ class RigidRow {
   void apply(const Local& change) noexcept {
     const PlainVec linear = toWorld(change);
     a->v = a->v + multiplyEach(a->inverse_mass_W, linear);
-    a->w =
-        a->w + change.n * axis_[0].turn_a + change.s * axis_[1].turn_a + change.t * axis_[2].turn_a;
+    a->w = a->w + a->turnBy(momentOnA(change));
     if (!b_moves_) return;
     b->v = b->v - multiplyEach(b->inverse_mass_W, linear);
-    b->w = b->w -
-           (change.n * axis_[0].turn_b + change.s * axis_[1].turn_b + change.t * axis_[2].turn_b);
+    b->w = b->w - b->turnBy(momentOnB(change));
   }
 
   /// Shifts the poses of both bodies by an impulse times a time [N s^2].
   void shift(const Local& by) noexcept {
     const PlainVec linear = toWorld(by);
     a->shift = a->shift + multiplyEach(a->inverse_mass_W, linear);
-    a->turn = a->turn + by.n * axis_[0].turn_a + by.s * axis_[1].turn_a + by.t * axis_[2].turn_a;
+    a->turn = a->turn + a->turnBy(momentOnA(by));
     if (!b_moves_) return;
     b->shift = b->shift - multiplyEach(b->inverse_mass_W, linear);
-    b->turn = b->turn - (by.n * axis_[0].turn_b + by.s * axis_[1].turn_b + by.t * axis_[2].turn_b);
+    b->turn = b->turn - b->turnBy(momentOnB(by));
   }
 
-  [[nodiscard]] bool resistsTurning() const noexcept { return rolling > 0.0 || spinning > 0.0; }
+  /// True if friction acts against turning. What it held is let go even where it no longer may.
+  [[nodiscard]] bool resistsTurning() const noexcept {
+    return rolling > 0.0 || spinning > 0.0 || twist.n != 0.0 || twist.s != 0.0 || twist.t != 0.0;
+  }
   /// Applies an angular impulse to both bodies.
   void applyTwist(const Local& change) noexcept {
     const PlainVec angular = toWorld(change);
@@ -161,6 +164,7 @@ class RigidRow {
   Local impulse;                         ///< total of this step [N s]
   Local twist_held, twist;               ///< the same against turning [N m s]
   Mode mode = Mode::kUnknown;            ///< that of the last step, then of this one
+  Local slide;                           ///< that sliding was last seen to have [m/s]
   bool is_swept = false;                 ///< modes have not settled: sweeps took over
   Local slip;                            ///< tangential way of a beside b in this step [m]
   bool is_anchored = false;              ///< it stuck in the last step, and `slip` is known
@@ -174,13 +178,32 @@ class RigidRow {
   struct Axis {
     PlainVec direction;
     PlainVec arm_a, arm_b;    ///< arm x direction
-    PlainVec turn_a, turn_b;  ///< angular velocity per impulse
+    PlainVec turn_a, turn_b;  ///< angular velocity per impulse; for sweeps, but for the normal
     double surface = 0.0;     ///< velocity of a fixed surface [m/s]
   };
+
+  [[nodiscard]] PlainVec momentOnA(const Local& push) const noexcept {
+    return push.n * axis_[0].arm_a + push.s * axis_[1].arm_a + push.t * axis_[2].arm_a;
+  }
+  [[nodiscard]] PlainVec momentOnB(const Local& push) const noexcept {
+    return push.n * axis_[0].arm_b + push.s * axis_[1].arm_b + push.t * axis_[2].arm_b;
+  }
+  /// As apply(), after prepareSweeps().
+  void applySwept(const Local& change) noexcept {
+    const PlainVec linear = toWorld(change);
+    a->v = a->v + multiplyEach(a->inverse_mass_W, linear);
+    a->w =
+        a->w + change.n * axis_[0].turn_a + change.s * axis_[1].turn_a + change.t * axis_[2].turn_a;
+    if (!b_moves_) return;
+    b->v = b->v - multiplyEach(b->inverse_mass_W, linear);
+    b->w = b->w -
+           (change.n * axis_[0].turn_b + change.s * axis_[1].turn_b + change.t * axis_[2].turn_b);
+  }
 
   /// Removes rolling and spinning, within what the normal impulse allows.
   void resistTurning() noexcept;
 
+  void findTurns(Axis& axis) const noexcept;
   /// Velocity along i per impulse along j.
   [[nodiscard]] double mobility(int i, int j) const noexcept {
     const double of_a = wayOf(*a, i, j) + dot(axis_[i].arm_a, axis_[j].turn_a);

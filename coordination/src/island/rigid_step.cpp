@@ -59,7 +59,7 @@ RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity, std::
 void RigidStep::forget() noexcept {
   memory_.forget();
   allowance_.forget();
-  for (Wrench& held : held_) held = {};
+  for (HeldWrench& held : held_) held = {};
 }
 
 void RigidStep::begin() noexcept {
@@ -69,13 +69,14 @@ void RigidStep::begin() noexcept {
   latest_ = HUGE_VAL;
 }
 
-void RigidStep::holdForces(const States& before, double h) noexcept {
-  for (Wrench& held : held_) held = {};
+void RigidStep::holdForces(const States& before, double h, bool may_repeat) noexcept {
+  for (HeldWrench& held : held_) held = {};
+  if (!may_repeat) return memory_.letGo();
   memory_.hold(before, h, held_);
 }
 
 double RigidStep::correct(const IslandModel& model, const States& before, double h, double shortest,
-                          bool may_repeat, States& after) noexcept {
+                          bool may_repeat, bool has_kink, States& after) noexcept {
   is_done_ = true;
   contacts_.clear();
   if (model.finder) model.finder->find(after, contacts_);
@@ -102,7 +103,9 @@ double RigidStep::correct(const IslandModel& model, const States& before, double
   if (may_repeat && h * measureChange(after) > kAllowedError) {
     // Joints are never held: without contact only their modes are to learn.
     const bool has_contact = !points_.empty() || memory_.hasGone();
-    if (times_learned_ < kMaxTimesLearned &&
+    // No even force is that of a step with a kink.
+    const bool is_long = h > shortest * (1.0 + 1e-9);
+    if (times_learned_ < kMaxTimesLearned && !(has_kink && is_long) &&
         (hasUnknownForce() || haveJointModesChanged() ||
          (has_contact && h * measureEvents() < kAllowedError))) {
       ++times_learned_;
@@ -110,7 +113,7 @@ double RigidStep::correct(const IslandModel& model, const States& before, double
       learnJointModes();
       return repeat(h);
     }
-    if (h > shortest * (1.0 + 1e-9)) {
+    if (is_long) {
       startAgain();
       return repeat(std::max(shortest, 0.5 * h));
     }
@@ -171,11 +174,30 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
     point.at_start -= allowance_.overlapOf(point.contact);
   }
   memory_.match(points_, h);
+  guessOpenPoints();
   for (ContactPoint& point : points_) anchor(point, after, h);
   memory_.visitGone([&](BodyIndex a, BodyIndex b, const auto&...) {
     getReady(a);
     getReady(b);
   });
+}
+
+/// Points that touched beside others of their pair, and had no force, are likely to have none.
+void RigidStep::guessOpenPoints() noexcept {
+  const auto isKnown = [](const ContactPoint& point) { return point.known >= 0; };
+  for (auto first = points_.begin(); first != points_.end();) {
+    const auto end = std::find_if(first, points_.end(), [&](const ContactPoint& point) {
+      return !areOfOnePair(point.contact, first->contact);
+    });
+    if (std::any_of(first, end, isKnown)) {
+      for (auto point = first; point != end; ++point) {
+        const bool touched =
+            std::abs(point->at_start) < kSmallGap && point->opening > -kImpactSpeed;
+        if (!isKnown(*point) && touched) point->row.mode = RigidRow::Mode::kOpen;
+      }
+    }
+    first = end;
+  }
 }
 
 /// A point that stuck, and belongs to one of its bodies, has slipped by the ways of both.

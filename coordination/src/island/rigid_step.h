@@ -48,17 +48,19 @@ class RigidStep {
   void answerBlows(const IslandModel& model, States& states) noexcept;
   /// Begins a step, or repeats it with another length of `h` [s].
   void begin() noexcept;
-  /// Turns the expected contact forces into forces on the bodies.
-  void holdForces(const States& before, double h) noexcept;
+  /// Turns the expected contact forces into forces on the bodies. A step that may not be repeated
+  /// gets none: in a jam they may be wrong by any factor, and nothing would take that out.
+  void holdForces(const States& before, double h, bool may_repeat) noexcept;
   /// Forces held during this step, by body, in W.
-  [[nodiscard]] const std::vector<Wrench>& heldForces() const noexcept { return held_; }
+  [[nodiscard]] const std::vector<HeldWrench>& heldForces() const noexcept { return held_; }
 
   /// Corrects `after`, the result of smooth motion under the held forces from `before` over `h`
   /// [s]. Returns h if the step is done, or else the length with which to repeat it from
   /// holdForces() on: if it `may_repeat`, and at least `shortest` unless an impact comes sooner.
-  /// Real-time safe.
+  /// `has_kink`: a force of the smooth motion began or ended within it. Real-time safe.
   [[nodiscard]] double correct(const IslandModel& model, const States& before, double h,
-                               double shortest, bool may_repeat, States& after) noexcept;
+                               double shortest, bool may_repeat, bool has_kink,
+                               States& after) noexcept;
   /// After a correct() that is not done: whether the same length is to be tried again.
   [[nodiscard]] bool isDone() const noexcept { return is_done_; }
 
@@ -95,6 +97,7 @@ class RigidStep {
              double h) noexcept;
   [[nodiscard]] double distanceOf(const ContactPoint& point) const noexcept;
   [[nodiscard]] double findImpacts(double h) noexcept;
+  void guessOpenPoints() noexcept;
   void anchor(ContactPoint& point, const States& after, double h) noexcept;
   void setUpJoints(const IslandModel& model, const States& before, const States& after,
                    double h) noexcept;
@@ -116,7 +119,7 @@ class RigidStep {
   RigidMover standing_;
   std::vector<RigidContact> contacts_;
   std::vector<ContactPoint> points_;
-  std::vector<Wrench> held_;           ///< by body
+  std::vector<HeldWrench> held_;       ///< by body
   std::vector<RigidRow::Local> gaps_;  ///< working memory of closeGaps()
   std::vector<double> ways_;           ///< the same
   JointForces* joints_;

@@ -174,10 +174,13 @@ void SmoothForces::addPull(const IslandModel& model, const ModelGrip& grip) noex
   mover.needs_rotation = mover.turns;
 }
 
-void SmoothForces::hold(const std::vector<Wrench>& held) noexcept {
+void SmoothForces::hold(const std::vector<HeldWrench>& held) noexcept {
   for (Mover& mover : movers_) {
-    mover.f_held_W = PlainVec(held[mover.body].f_W);
-    mover.t_held_W = PlainVec(held[mover.body].t_W);
+    const HeldWrench& its = held[mover.body];
+    mover.f_held_W = PlainVec(its.start.f_W);
+    mover.t_held_W = PlainVec(its.start.t_W);
+    mover.f_held_rate_W = PlainVec(its.rate.f_W);
+    mover.t_held_rate_W = PlainVec(its.rate.t_W);
   }
 }
 
@@ -251,11 +254,12 @@ void SmoothForces::placeFrames(double t, const double* y) noexcept {
     const double* values = y + mover.offset;
     frame.p = PlainVec(values);
     frame.v = PlainVec(values + 3);
-    frame.f_W = mover.f_rest_W + mover.f_held_W + mover.stiffness * (mover.p_rest - frame.p) -
-                mover.damping * frame.v;
+    frame.f_W = mover.f_rest_W + mover.f_held_W + t * mover.f_held_rate_W +
+                mover.stiffness * (mover.p_rest - frame.p) - mover.damping * frame.v;
     if (!mover.turns) continue;
     frame.w = PlainVec(values + kW);
-    frame.t_W = mover.t_rest_W + mover.t_held_W - mover.turn_damping * frame.w;
+    frame.t_W =
+        mover.t_rest_W + mover.t_held_W + t * mover.t_held_rate_W - mover.turn_damping * frame.w;
     if (mover.needs_rotation) frame.R_WB = PlainRotation(values + kQ);
   }
   for (const Driven& driven : driven_) {

@@ -62,14 +62,15 @@ class SmoothForces {
     bool needs_rotation = false;  ///< its orientation matters beyond couplers
     bool is_round = false;        ///< equal moments about all axes: no gyroscopic torque
     double inverse_mass = 0.0, stiffness = 0.0, damping = 0.0;
-    PlainVec p_rest, f_rest_W;  ///< force = f_rest + f_held + stiffness (p_rest - p) - damping v
+    PlainVec p_rest, f_rest_W;  ///< force = f_rest + f_held(t) + stiffness (p_rest - p) - damping v
     PlainVec inertia_B, inverse_inertia_B, t_rest_W;
-    PlainVec f_held_W, t_held_W;
-    double turn_damping = 0.0;             ///< sum over couplers [N m s/rad]
-    double turn_rate = 0.0;                ///< IslandBody::angular_damping [1/s]
-    double radius = 0.0;                   ///< bounding radius [m]
-    const MassFactors* factors = nullptr;  ///< null: even
-    double decay = 0.0;                    ///< with factors: of its velocity by own damping [1/s]
+    PlainVec f_held_W, t_held_W;            ///< at time 0
+    PlainVec f_held_rate_W, t_held_rate_W;  ///< [N/s], [N m/s]
+    double turn_damping = 0.0;              ///< sum over couplers [N m s/rad]
+    double turn_rate = 0.0;                 ///< IslandBody::angular_damping [1/s]
+    double radius = 0.0;                    ///< bounding radius [m]
+    const MassFactors* factors = nullptr;   ///< null: even
+    double decay = 0.0;                     ///< with factors: of its velocity by own damping [1/s]
   };
 
   /// Allocates.
@@ -80,8 +81,8 @@ class SmoothForces {
   void choose(const IslandModel& model, const std::vector<char>& together,
               const std::vector<char>& alone, const std::vector<Touch>& touches) noexcept;
 
-  /// Sets constant extra forces, by body, in W; replaces earlier ones.
-  void hold(const std::vector<Wrench>& held) noexcept;
+  /// Sets extra forces that change evenly from load() on, by body, in W; replaces earlier ones.
+  void hold(const std::vector<HeldWrench>& held) noexcept;
 
   /// Restarts the clock of driven bodies and copies the movers' state to `y`.
   void load(const States& states, double* y) noexcept;

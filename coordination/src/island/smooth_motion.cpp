@@ -18,6 +18,10 @@ constexpr double kMaxStepsPerPeriod = SmoothForces::kMostStepsPerPeriod;
 /// smaller.
 constexpr double kAnswerOfHands = 5e-4;
 
+/// Turn of the fastest spring while a force of rigid contact is held [rad]. The smooth motion
+/// beside it keeps to its own steps; that of the force is of second order, and measures its error.
+constexpr double kMostTurnOfHold = 0.5;
+
 /// Share of the allowed error for a step that passes an edge.
 constexpr double kAtEdges = 1.0 / 64.0;
 
@@ -93,6 +97,7 @@ void SmoothMotion::chooseLimits(const IslandModel& model) noexcept {
   // Dampers do not count: they do not answer an error of velocity.
   answer_ = 0.9 / fastest;
   max_step_ = std::max({std::min(step, 0.36 / fastest), shortest});
+  longest_hold_ = std::max(std::min(step, kMostTurnOfHold / fastest), shortest);
   min_step_ = std::max(kShortest * max_step_, shortest);
   step_ = max_step_;
   const double faster = std::max(1.0, kAnswerOfHands / answer_);

@@ -21,15 +21,16 @@ class SmoothMotion {
   /// Recomputes the limits from gains and masses, after a slot was filled or cleared.
   void chooseLimits(const IslandModel& model) noexcept;
 
-  /// Longest step that resolves the fastest possible oscillation and decay [s].
-  [[nodiscard]] double maxStep() const noexcept { return max_step_; }
+  /// Longest step over which a force that is held may act beside springs [s]: the fastest of them
+  /// turns by half a radian at most.
+  [[nodiscard]] double longestHold() const noexcept { return longest_hold_; }
 
   /// Selects the bodies that move from now on, see SmoothForces::choose.
   void choose(const IslandModel& model, const std::vector<char>& together,
               const std::vector<char>& alone, const std::vector<Touch>& touches) noexcept;
 
   /// Sets extra forces, by body, for the coming advance(): SmoothForces::hold.
-  void hold(const std::vector<Wrench>& held) noexcept { forces_.hold(held); }
+  void hold(const std::vector<HeldWrench>& held) noexcept { forces_.hold(held); }
 
   /// Moves the chosen bodies by `dt` [s]. Real-time safe; the number of steps is bounded.
   void advance(States& states, double dt, IslandCounters& counters) noexcept;
@@ -62,6 +63,7 @@ class SmoothMotion {
   double allowed_error_ = 0.0;  ///< of one step [m]
   double answer_ = 0.0;         ///< response time of springs to an error of velocity [s]
   double max_step_ = 0.0;       ///< stable, and resolves the fastest oscillation [s]
+  double longest_hold_ = 0.0;   ///< of rigid contact [s]
   double min_step_ = 0.0;       ///< shorter steps are accepted whatever their error [s]
   double step_ = 0.0;           ///< last good length [s]
   int steps_of_order_5_ = 0;    ///< to be done before one of order 4 is tried

@@ -9,7 +9,7 @@
 namespace tandem {
 namespace {
 
-/// Stiff springs shorten a step with rigid contact to SmoothMotion's longest one, but not below
+/// Stiff springs shorten a step with rigid contact to SmoothMotion::longestHold(), but not below
 /// this part of the inner step.
 constexpr double kShortestInnerStep = 1.0 / 64.0;
 
@@ -372,7 +372,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
   // one responds.
   const double inner = model.settings.inner_step;
   const double longest =
-      std::clamp(smooth_.maxStep(), kShortestInnerStep * inner, kLastingSteps * inner);
+      std::clamp(smooth_.longestHold(), kShortestInnerStep * inner, kLastingSteps * inner);
   const double shortest = std::min(kShortPartOfStep * inner, longest);
   double length = longest;
   int tries_left = kMaxTries;
@@ -386,14 +386,17 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
     for (bool is_done = false; !is_done; --tries_left) {
       ++counters.rigid_steps;
       for (const BodyIndex b : model.present) states_[b] = before_rigid_[b];
-      rigid_step_.holdForces(states_, h);
+      const bool may_repeat = tries_left > 0 && rigid_step_.hasWorkLeft();
+      rigid_step_.holdForces(states_, h, may_repeat);
       smooth_.hold(rigid_step_.heldForces());
+      const std::uint64_t events_before = counters.events;
       smooth_.advance(states_, h, counters);
+      const bool has_kink = counters.events != events_before;
       // Prescribed bodies move on with the others.
       for (const BodyIndex b : model.present)
         if (model.bodies[b].settings.motion == Motion::kPrescribed) goOn(states_[b], h);
-      const double next = rigid_step_.correct(model, before_rigid_, h, shortest,
-                                              tries_left > 0 && rigid_step_.hasWorkLeft(), states_);
+      const double next =
+          rigid_step_.correct(model, before_rigid_, h, shortest, may_repeat, has_kink, states_);
       is_done = rigid_step_.isDone();
       if (!is_done) h = std::min(next, rest);
     }
