@@ -1,11 +1,14 @@
+#include <cstddef>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "bridge/bullet_rig.h"
 #include "bullet_bridge/src/bodies/haptic_body.h"
+#include "bullet_bridge/src/bodies/mass_restore.h"
 #include "support/random.h"
 
 namespace tandem {
@@ -80,6 +83,56 @@ TEST(HapticBodyAttach, RestoresEverythingBitForBit) {
     const auto before = snapshot(body);
     { const HapticBody attached(rig.world, body, 1.0 / (1 + i % 4)); }
     EXPECT_EQ(before, snapshot(body)) << "body " << i;
+    rig.world.removeRigidBody(&body);
+    rig.bodies.clear();
+  }
+}
+
+// It got damping and the last bit of the weight of the first. Found by "bench guest", seed
+// 20261129, case 3602.
+TEST(HapticBodyAttach, AnotherBodyAtTheAddressGetsNothingBack) {
+  BulletRig rig(Vec3(0, -9.81, 0));
+  btCollisionShape& shape = rig.makeShape<btBoxShape>(btVector3(1, 2, 3));
+  alignas(16) std::byte memory[sizeof(btRigidBody)];
+  const auto make = [&](btScalar mass, btScalar damping) {
+    auto* body = new (memory) btRigidBody(mass, nullptr, &shape, btVector3(1, 2, 3));
+    body->setDamping(damping, damping);
+    rig.world.addRigidBody(body);
+    return body;
+  };
+  btRigidBody* body = make(1, btScalar(0.1));
+  {
+    const HapticBody attached(rig.world, *body, 0.5);
+    rig.world.removeRigidBody(body);
+    body->~btRigidBody();
+    body = make(3, btScalar(0.3));
+    ASSERT_TRUE(attached.isInWorld());
+  }
+  EXPECT_EQ(body->getInvMass(), btScalar(1) / btScalar(3));
+  EXPECT_EQ(body->getLinearDamping(), btScalar(0.3));
+  EXPECT_EQ(body->getAngularDamping(), btScalar(0.3));
+  rig.world.removeRigidBody(body);
+  body->~btRigidBody();
+}
+
+// Its place in the world is what it was. Found by "bench guest" with float, seed 9201, case 163.
+TEST(HapticBodyAttach, ABodyThatWasAwayHasTheWeightThatBulletGaveIt) {
+  test::Random random(8);
+  BulletRig rig(Vec3(0.1, -9.81, 0.3));
+  for (int i = 0; i < 100; ++i) {
+    btRigidBody& body = rig.addCube(1.0);
+    body.setMassProps(static_cast<btScalar>(random.uniform(0.01, 1.0)), body.getLocalInertia());
+    const auto comeBack = [&] { rig.world.addRigidBody(&body); };
+    {
+      const HapticBody attached(rig.world, body);
+      rig.world.removeRigidBody(&body);
+      EXPECT_FALSE(attached.isInWorld());
+      comeBack();
+    }
+    const btVector3 weight = measureWeight(body);
+    rig.world.removeRigidBody(&body);
+    comeBack();
+    EXPECT_EQ(weight, measureWeight(body)) << "body " << i;
     rig.world.removeRigidBody(&body);
     rig.bodies.clear();
   }

@@ -70,6 +70,52 @@ TEST_F(HostChanges, ReportAForceInEachSubStepInWhichBulletWouldApplyIt) {
   for (const HostChange& change : takeDuringStep(rig, body, 2)) expectNothing(change);
 }
 
+// Bullet gives weight once for all sub-steps. A body that parked between two and woke had it twice.
+TEST_F(HostChanges, AreNoneForABodyThatParksAndWakesBetweenSubSteps) {
+  constexpr double kSubStep = 1.0 / 256.0;
+  std::vector<HostChange> changes;
+  bool is_undisturbed = false;
+  test::Listener listener(
+      [&](double h) {
+        if (body.isParked()) {
+          is_undisturbed = body.isUndisturbed();
+          body.unpark();
+        }
+        changes.push_back(body.takeHostChanges(h));
+        body.handOff(body.state(), h);
+      },
+      [&](double) {
+        body.restore();
+        if (changes.size() == 2) body.park();
+      });
+  const HostWorld attached(rig.world, listener);
+  rig.world.stepSimulation(static_cast<btScalar>(4 * kSubStep), 4, static_cast<btScalar>(kSubStep));
+  ASSERT_EQ(changes.size(), 4u);
+  EXPECT_TRUE(is_undisturbed);
+  for (const HostChange& change : changes) expectNothing(change);
+}
+
+TEST_F(HostChanges, KeepAForceThatAnActionGivesABodyThatParks) {
+  constexpr double kSubStep = 1.0 / 256.0;
+  std::vector<HostChange> changes;
+  test::Listener listener(
+      [&](double h) {
+        if (body.isParked() && !body.isUndisturbed()) body.unpark();
+        if (!body.isParked()) changes.push_back(body.takeHostChanges(h));
+        if (!body.isParked()) body.handOff(body.state(), h);
+      },
+      [&](double) {
+        body.restore();
+        if (changes.size() > 1) return;
+        cube.applyCentralForce(btVector3(2, 0, 0));
+        body.park();
+      });
+  const HostWorld attached(rig.world, listener);
+  rig.world.stepSimulation(static_cast<btScalar>(2 * kSubStep), 2, static_cast<btScalar>(kSubStep));
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_LT((changes.back().f_W - Vec3(2, 0, 0)).norm(), byWidth(1e-15, 1e-6));
+}
+
 TEST_F(HostChanges, ReportAnImpulseOnce) {
   cube.applyCentralImpulse(btVector3(btScalar(0.5), btScalar(-0.25), 1));
   const HostChange change = take();

@@ -209,6 +209,63 @@ TEST(HostHabits, ASharedBodyThatIsSwitchedOffStays) {
   EXPECT_FALSE(scene.site->isHeld(0));
 }
 
+// A site held up the sleep of its objects, so a body that its host stopped in the air fell on.
+TEST(HostHabits, ASharedBodyThatItsHostPutsToSleepStopsUntilItIsWoken) {
+  NeighbourScene scene(true), bare(true);
+  scene.settings.peers = 1;
+  scene.start(Vec3(0.0, 0.0, 5.0));
+  bare.addCube(Vec3(0.0, 0.0, 5.0));
+  const auto run = [&](double seconds) {
+    scene.run(seconds);
+    bare.run(seconds);
+  };
+  const auto expectAsBullet = [&](double speed) {
+    EXPECT_NEAR(NeighbourScene::velocityOf(*scene.cube).z(), speed, 0.01);
+    EXPECT_NEAR(NeighbourScene::velocityOf(*bare.cube).z(), speed, 0.01);
+    EXPECT_EQ(scene.cube->isActive(), bare.cube->isActive());
+    EXPECT_TRUE(scene.site->isHeld(0));
+  };
+  run(0.2);
+  const double z = NeighbourScene::positionOf(*scene.cube).z();
+  for (btRigidBody* cube : {scene.cube, bare.cube}) cube->setActivationState(ISLAND_SLEEPING);
+  run(1.0);
+  expectAsBullet(0.0);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), z, test::byWidth(1e-12, 1e-6));
+  EXPECT_GT(scene.site->counters().host_steps_skipped, 0u);
+  for (btRigidBody* cube : {scene.cube, bare.cube}) cube->activate();
+  run(0.2);
+  expectAsBullet(-0.2 * kGravity);
+}
+
+TEST(HostHabits, AHandWakesASharedBodyThatItsHostPutToSleep) {
+  NeighbourScene scene(true);
+  scene.settings.peers = 1;
+  scene.start(Vec3(0.0, 0.0, 5.0));
+  scene.run(0.1);
+  scene.cube->setActivationState(ISLAND_SLEEPING);
+  scene.run(0.2);
+  const Vec3 p_W = NeighbourScene::positionOf(*scene.cube);
+  const double reach = NeighbourScene::kHalf + scene.settings.hip_radius;
+  scene.device.sample.hip.p_W = p_W + Vec3(0.001 - reach, 0.0, 0.0);
+  scene.run(0.2);
+  EXPECT_TRUE(scene.cube->isActive());
+  EXPECT_GT(NeighbourScene::velocityOf(*scene.cube).x(), 0.0);
+  EXPECT_NEAR(NeighbourScene::velocityOf(*scene.cube).z(), -0.2 * kGravity, 0.4);
+}
+
+TEST(HostHabits, ASharedBodyThatItsHostPutToSleepSleepsOnAfterTheSite) {
+  NeighbourScene scene(true);
+  scene.start(Vec3(0.0, 0.0, 5.0));
+  scene.run(0.1);
+  scene.cube->setActivationState(ISLAND_SLEEPING);
+  scene.run(0.1);
+  const double z = NeighbourScene::positionOf(*scene.cube).z();
+  scene.site.reset();
+  scene.run(0.5);
+  EXPECT_EQ(scene.cube->getActivationState(), ISLAND_SLEEPING);
+  EXPECT_NEAR(NeighbourScene::positionOf(*scene.cube).z(), z, 1e-6);
+}
+
 // As most hosts make one: without mass, so that both flags are set.
 TEST(HostHabits, AKinematicBodyWithoutMassMayComeNear) {
   Habits scene;

@@ -95,6 +95,77 @@ TEST(Resets, ManyInARowEndWell) {
   }
 }
 
+/// Leads a site's cube by its motion state, as Bullet's hosts lead kinematic bodies.
+struct Led {
+  explicit Led(btRigidBody& cube) : pose(cube.getWorldTransform()) {
+    cube.setMotionState(&pose);
+    cube.setCollisionFlags(cube.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    cube.setActivationState(DISABLE_DEACTIVATION);
+  }
+  void put(const Vec3& p_W) { pose.setWorldTransform(toBullet(p_W, Quat::Identity())); }
+  btDefaultMotionState pose;
+};
+
+// Bullet says that it flew there at 240 m/s, and a spring pulled the other copy after it.
+TEST(Resets, AKinematicBodyPutElsewhereByItsMotionStateIsFollowed) {
+  ResetHosts hosts({});
+  Led led(*hosts.scenes[0]->cube);
+  hosts.run(0.5);
+  double fastest = 0.0;
+  const auto run = [&](double duration) {
+    for (int step = 0; step < duration * 60.0; ++step) {
+      hosts.run(1.0 / 60.0);
+      fastest = std::max(fastest, NeighbourScene::velocityOf(*hosts.scenes[1]->cube).norm());
+    }
+  };
+  for (const double place : {4.0, -2.0}) {
+    led.put(Vec3(place, 0.0, kHalf));
+    run(1.0);
+    EXPECT_NEAR(hosts.at(1).x(), place, kRounding);
+  }
+  EXPECT_LT(fastest, kRounding);
+  EXPECT_EQ(hosts.counters(0).objects_reset, 2u);
+  EXPECT_EQ(hosts.counters(1).resets_followed, 2u);
+  hosts.scenes[0]->cube->setMotionState(nullptr);
+}
+
+TEST(Resets, AKinematicBodyThatMovesBeginsNoEpoch) {
+  ResetHosts hosts({});
+  Led led(*hosts.scenes[0]->cube);
+  hosts.run(0.5);
+  for (int step = 1; step <= 120; ++step) {
+    led.put(Vec3(step / 60.0, 0.0, kHalf));
+    hosts.run(1.0 / 60.0);
+  }
+  EXPECT_EQ(hosts.counters(0).objects_reset, 0u);
+  EXPECT_NEAR(hosts.at(1).x(), 2.0, 0.1);
+  hosts.scenes[0]->cube->setMotionState(nullptr);
+}
+
+// Bullet keeps a velocity that moves nothing. Peers' copies flew at 9 m/s. Found by "bench guest",
+// seed 31337, case 1177.
+TEST(Resets, ABodyThatStandsWithAVelocityPullsNoCopy) {
+  for (const bool is_pinned : {true, false}) {
+    SCOPED_TRACE(is_pinned);
+    ResetHosts hosts({});
+    btRigidBody& cube = *hosts.scenes[0]->cube;
+    if (is_pinned) {
+      cube.setMassProps(0, btVector3(0, 0, 0));
+    } else {
+      cube.forceActivationState(DISABLE_SIMULATION);
+    }
+    double fastest = 0.0;
+    for (int step = 0; step < 60; ++step) {
+      cube.setLinearVelocity(btVector3(-58, 2, -11));
+      cube.setAngularVelocity(btVector3(2, -2, -29));
+      hosts.run(1.0 / 60.0);
+      fastest = std::max(fastest, NeighbourScene::velocityOf(*hosts.scenes[1]->cube).norm());
+    }
+    EXPECT_LT(fastest, kRounding);
+    EXPECT_NEAR(hosts.at(1).x(), hosts.at(0).x(), kRounding);
+  }
+}
+
 // Both cannot be right: the site with the higher number wins, everywhere.
 TEST(Resets, HostsThatDisagreeEndAtOnePlace) {
   for (const int sites : {2, 3}) {

@@ -54,6 +54,24 @@ struct MovingBody {
   int tick = 0;
 };
 
+// An object that is shared while the site runs. Without a past of its own it flew in from the
+// origin where newcomers were caught up.
+TEST(Timeline, GivesABodyAddedLaterAPastOfItsOwn) {
+  MovingBody moving(2.0);
+  moving.timeline.announce(2.6 * kTick, 2.6 * kTick);
+  moving.runUntilTick(4);
+  IslandBody settings;
+  settings.mass = kMass;
+  settings.inertia_B = Vec3::Constant(2e-4);
+  settings.start.p_W = Vec3(5.0, 0.0, 0.0);
+  const BodyIndex added = moving.island.addBody(settings);
+  moving.island.prepare();
+  moving.timeline.setBodyCount(2);
+  for (const double ticks : {2.6, 2.8, 3.0, 3.5, 4.0})
+    EXPECT_EQ(moving.timeline.stateAt(added, ticks * kTick).p_W.x(), 5.0) << ticks;
+  EXPECT_NEAR(moving.timeline.stateAt(moving.body, 3.5 * kTick).p_W.x(), 7e-3, 1e-9);
+}
+
 // A slot's kept states are of the body before. A newcomer caught up from them would fly to its
 // place, and throw whatever stands on the way.
 TEST(Timeline, GivesANewcomerAPastOfItsOwn) {

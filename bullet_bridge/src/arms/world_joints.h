@@ -13,8 +13,8 @@ namespace tandem {
 /// of multi-bodies, and their constraints. Functions and threads are those of HostJoints.
 class WorldJoints final : public JointSource {
  public:
-  explicit WorldJoints(btDiscreteDynamicsWorld& host)
-      : rigid_(host), arms_(asMultiBodyWorld(host)), constraints_(asMultiBodyWorld(host)) {}
+  WorldJoints(btDiscreteDynamicsWorld& host, const MovedFrames& moved)
+      : rigid_(host, moved), arms_(asMultiBodyWorld(host)), constraints_(asMultiBodyWorld(host)) {}
 
   /// @name For the thread that steps the host's world.
   /// @{

@@ -32,6 +32,11 @@ struct BodyLook {
   }
 };
 
+/// True for a static body: neither forces nor its host's motion states move it.
+[[nodiscard]] inline bool isFixed(const btRigidBody& body) noexcept {
+  return body.getInvMass() == 0 && !body.isKinematicObject();
+}
+
 /// True if forces may move the body, and it takes part in contact and simulation: the island may
 /// hold it. The body must be in its world.
 [[nodiscard]] inline bool isMovedByForces(const btRigidBody& body) noexcept {

@@ -6,6 +6,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
+#include "bodies/body_number.h"
 #include "bodies/equal_bits.h"
 #include "shapes/parts_look.h"
 
@@ -13,8 +14,11 @@ namespace tandem {
 
 /// What a collision object is to contact, as the island reads it once.
 struct ColliderLook {
-  int broadphase_id = -1;  ///< new whenever the object is added to its world
-  int flags = 0;           ///< btCollisionObject::CollisionFlags
+  int number = -1;  ///< numberOf() a rigid body
+  /// Most broadphases give another whenever an object is added. btAxisSweep3 and btSimpleBroadphase
+  /// give it again.
+  int broadphase_id = -1;
+  int flags = 0;  ///< btCollisionObject::CollisionFlags
   int group = 0, mask = 0;
   const btCollisionShape* shape = nullptr;
   std::uint64_t parts = 0;  ///< lookAtParts()
@@ -24,6 +28,7 @@ struct ColliderLook {
   /// The object must be in its world.
   [[nodiscard]] static ColliderLook at(const btCollisionObject& object) noexcept {
     ColliderLook look;
+    if (const btRigidBody* body = btRigidBody::upcast(&object)) look.number = numberOf(*body);
     if (const btBroadphaseProxy* proxy = object.getBroadphaseHandle()) {
       look.broadphase_id = proxy->m_uniqueId;
       look.group = proxy->m_collisionFilterGroup;
@@ -38,9 +43,9 @@ struct ColliderLook {
   }
 
   [[nodiscard]] bool operator==(const ColliderLook& other) const noexcept {
-    return broadphase_id == other.broadphase_id && flags == other.flags && group == other.group &&
-           mask == other.mask && shape == other.shape && parts == other.parts &&
-           margin == other.margin && equalBits(scaling, other.scaling);
+    return number == other.number && broadphase_id == other.broadphase_id && flags == other.flags &&
+           group == other.group && mask == other.mask && shape == other.shape &&
+           parts == other.parts && margin == other.margin && equalBits(scaling, other.scaling);
   }
 };
 

@@ -21,8 +21,6 @@ constexpr double kSameTime = 1e-6;
 constexpr double kLongestCall = 0.5;
 constexpr double kJump = 0.05, kJumpTurn = 0.5;  // [m], [rad]
 constexpr double kNear = 1e-7;                   // [m, rad]
-/// No body becomes faster by as much in a step, but by a jump [m/s, rad/s].
-constexpr double kLeap = 3.0, kLeapTurn = 30.0;
 
 bool isSamePose(const RigidState& a, const RigidState& b) {
   return a.p_W == b.p_W && a.q_WB.coeffs() == b.q_WB.coeffs();
@@ -30,11 +28,6 @@ bool isSamePose(const RigidState& a, const RigidState& b) {
 
 bool stands(const RigidState& s) {
   return s.v_W.norm() < kStillBelow && s.w_W.norm() < kStillBelow;
-}
-
-/// True if a step made the body so much faster that its way was a jump.
-bool isLeap(const RigidState& before, const RigidState& now) {
-  return (now.v_W - before.v_W).norm() >= kLeap || (now.w_W - before.w_W).norm() >= kLeapTurn;
 }
 
 /// Time from one pose to another at the velocities of the latter [s]; 0 for a jump.
@@ -78,8 +71,7 @@ void DrivenBody::look(double time) noexcept {
     return;
   }
   is_belt_ = false;
-  // After a jump it moves on as the jump said, or as one that stood there.
-  was_put_ = isLeap(before, now) && !(was_put_ && !isLeap({}, now));
+  was_put_ = isPut(before, now, was_put_);
   // The first of several sub-steps already has the pose of the last.
   const double arrival = stamp_ + std::min(computeWayTime(before, now), kLongestCall);
   stamp_ = arrival > time + kSameTime ? arrival : time;

@@ -8,6 +8,20 @@ class btRigidBody;
 #pragma GCC visibility push(default)
 namespace tandem {
 
+/// True if a step made a kinematic body so much faster that its way was a jump. Pure.
+[[nodiscard]] inline bool isLeap(const RigidState& before, const RigidState& now) noexcept {
+  constexpr double kLeap = 3.0, kLeapTurn = 30.0;  // [m/s], [rad/s]
+  return (now.v_W - before.v_W).norm() >= kLeap || (now.w_W - before.w_W).norm() >= kLeapTurn;
+}
+
+/// True if the host put a kinematic body elsewhere in a step, instead of moving it there. After a
+/// jump it moves on as the jump said, or as one that stood there: `was_put` is the answer of the
+/// step before. Pure.
+[[nodiscard]] inline bool isPut(const RigidState& before, const RigidState& now,
+                                bool was_put) noexcept {
+  return isLeap(before, now) && !(was_put && !isLeap({}, now));
+}
+
 /// A kinematic body of the host's world: a gripper, a lift, a belt. The host moves it; between the
 /// host's steps its pose is extrapolated from its velocity.
 ///

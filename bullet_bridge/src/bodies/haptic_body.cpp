@@ -9,6 +9,7 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bodies/attach_warnings.h"
+#include "bodies/body_number.h"
 #include "bodies/equal_bits.h"
 #include "bodies/mass_restore.h"
 #include "bodies/rotation_vector.h"
@@ -108,6 +109,7 @@ HapticBody::HapticBody(btDiscreteDynamicsWorld& world, btRigidBody& body, double
 
 HapticBody::~HapticBody() {
   if (is_gone_ || !isInWorld()) return;
+  if (numberOf(body_) != look_.collider.number) return;  // another, made at its address
   if (handed_.pending) body_.setFlags(handed_.flags);
   takeDamping();
   body_.setDamping(original_.linear_damping, original_.angular_damping);
@@ -141,8 +143,9 @@ void HapticBody::restoreMassProps() {
 bool HapticBody::hasWeightOfItsWorld() const noexcept {
   // A host may have deleted the shape by now: read nothing of it.
   const btBroadphaseProxy* proxy = body_.getBroadphaseHandle();
-  return proxy && proxy->m_uniqueId != look_.collider.broadphase_id &&
-         world_index_ != original_.world_index && hasWorldGravity();
+  const bool has_other_place = proxy && proxy->m_uniqueId != look_.collider.broadphase_id &&
+                               world_index_ != original_.world_index;
+  return (was_away_ || has_other_place) && hasWorldGravity();
 }
 
 /// Reads a damping that the host set while ours is off, zero too: ours is minus zero.
@@ -187,6 +190,7 @@ void HapticBody::setMassShare(double share) noexcept {
 
 bool HapticBody::isInWorld() const noexcept {
   world_index_ = findInWorld(world_, &body_, world_index_);
+  was_away_ |= world_index_ < 0;
   return world_index_ >= 0;
 }
 

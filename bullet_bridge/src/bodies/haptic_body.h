@@ -122,18 +122,25 @@ class HapticBody final : public HostBody {
   /// must be woken.
   [[nodiscard]] bool standsAt(const RigidState& state) const noexcept override;
 
-  /// Post-tick, after restore(). Puts a standing body to sleep in Bullet. It needs no handOff() and
-  /// restore() until unpark() or wakeIfHit().
+  /// Post-tick, after restore(). Puts a standing body to sleep in Bullet, without its weight for
+  /// later sub-steps. It needs no handOff() and restore() until unpark() or wakeIfHit().
   void park() noexcept override;
   [[nodiscard]] bool isParked() const noexcept override { return parked_; }
   /// True if Bullet has the body asleep. Post-tick: false also for a parked body whose broadphase
   /// box overlaps that of an awake one.
   [[nodiscard]] bool isAsleep() const noexcept override { return !body_.isActive(); }
 
+  /// Pre-tick. True if the host has put an awake body to sleep (ISLAND_SLEEPING), or has moved one
+  /// since. Bullet itself puts none to sleep with Sleep::kNever.
+  [[nodiscard]] bool wasPutToSleep() const noexcept;
+  /// Pre-tick, if wasPutToSleep(). Stops the body as Bullet does, parked where it is. It misses
+  /// changes of the world's gravity, and sleeps on when this object ends. Returns where it is.
+  RigidState stop() noexcept;
+
   /// Pre-tick. False once the host has woken, moved, pushed or changed a parked body or its weight.
   [[nodiscard]] bool isUndisturbed() const noexcept override;
   /// True if the world's gravity changed since the body was parked: Bullet updates awake bodies
-  /// only. unpark() makes up for it.
+  /// only. unpark() makes up for it, unless the host has put it to sleep.
   [[nodiscard]] bool hasMissedWorldGravity() const noexcept override;
 
   /// Pre-tick. Wakes the body, with its weight for this step; takeHostChanges() and handOff() may
@@ -194,6 +201,8 @@ class HapticBody final : public HostBody {
   [[nodiscard]] bool hasLeftItsRest(const RigidState& state) const noexcept;
   void restoreActivation();
   void standStill() noexcept;
+  void parkAt(const RigidState& at) noexcept;
+  void layWeightDown() noexcept;
   void keepAwake() noexcept;
   void stayAwake(double dt) noexcept;
   [[nodiscard]] bool sleepsOn() noexcept;
@@ -204,9 +213,11 @@ class HapticBody final : public HostBody {
   btRigidBody& body_;
   Sleep sleep_;
   mutable int world_index_;
+  mutable bool was_away_ = false;  ///< out of its world, at a call of isInWorld()
   std::vector<std::string> warnings_;
   bool has_additional_damping_ = false;
   bool parked_ = false;
+  bool is_stopped_ = false;   // parked: by its host
   bool slept_ = false;        // at the last pre-tick
   bool stays_awake_ = false;  // parked: it was DISABLE_DEACTIVATION
   RigidState rest_;           // pose at which it fell asleep

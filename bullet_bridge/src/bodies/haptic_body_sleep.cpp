@@ -8,6 +8,7 @@
 
 #include "bodies/equal_bits.h"
 #include "bodies/haptic_body.h"
+#include "bodies/mass_restore.h"
 #include "bodies/rotation_vector.h"
 #include "bodies/sleep_state.h"
 
@@ -43,7 +44,8 @@ constexpr double kTooLittleToWake = 5e-5;
 
 /// Restores sleep and its timer, unless the host has changed how the body is simulated.
 void HapticBody::restoreActivation() {
-  if (parked_) keepAwake();  // it may have been woken by its host
+  // It may have been woken by its host.
+  if (parked_ && !is_stopped_) keepAwake();
   if (body_.getActivationState() != ACTIVE_TAG) return;
   const bool slept = mayFallAsleep(original_.activation_state);
   const bool untouched = equalBits(body_.getWorldTransform(), original_.pose);
@@ -73,28 +75,60 @@ void HapticBody::park() noexcept {
   if (parked_ || !isInWorld()) return;
   // Bullet decides about sleep, together with all bodies that it touches.
   if (sleep_ == Sleep::kAsHost && body_.isActive()) return;
+  parkAt(handed_.end);
+  body_.forceActivationState(ISLAND_SLEEPING);
+}
+
+bool HapticBody::wasPutToSleep() const noexcept {
+  const bool is_parked_by_us = parked_ && !is_stopped_;
+  if (sleep_ != Sleep::kNever || is_parked_by_us || !isInWorld()) return false;
+  return body_.getActivationState() == ISLAND_SLEEPING &&
+         !(is_stopped_ && isSame(body_.getWorldTransform(), known_pose_));
+}
+
+RigidState HapticBody::stop() noexcept {
+  RigidState at = state();
+  at.q_WB.normalize();
+  at.v_W = at.w_W = Vec3::Zero();
+  slept_ = true;  // Bullet gave it no weight, unless it fell asleep within its stepSimulation()
+  parkAt(at);
+  is_stopped_ = true;
+  return handed_.end;
+}
+
+void HapticBody::parkAt(const RigidState& at) noexcept {
+  layWeightDown();
   parked_ = slept_ = true;
-  handed_.p_W_start = handed_.end.p_W;
-  rest_ = handed_.end;
+  handed_.end = rest_ = at;
+  handed_.p_W_start = at.p_W;
   standStill();
   known_gravity_ = body_.getGravity();
   known_world_gravity_ = world_.getGravity();
   known_look_ = BodyLook::at(body_);
   stays_awake_ = body_.getActivationState() == DISABLE_DEACTIVATION;
-  body_.forceActivationState(ISLAND_SLEEPING);
+}
+
+/// Bullet gives weight once for all sub-steps of a stepSimulation(). A body that parks between two
+/// of them gets it anew when it wakes.
+void HapticBody::layWeightDown() noexcept {
+  const btVector3 total = body_.getTotalForce(), weight = measureWeight(body_);
+  // A body that was asleep when the stepSimulation() began has none.
+  const bool has_weight = !slept_ || total == weight * body_.getLinearFactor();
+  if (has_weight && !isZero(total)) body_.applyCentralForce(-weight);
 }
 
 bool HapticBody::isUndisturbed() const noexcept {
-  // The forces of a sleeping body do not include its weight.
+  // The forces of a sleeping body do not include its weight. One that the host put to sleep loses
+  // forces and impulses, as in Bullet.
   return body_.getActivationState() == ISLAND_SLEEPING &&
-         areZero(body_.getTotalForce(), body_.getTotalTorque(), body_.getLinearVelocity(),
-                 body_.getAngularVelocity()) &&
+         (is_stopped_ || areZero(body_.getTotalForce(), body_.getTotalTorque(),
+                                 body_.getLinearVelocity(), body_.getAngularVelocity())) &&
          isSame(body_.getGravity(), known_gravity_) &&
          isSame(body_.getWorldTransform(), known_pose_) && BodyLook::at(body_) == known_look_;
 }
 
 bool HapticBody::hasMissedWorldGravity() const noexcept {
-  return hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_);
+  return !is_stopped_ && hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_);
 }
 
 bool HapticBody::hasWorldGravity() const noexcept {
@@ -113,6 +147,7 @@ void HapticBody::unpark() noexcept {
   if (!isInWorld()) return;
   // The world's new gravity reaches only awake bodies.
   if (hasMissedWorldGravity()) body_.setGravity(world_.getGravity());
+  is_stopped_ = false;
   // Bullet gives weight only to bodies awake when a stepSimulation() begins.
   if (!body_.isActive()) body_.applyGravity();
   keepAwake();
@@ -144,7 +179,7 @@ bool HapticBody::sleepsOn() noexcept {
 
 bool HapticBody::wakeIfHit(HostChange& change) noexcept {
   if (!parked_ || !isInWorld() || sleepsOn()) return false;
-  parked_ = false;
+  parked_ = is_stopped_ = false;
   change = {};
   change.impulse_W = fromBullet(body_.getLinearVelocity()) * mass();
   change.angular_impulse_W =

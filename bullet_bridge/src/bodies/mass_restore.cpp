@@ -4,23 +4,56 @@
 #include <limits>
 
 namespace tandem {
+namespace {
+
+/// Switches off the linear and angular factors of a body for as long as it lives.
+class WithoutFactors {
+ public:
+  explicit WithoutFactors(btRigidBody& body) noexcept
+      : body_(body), linear_(body.getLinearFactor()), angular_(body.getAngularFactor()) {
+    body_.setLinearFactor(btVector3(1, 1, 1));
+    body_.setAngularFactor(btVector3(1, 1, 1));
+  }
+  ~WithoutFactors() {
+    body_.setLinearFactor(linear_);
+    body_.setAngularFactor(angular_);
+  }
+  WithoutFactors(const WithoutFactors&) = delete;
+  WithoutFactors& operator=(const WithoutFactors&) = delete;
+
+  void setTotals(const btVector3& force, const btVector3& torque) const noexcept {
+    body_.clearForces();
+    body_.applyCentralForce(force);
+    body_.applyTorque(torque);
+  }
+
+ private:
+  btRigidBody& body_;
+  btVector3 linear_, angular_;
+};
+
+}  // namespace
 
 btVector3 measureWeight(btRigidBody& body) noexcept {
-  const btVector3 force = body.getTotalForce();
-  const btVector3 torque = body.getTotalTorque();
-  const btVector3 linear_factor = body.getLinearFactor();
-  const btVector3 angular_factor = body.getAngularFactor();
-  body.setLinearFactor(btVector3(1, 1, 1));
-  body.setAngularFactor(btVector3(1, 1, 1));
+  const btVector3 force = body.getTotalForce(), torque = body.getTotalTorque();
+  const WithoutFactors without(body);
   body.clearForces();
   body.applyGravity();
   const btVector3 weight = body.getTotalForce();
-  body.clearForces();
-  body.applyCentralForce(force);
-  body.applyTorque(torque);
-  body.setLinearFactor(linear_factor);
-  body.setAngularFactor(angular_factor);
+  without.setTotals(force, torque);
   return weight;
+}
+
+WeightInStep::WeightInStep(btRigidBody& body) noexcept
+    : weight_(measureWeight(body)),
+      is_applied_(body.isActive() && !body.getTotalForce().isZero()) {}
+
+void WeightInStep::follow(btRigidBody& body) const noexcept {
+  const btVector3 now = measureWeight(body);
+  if (!is_applied_ || now == weight_) return;
+  const btVector3 factor = body.getLinearFactor(), torque = body.getTotalTorque();
+  const btVector3 others = body.getTotalForce() - weight_ * factor;
+  WithoutFactors(body).setTotals(others + now * factor, torque);
 }
 
 void restoreMass(btRigidBody& body, btScalar inverse_mass, const btVector3& inverse_inertia,

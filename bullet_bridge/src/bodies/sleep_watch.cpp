@@ -8,6 +8,7 @@
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
+#include "bodies/body_number.h"
 #include "bodies/haptic_body.h"
 
 namespace tandem {
@@ -62,11 +63,27 @@ bool SleepWatch::remember(const std::vector<HapticBody*>& bodies) {
       looks_.clear();
       return false;
     }
-    looks_.push_back({&body, proxy, body.getCollisionShape(), body.getWorldArrayIndex(),
-                      proxy->m_uniqueId, proxy->m_collisionFilterGroup,
-                      proxy->m_collisionFilterMask, body.getCollisionFlags(), body.getInvMass(),
-                      body.getWorldTransform(), body.getGravity(), body.getInvInertiaDiagLocal(),
-                      body.getLinearFactor(), body.getAngularFactor()});
+    const int& number = numberOf(body);
+    looks_.push_back({&body,
+                      proxy,
+                      body.getCollisionShape(),
+                      &number,
+                      body.getWorldArrayIndex(),
+                      number,
+                      proxy->m_uniqueId,
+                      proxy->m_collisionFilterGroup,
+                      proxy->m_collisionFilterMask,
+                      body.getCollisionFlags(),
+                      body.getInvMass(),
+                      body.getFriction(),
+                      body.getRestitution(),
+                      body.getRollingFriction(),
+                      body.getSpinningFriction(),
+                      body.getWorldTransform(),
+                      body.getGravity(),
+                      body.getInvInertiaDiagLocal(),
+                      body.getLinearFactor(),
+                      body.getAngularFactor()});
     const btCollisionShape& shape = *body.getCollisionShape();
     const auto is_known = [&](const ShapeLook& other) { return other.shape == &shape; };
     if (std::none_of(shapes_.begin(), shapes_.end(), is_known))
@@ -85,13 +102,18 @@ bool SleepWatch::Look::isUnchanged() const noexcept {
   difference.compare(now.getInvInertiaDiagLocal(), inverse_inertia);
   difference.compare(now.getLinearFactor(), linear_factor);
   difference.compare(now.getAngularFactor(), angular_factor);
-  const int other = (proxy->m_uniqueId ^ broadphase_id) | (proxy->m_collisionFilterGroup ^ group) |
+  const int other = (*number_in_body ^ number) | (proxy->m_uniqueId ^ broadphase_id) |
+                    (proxy->m_collisionFilterGroup ^ group) |
                     (proxy->m_collisionFilterMask ^ mask) | (now.getCollisionFlags() ^ flags);
   // The forces of a sleeping body do not include its weight.
   const bool is_still = areAllZero(now.getTotalForce(), now.getTotalTorque(),
                                    now.getLinearVelocity(), now.getAngularVelocity());
-  return difference.isNone() && other == 0 && is_still && now.getInvMass() == inverse_mass &&
-         now.getCollisionShape() == shape;
+  const bool has_its_surface = now.getFriction() == friction &&
+                               now.getRestitution() == restitution &&
+                               now.getRollingFriction() == rolling_friction &&
+                               now.getSpinningFriction() == spinning_friction;
+  return difference.isNone() && other == 0 && is_still && has_its_surface &&
+         now.getInvMass() == inverse_mass && now.getCollisionShape() == shape;
 }
 
 bool SleepWatch::isUndisturbed() const noexcept {

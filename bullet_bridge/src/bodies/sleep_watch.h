@@ -38,8 +38,9 @@ class SleepWatch {
     const btRigidBody* body;
     const btBroadphaseProxy* proxy;
     const btCollisionShape* shape;
-    int world_index, broadphase_id, group, mask, flags;
-    btScalar inverse_mass;
+    const int* number_in_body;
+    int world_index, number, broadphase_id, group, mask, flags;
+    btScalar inverse_mass, friction, restitution, rolling_friction, spinning_friction;
     btTransform pose;
     btVector3 gravity, inverse_inertia, linear_factor, angular_factor;
 

@@ -10,6 +10,7 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
+#include "bodies/body_look.h"
 #include "joints/held_ways.h"
 #include "world/world_access.h"
 
@@ -21,10 +22,6 @@ HostSolver readSolver(btDiscreteDynamicsWorld& host, double dt) noexcept {
   return {dt, static_cast<double>(info.m_erp), info.m_numIterations};
 }
 
-bool isFixed(const btRigidBody& body) noexcept {
-  return body.getInvMass() == 0 && !body.isKinematicObject();
-}
-
 }  // namespace
 
 void HostJoints::look(const Find& find) {
@@ -32,7 +29,7 @@ void HostJoints::look(const Find& find) {
   looked_at_ = host_.getNumConstraints();
   for (int i = 0; i < host_.getNumConstraints() && next_.size() < kMaxJoints; ++i) {
     btTypedConstraint& host = *host_.getConstraint(i);
-    if (!host.isEnabled() || !JointCopy::isKnown(host)) continue;
+    if (!host.isEnabled() || !JointCopy::isKnown(host) || moved_.isMoving(host)) continue;
     const btRigidBody &a = host.getRigidBodyA(), &b = host.getRigidBodyB();
     const auto in_a = isFixed(a) ? kStanding : find(a), in_b = isFixed(b) ? kStanding : find(b);
     if (!in_a || !in_b || (*in_a == kStanding && *in_b == kStanding)) continue;
@@ -67,7 +64,7 @@ void HostJoints::findGone() noexcept {
     while (looked < count && host_.getConstraint(place % count) != joint.host) ++place, ++looked;
     joint.is_gone = looked == count || !joint.host->isEnabled() ||
                     &joint.host->getRigidBodyA() != joint.a ||
-                    &joint.host->getRigidBodyB() != joint.b;
+                    &joint.host->getRigidBodyB() != joint.b || moved_.isMoving(*joint.host);
   }
 }
 

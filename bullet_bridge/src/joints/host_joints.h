@@ -8,6 +8,7 @@
 #include "coordination/src/island/joint_source.h"
 #include "joints/acting_joints.h"
 #include "joints/joint_copy.h"
+#include "joints/moved_frames.h"
 
 class btDiscreteDynamicsWorld;
 class btRigidBody;
@@ -26,14 +27,15 @@ class HostJoints final : public JointSource {
   /// Index of a body in the island; none: the island does not hold it.
   using Find = std::function<std::optional<BodyIndex>(const btRigidBody&)>;
 
-  explicit HostJoints(btDiscreteDynamicsWorld& host) : host_(host) {}
+  HostJoints(btDiscreteDynamicsWorld& host, const MovedFrames& moved)
+      : host_(host), moved_(moved) {}
 
   /// @name For the thread that steps the host's world.
   /// @{
   /// Finds the joints that the island should solve: it holds both ends, or one while the other is
-  /// static.
+  /// static, and their frames do not move.
   void look(const Find& find);
-  /// Marks joints that the host has removed or switched off.
+  /// Marks joints that the host has removed or switched off, or whose frames it moves.
   void findGone() noexcept;
   /// True if the host has added, removed or changed a joint since the last look() and refresh().
   [[nodiscard]] bool hasNews() noexcept;
@@ -98,6 +100,7 @@ class HostJoints final : public JointSource {
                     std::vector<JointRow>& rows) noexcept;
 
   btDiscreteDynamicsWorld& host_;
+  const MovedFrames& moved_;
   std::vector<Joint> joints_, next_;
   bool has_next_ = false;
   int looked_at_ = 0;  ///< joints of the host's world at the last look()

@@ -8,8 +8,11 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "bodies/body_look.h"
 #include "joints/joint_copy.h"
+#include "joints/moved_frames.h"
 #include "world/world_access.h"
+#include "world/world_lookup.h"
 
 namespace tandem {
 namespace {
@@ -24,9 +27,7 @@ void forEachJoint(btDiscreteDynamicsWorld& world, Visit visit) {
     if (btTypedConstraint* joint = world.getConstraint(i); joint->isEnabled()) visit(*joint);
 }
 
-bool doesEndChain(const btRigidBody& body) {
-  return body.isStaticOrKinematicObject() || body.getInvMass() == 0;
-}
+bool doesEndChain(const btRigidBody& body) { return !isDynamic(body); }
 
 }  // namespace
 
@@ -96,10 +97,16 @@ void JointGraph::nameChains(const std::vector<ArmTie>& ties) {
   });
 }
 
-/// True if its type is known, and it is about closed.
+/// True if a body that may move is no longer in the world.
+bool JointGraph::hasLeft(const btRigidBody& body) const {
+  return !isFixed(body) && findInWorld(host_, &body, body.getWorldArrayIndex()) < 0;
+}
+
+/// True if its type is known, its frames stand, it is about closed, and its bodies are there.
 bool JointGraph::mayBeHeld(btTypedConstraint& joint) {
-  if (!JointCopy::isKnown(joint)) return false;
+  if (!JointCopy::isKnown(joint) || (moved_ && moved_->isMoving(joint))) return false;
   const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
+  if (hasLeft(a) || hasLeft(b)) return false;
   double size = HUGE_VAL;
   for (const btRigidBody* body : {&a, &b}) {
     if (body->getInvMass() == 0) continue;

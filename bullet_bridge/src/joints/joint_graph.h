@@ -14,6 +14,8 @@ class btTypedConstraint;
 
 namespace tandem {
 
+class MovedFrames;
+
 /// What joints connect: a rigid body, or a whole multi-body.
 struct Jointed {
   btRigidBody* body = nullptr;
@@ -33,11 +35,14 @@ struct ArmTie {
 /// Chains of moving bodies that joints of the host's world connect.
 ///
 /// The island holds all of a chain or nothing: a joint is solved where both of its bodies are. A
-/// joint that is far from closed stays Bullet's, until Bullet has closed it.
+/// joint that is far from closed stays Bullet's, until Bullet has closed it. So does one whose
+/// frames the host moves, and one of a body that the host has taken out of its world already.
 /// Chains end at static and kinematic bodies. For the thread that steps the host's world.
 class JointGraph {
  public:
-  explicit JointGraph(btDiscreteDynamicsWorld& host) : host_(host) {}
+  /// `moved`: joints whose frames move stay Bullet's; null: none do.
+  JointGraph(btDiscreteDynamicsWorld& host, const MovedFrames* moved)
+      : host_(host), moved_(moved) {}
 
   /// Reads the world's joints, and `ties` of its multi-bodies. `may_hold(body)` tells whether the
   /// island could hold a moving rigid body.
@@ -99,9 +104,11 @@ class JointGraph {
   void nameChains(const std::vector<ArmTie>& ties);
   void listMembers(const std::vector<ArmTie>& ties);
   [[nodiscard]] bool mayBeHeld(btTypedConstraint& joint);
+  [[nodiscard]] bool hasLeft(const btRigidBody& body) const;
   [[nodiscard]] const Node* find(const void* address) const;
 
   btDiscreteDynamicsWorld& host_;
+  const MovedFrames* moved_;
   std::vector<Node> nodes_;  ///< sorted by address
   std::vector<Chain> chains_;
   std::vector<Jointed> members_;     ///< chain by chain

@@ -9,6 +9,7 @@ namespace tandem {
 struct SupportBody {
   const HapticBody* bullet = nullptr;
   HostChange* change = nullptr;
+  bool is_led = false;  ///< its host moves it on, whatever resists
 };
 
 /// One side of a line: a body, with its masses while Bullet's solver acts.

@@ -23,6 +23,11 @@ constexpr double kSmallImpulse = 1e-12;
 
 constexpr double kUnlimited = 1e18;
 
+/// Change of velocity that a led support may resist: so many times that by which Bullet's own
+/// contact pushes out of overlap, or at least that of a fall of two host steps.
+constexpr double kMostSqueeze = 3.0;
+constexpr double kFallOfTwoSteps = 2.0 * 9.81;  // by a step's length [m/s^2]
+
 /// Speed by which a row yields in Bullet [m/s]: rounding must not push.
 constexpr double kSlack = 64.0 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
@@ -44,14 +49,23 @@ RigidContact computeMean(const RigidContact* contacts, std::size_t count) noexce
   return mean;
 }
 
+/// Greatest impulse of a row [N s]. Nothing stops a led support. Where it jams a body against
+/// joints or strangers, no impulse is enough, and sweeps would add to it as long as they go on.
+double computeMost(const RigidContact& contact, const SupportLine& line, double correction,
+                   double dt) noexcept {
+  if (!line.a.body.is_led && !line.b.body.is_led) return kUnlimited;
+  const double push_out = correction * std::max(0.0, -contact.distance) / dt;
+  return std::max(kMostSqueeze * push_out, kFallOfTwoSteps * dt) / line.inverse_mass;
+}
+
 }  // namespace
 
 /// A line in Bullet's form: J v >= target.
 class SupportRows::Row final : public btTypedConstraint {
  public:
   /// Keeps references to the bodies.
-  Row(btRigidBody& a, btRigidBody& b, const SupportLine& of)
-      : btTypedConstraint(CONTACT_CONSTRAINT_TYPE, a, b), line(of) {}
+  Row(btRigidBody& a, btRigidBody& b, const SupportLine& of, double limit)
+      : btTypedConstraint(CONTACT_CONSTRAINT_TYPE, a, b), line(of), most(limit) {}
 
   void getInfo1(btConstraintInfo1* info) override {
     info->m_numConstraintRows = 1;
@@ -68,12 +82,13 @@ class SupportRows::Row final : public btTypedConstraint {
     info->m_damping = 1;
     info->cfm[0] = 0;
     info->m_lowerLimit[0] = 0;
-    info->m_upperLimit[0] = SIMD_INFINITY;
+    info->m_upperLimit[0] = static_cast<btScalar>(most);
   }
   void setParam(int, btScalar, int) override {}
   [[nodiscard]] btScalar getParam(int, int) const override { return 0; }
 
   SupportLine line;
+  double most;  ///< greatest impulse [N s]
 };
 
 SupportRows::SupportRows(btDiscreteDynamicsWorld& host)
@@ -127,8 +142,10 @@ void SupportRows::addRow(const RigidContact& contact, const SupportBody& a, cons
   // The island has resisted what it foresaw. Here it would push a neighbour once more.
   line.free_speed += std::min(0.0, line.foresee());
   if (!(line.inverse_mass > 0.0)) return;
+  const auto correction = static_cast<double>(host_.getSolverInfo().m_erp2);
   rows_.push_back(std::make_unique<Row>(a.bullet ? a.bullet->body() : ground_,
-                                        b.bullet ? b.bullet->body() : ground_, line));
+                                        b.bullet ? b.bullet->body() : ground_, line,
+                                        computeMost(contact, line, correction, dt)));
   host_.addConstraint(rows_.back().get());
   if (host_sweeps_ > 0) return;
   host_sweeps_ = host_.getSolverInfo().m_numIterations;
@@ -179,7 +196,7 @@ Vec3 SupportRows::findImpulseBefore(const Face& face) const noexcept {
 double SupportRows::sweep(const Face& face, double dt) noexcept {
   double change = 0.0, pressed = 0.0;
   for (std::size_t i = face.first_row; i < face.end_row; ++i) {
-    change = std::max(change, rows_[i]->line.improve(0.0, kUnlimited, dt));
+    change = std::max(change, rows_[i]->line.improve(0.0, rows_[i]->most, dt));
     pressed += rows_[i]->line.impulse;
   }
   const double most = face.friction * pressed;

@@ -25,9 +25,11 @@ namespace tandem {
 ///
 ///     n . (dv_a - dv_b) >= -gap / dt,     impulse >= 0
 ///
-/// So it gives nothing where nothing presses. Meanwhile Bullet's solver makes five times as many
-/// sweeps: it forgets the impulses of rows between steps. For the thread that steps the host's
-/// world, which sees the rows only in callbacks within its step.
+/// So it gives nothing where nothing presses. A support that its host leads yields to a press that
+/// Bullet's own contact would not hold up: else what it jams is pushed with no end. Meanwhile
+/// Bullet's solver makes five times as many sweeps: it forgets the impulses of rows between steps.
+/// For the thread that steps the host's world, which sees the rows only in callbacks within its
+/// step.
 // clang-format on
 class SupportRows {
  public:

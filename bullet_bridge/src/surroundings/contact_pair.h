@@ -17,6 +17,7 @@ struct Material {
 
   /// In the host's thread.
   [[nodiscard]] static Material of(const btCollisionObject& a, const btCollisionObject& b);
+  [[nodiscard]] bool operator==(const Material&) const noexcept = default;
 };
 
 /// Region of a mesh's frame that a box may reach, grown by `margin`. `pose`: of the mesh's object.

@@ -40,9 +40,8 @@ void ContactSearch::setOrigin(const Vec3& origin_W, const std::vector<RigidState
 }
 
 bool ContactSearch::placeStanding(PrivateCopy& copy) {
-  const PrivatePose pose = copy.findOriginal(wanted_origin_W_);
-  if (equalBits(pose.rounded, copy.object.getWorldTransform())) return false;
-  placings_.push_back({&copy, pose});
+  if (!hasMoved(copy)) return false;
+  placings_.push_back({&copy, copy.findOriginal(wanted_origin_W_)});
   return true;
 }
 
@@ -59,7 +58,7 @@ void ContactSearch::addPair(PrivateCopy& a, PrivateCopy& b) {
   links_.push_back(std::move(link));
 }
 
-void ContactSearch::showSurfaces() {
+bool ContactSearch::showSurfaces() {
   const Combiners combiners = Combiners::now();
   const bool is_all_new = !(combiners == combiners_);
   combiners_ = combiners;
@@ -72,12 +71,16 @@ void ContactSearch::showSurfaces() {
       is_any_new |= copy->is_new_surface;
     }
   }
-  if (!is_any_new) return;
+  if (!is_any_new) return false;
+  bool has_changed = false;
   for (Neighbours& link : links_) {
     if (!is_all_new && !link.a->is_new_surface && !link.b->is_new_surface) continue;
-    link.material = Material::of(*link.a->original, *link.b->original);
-    link.is_new_material = has_news_ = true;
+    const Material now = Material::of(*link.a->original, *link.b->original);
+    if (now == link.material) continue;
+    link.material = now;
+    link.is_new_material = has_news_ = has_changed = true;
   }
+  return has_changed;
 }
 
 btTransform ContactSearch::findPose(const PrivateCopy& copy,

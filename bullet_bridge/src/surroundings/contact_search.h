@@ -74,6 +74,12 @@ class ContactSearch {
     }
     erase(original);
   }
+  /// Calls `visit` with each partner of a copy's pairs.
+  template <typename Visit>
+  void visitPartners(const PrivateCopy& copy, Visit visit) const {
+    for (const Neighbours& link : links_)
+      if (link.a == &copy || link.b == &copy) visit(link.a == &copy ? *link.b : *link.a);
+  }
   /// Ends the pairs of a copy, with `visit` as in remove(), and adds those for which `meets` holds.
   template <typename Visit, typename Meets>
   void renewPairs(PrivateCopy& copy, Visit visit, Meets meets) {
@@ -89,8 +95,15 @@ class ContactSearch {
         if (meets(copy, *object)) addPair(copy, *object);
     is_changed_ = true;
   }
-  /// Reads friction and restitution of the originals, which must all be in the world.
-  void showSurfaces();
+  /// Reads friction and restitution of the originals, which must all be in the world. True if those
+  /// of a pair have changed.
+  bool showSurfaces();
+  /// True if the host set another function that combines surfaces since the last showSurfaces().
+  [[nodiscard]] bool hasNewCombiners() const noexcept { return !(Combiners::now() == combiners_); }
+  /// True if the original of a standing copy, which must be in the world, has been moved.
+  [[nodiscard]] bool hasMoved(const PrivateCopy& copy) const {
+    return !equalBits(copy.findOriginal(wanted_origin_W_).rounded, copy.object.getWorldTransform());
+  }
   /// Copies the triangles of meshes that pairs may reach, within `margin` [m] of the bodies at
   /// `states`. All originals must be in the world, with the shapes that were copied.
   void gatherTriangles(const std::vector<RigidState>& states, btScalar margin);
@@ -172,8 +185,8 @@ class ContactSearch {
   std::vector<std::unique_ptr<PrivateCopy>> going_;    ///< in the present book, not in the next
   std::vector<Neighbours> links_;
   Vec3 wanted_origin_W_ = Vec3::Zero();
-  Combiners combiners_;      ///< at the last showSurfaces()
-  bool is_changed_ = false;  ///< since the last prepare()
+  Combiners combiners_ = Combiners::now();  ///< at the last showSurfaces()
+  bool is_changed_ = false;                 ///< since the last prepare()
 
   // Result of prepare() for commit().
   Book draft_;

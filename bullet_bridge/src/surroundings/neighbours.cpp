@@ -15,6 +15,7 @@
 #include "arms/arm_watch.h"
 #include "bodies/body_look.h"
 #include "bodies/filter_of.h"
+#include "surroundings/obstacle_search.h"
 #include "surroundings/regions.h"
 #include "world/world_lookup.h"
 
@@ -77,8 +78,12 @@ bool contains(const std::vector<Body*>& bodies, const Body* body) {
 
 }  // namespace
 
+NeighbourSearch::NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity,
+                                 const MovedFrames* moved)
+    : host_(host), arms_host_(asMultiBodyWorld(host)), capacity_(capacity), joints_(host, moved) {}
+
 NeighbourSearch::NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity)
-    : host_(host), arms_host_(asMultiBodyWorld(host)), capacity_(capacity), joints_(host) {}
+    : NeighbourSearch(host, capacity, nullptr) {}
 
 const std::vector<btRigidBody*>& NeighbourSearch::find(const std::vector<NeighbourSeed>& seeds,
                                                        double horizon) {
@@ -165,7 +170,7 @@ bool NeighbourSearch::leavesJointsOf(const btRigidBody& body) const {
 }
 
 bool NeighbourSearch::isStranger(const btCollisionObject& object) const {
-  if (object.isStaticObject() || !object.hasContactResponse()) return false;
+  if (object.isStaticObject() || !object.hasContactResponse() || isObstacle(object)) return false;
   const btRigidBody* body = btRigidBody::upcast(&object);
   if (const btMultiBody* arm = multiBodyOf(object))
     return !isGround(object) && !contains(found_arms_, arm);
@@ -370,9 +375,11 @@ bool NeighbourSearch::mayBeNeighbour(const btRigidBody& body) const {
   return mayBeHeld(body) && (!joints_.isJointed(body) || mayHoldChainOf(asJointed(body)));
 }
 
-/// True if the island could hold a moving body, but for its joints.
+/// True if the island could hold a moving body, but for its joints. A body in a joint may have left
+/// the world.
 bool NeighbourSearch::mayBeHeld(const btRigidBody& body) const {
-  return isMovedByForces(body) && hasPlainSurface(body) && hasPlainShape(body);
+  return findInWorld(host_, &body, body.getWorldArrayIndex()) >= 0 && isMovedByForces(body) &&
+         hasPlainSurface(body) && hasPlainShape(body);
 }
 
 }  // namespace tandem

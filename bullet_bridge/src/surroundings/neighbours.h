@@ -47,7 +47,8 @@ struct NeighbourSeed {
 /// response or with simulation disabled. For the thread that steps the host's world.
 class NeighbourSearch {
  public:
-  /// `host` must outlive this object.
+  /// `host` and `moved` must outlive this object. Without `moved` no joint's frames move.
+  NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity, const MovedFrames* moved);
   NeighbourSearch(btDiscreteDynamicsWorld& host, std::size_t capacity);
 
   /// Excludes a body that the island holds anyway. Allocates.

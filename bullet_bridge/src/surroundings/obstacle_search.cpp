@@ -14,14 +14,6 @@
 namespace tandem {
 namespace {
 
-bool isObstacle(const btCollisionObject& object) {
-  if (isGround(object)) return object.hasContactResponse();
-  const int type = object.getInternalType();
-  return (type == btCollisionObject::CO_COLLISION_OBJECT ||
-          type == btCollisionObject::CO_RIGID_BODY) &&
-         object.isStaticObject() && !object.isKinematicObject() && object.hasContactResponse();
-}
-
 /// Number of one shape of an object. The address only tells objects apart.
 std::uint64_t makeId(const btCollisionObject& object, int part) {
   return (std::uint64_t{reinterpret_cast<std::uintptr_t>(&object)} << 16) +
@@ -50,6 +42,16 @@ class Collector final : public btBroadphaseAabbCallback {
 };
 
 }  // namespace
+
+bool isObstacle(const btCollisionObject& object) noexcept {
+  if (!object.hasContactResponse()) return false;
+  if (isGround(object)) return true;
+  const int type = object.getInternalType();
+  const bool is_plain =
+      type == btCollisionObject::CO_COLLISION_OBJECT || type == btCollisionObject::CO_RIGID_BODY;
+  const bool stands = object.isStaticObject() || object.getActivationState() == DISABLE_SIMULATION;
+  return is_plain && stands && !object.isKinematicObject();
+}
 
 void findStaticObjects(btCollisionWorld& world, const Region& region,
                        std::vector<btCollisionObject*>& found) {

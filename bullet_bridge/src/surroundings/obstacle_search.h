@@ -10,9 +10,12 @@
 
 namespace tandem {
 
-/// Adds to `found` each static object with contact response that may reach into the region, once;
-/// also the fixed base of a multi-body. Moving, kinematic, ghost and soft objects are skipped. Uses
-/// the world's broadphase.
+/// True for a static object with contact response, one whose simulation is disabled, and the fixed
+/// base of a multi-body.
+[[nodiscard]] bool isObstacle(const btCollisionObject& object) noexcept;
+
+/// Adds to `found` each obstacle that may reach into the region, once. Moving, kinematic, ghost and
+/// soft objects are skipped. Uses the world's broadphase.
 void findStaticObjects(btCollisionWorld& world, const Region& region,
                        std::vector<btCollisionObject*>& found);
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "tandem/bullet_bridge/convert.h"
 
 #include "surroundings/contact_search.h"
+#include "surroundings/host_pairs.h"
 #include "surroundings/known_shapes.h"
 #include "surroundings/obstacle_search.h"
 #include "surroundings/own_filters.h"
@@ -20,16 +22,6 @@ namespace {
 /// At this distance from the first body the private origin follows it [m]. The rounding of a float
 /// Bullet thus stays below 6e-8 m.
 constexpr double kOriginReach = 0.25;
-
-/// True if the host lets the two touch, by groups, masks and ignored pairs.
-bool hostLetsTouch(btDiscreteDynamicsWorld& host, const btCollisionObject& a,
-                   const btCollisionObject& b) {
-  auto* proxy_a = const_cast<btBroadphaseProxy*>(a.getBroadphaseHandle());
-  auto* proxy_b = const_cast<btBroadphaseProxy*>(b.getBroadphaseHandle());
-  if (proxy_a == nullptr || proxy_b == nullptr) return false;
-  return host.getPairCache()->needsBroadphaseCollision(proxy_a, proxy_b) &&
-         a.checkCollideWith(&b) && b.checkCollideWith(&a);
-}
 
 /// True if the original of `copy` stores the contact filter of the pair: a standing object, else
 /// the later body. A link of a multi-body cannot.
@@ -62,30 +54,26 @@ struct Obstacles::Impl {
   void findForBodies(const std::vector<RigidState>& states, btScalar margin,
                      const std::vector<char>* moves);
   void findForSpheres(const std::vector<RigidState>& states, btScalar margin);
+  void dropHeld();
   void dropMissingBodies();
   void renewChangedBodies();
   void dropLost();
+  [[nodiscard]] bool isAnyStandingNew() noexcept;
+  [[nodiscard]] bool isAnyBodyNew() noexcept;
+  [[nodiscard]] bool isAnyAnswerNew();
+  [[nodiscard]] static bool isNewToOthers(const PrivateCopy& copy) noexcept;
   void renewPairs();
   void takeFound();
   /// Takes over pairs that the host lets touch: their contact is now the island's.
   [[nodiscard]] auto takeOver() {
-    return [this](PrivateCopy& a, PrivateCopy& b) {
-      if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
-      // A shape that cannot be copied stays Bullet's, and so do points that a callback changes.
-      if (!a.isWhole() || !b.isWhole() || a.asks_host || b.asks_host) return false;
-      // So does that of two links.
-      if (!a.may_keep_filters && !b.may_keep_filters) return false;
-      // If forces move neither body, neither can be pushed.
-      if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
-        return false;
-      if (!hostLetsTouch(host, *a.original, *b.original)) return false;
-      const bool a_keeps = isKeeper(a, b);
-      PrivateCopy& keeper = a_keeps ? a : b;
-      if (!keeper.holdsOwnFilters()) return false;  // another object at the address
-      filters.add(*keeper.original, *(a_keeps ? b : a).original);
-      ++keeper.own_filters;
-      return true;
-    };
+    return [this](PrivateCopy& a, PrivateCopy& b) { return takeOver(a, b); };
+  }
+  [[nodiscard]] bool takeOver(PrivateCopy& a, PrivateCopy& b);
+  [[nodiscard]] bool hasOtherAnswers(PrivateCopy& copy);
+  void forgetRefused(const btCollisionObject* original) {
+    std::erase_if(refused, [&](const auto& pair) {
+      return pair.first == original || pair.second == original;
+    });
   }
 
   btDiscreteDynamicsWorld& host;
@@ -97,12 +85,64 @@ struct Obstacles::Impl {
   bool has_next = false;  ///< next_near_spheres is ready
   KnownShapes known_shapes;
   bool changed = false;
+  bool has_near_callback = false;  ///< the host has one of its own
+  /// Pairs that code of the host did not let touch; addresses only.
+  std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> refused;
   // Work space of update().
   std::vector<btCollisionObject*> found;
   std::vector<Region> regions;
   // Work space of showContacts().
   std::vector<const ContactSum*> points, points_of_pair;
 };
+
+bool Obstacles::Impl::takeOver(PrivateCopy& a, PrivateCopy& b) {
+  if (findInWorld(host, a.original) < 0 || findInWorld(host, b.original) < 0) return false;
+  // A shape that cannot be copied stays Bullet's, and so do points that a callback changes.
+  if (!a.isWhole() || !b.isWhole() || a.asks_host || b.asks_host) return false;
+  // So does that of two links.
+  if (!a.may_keep_filters && !b.may_keep_filters) return false;
+  // If forces move neither body, neither can be pushed.
+  if (a.original->isStaticOrKinematicObject() && b.original->isStaticOrKinematicObject())
+    return false;
+  if (hasOwnNearCallback(host)) return false;
+  if (!hostLetsTouch(host, *a.original, *b.original)) {
+    if (hasOwnFilter(host)) refused.emplace_back(a.original, b.original);
+    return false;
+  }
+  const bool a_keeps = isKeeper(a, b);
+  PrivateCopy& keeper = a_keeps ? a : b;
+  btCollisionObject& other = *(a_keeps ? b : a).original;
+  if (!keeper.holdsOwnFilters()) return false;  // another object at the address
+  filters.add(*keeper.original, other);
+  if (mindsNoFilter(host, *keeper.original, other)) {
+    filters.remove(keeper.original, &other);
+    return false;
+  }
+  ++keeper.own_filters;
+  return true;
+}
+
+/// True if the host's code answers otherwise now about a pair of the copy, which is in the world.
+bool Obstacles::Impl::hasOtherAnswers(PrivateCopy& copy) {
+  const auto isInWorld = [&](const btCollisionObject* object) {
+    return findInWorld(host, object) >= 0;
+  };
+  bool has_other = false;
+  search.visitPartners(copy, [&](PrivateCopy& partner) {
+    if (has_other || findInWorld(host, partner.original, partner.world_index) < 0) return;
+    const bool it_keeps = isKeeper(copy, partner);
+    btCollisionObject& keeper = *(it_keeps ? copy : partner).original;
+    btCollisionObject& other = *(it_keeps ? partner : copy).original;
+    keeper.setIgnoreCollisionCheck(&other, false);
+    has_other = !hostLetsTouch(host, keeper, other);
+    keeper.setIgnoreCollisionCheck(&other, true);
+  });
+  return has_other || std::any_of(refused.begin(), refused.end(), [&](const auto& pair) {
+           const auto& [a, b] = pair;
+           return (a == copy.original || b == copy.original) && isInWorld(a) && isInWorld(b) &&
+                  hostLetsTouch(host, *a, *b);
+         });
+}
 
 Obstacles::Obstacles(btDiscreteDynamicsWorld& host) : impl_(std::make_unique<Impl>(host)) {}
 
@@ -143,7 +183,7 @@ void Obstacles::forgetWorld() {
     impl_->remove(impl_->search.standing().back()->original);
   impl_->shown.clear();
   impl_->filters.removeLate();
-  impl_->filters.forgetLate();
+  impl_->filters.forgetWorld();
   impl_->search.prepare();
   impl_->next_near_spheres.clear();
   impl_->has_next = true;
@@ -165,11 +205,45 @@ bool Obstacles::search(const std::vector<RigidState>& states, double margin,
   impl_->dropLost();
   impl_->takeFound();
   impl_->renewPairs();
-  impl_->search.showSurfaces();
+  impl_->changed |= impl_->search.showSurfaces();
   impl_->search.gatherTriangles(states, reach);
   impl_->search.prepare();
   impl_->findForSpheres(states, reach);
   return impl_->changed;
+}
+
+bool Obstacles::hasNews() {
+  return impl_->search.hasNewCombiners() || impl_->isAnyStandingNew() || impl_->isAnyBodyNew() ||
+         impl_->has_near_callback != hasOwnNearCallback(impl_->host) ||
+         (hasOwnFilter(impl_->host) && impl_->isAnyAnswerNew());
+}
+
+/// All bodies are in the world.
+bool Obstacles::Impl::isAnyAnswerNew() {
+  return std::any_of(search.bodies().begin(), search.bodies().end(),
+                     [&](const auto& copy) { return hasOtherAnswers(*copy); });
+}
+
+/// True if the host removed, moved or changed an object since the last search().
+bool Obstacles::Impl::isAnyStandingNew() noexcept {
+  return std::any_of(search.standing().begin(), search.standing().end(), [&](const auto& copy) {
+    copy->world_index = findInWorld(host, copy->original, copy->world_index);
+    return copy->world_index < 0 || !isObstacle(*copy->original) || !copy->isAsCopied() ||
+           search.hasMoved(*copy) || isNewToOthers(*copy);
+  });
+}
+
+bool Obstacles::Impl::isAnyBodyNew() noexcept {
+  return std::any_of(search.bodies().begin(), search.bodies().end(), [&](const auto& copy) {
+    copy->world_index = findInWorld(host, copy->original, copy->world_index);
+    return copy->world_index >= 0 && isNewToOthers(*copy);
+  });
+}
+
+/// True if the host changed its surface, or what it may touch.
+bool Obstacles::Impl::isNewToOthers(const PrivateCopy& copy) noexcept {
+  return !(Surface::of(*copy.original) == copy.surface) || copy.hasOtherFilters() ||
+         asksContactCallback(*copy.original) != copy.asks_host;
 }
 
 void Obstacles::commit() noexcept {
@@ -221,8 +295,7 @@ void Obstacles::showContacts(const std::vector<ContactSum>& sums, const std::vec
       [&](const ContactSum* x, const ContactSum* y) { return bodies_of(x) < bodies_of(y); });
   for (auto first = impl.points.begin(); first != impl.points.end();) {
     const auto is_of_pair = [&](const ContactSum* sum) {
-      return bodies_of(sum) == bodies_of(*first) &&
-             sum->contact.surface == (*first)->contact.surface;
+      return areOfOnePair(sum->contact, (*first)->contact);
     };
     // A body's points on the first of several fixed surfaces come first.
     const auto last = std::stable_partition(first, impl.points.end(), is_of_pair);
@@ -266,6 +339,7 @@ btCollisionObject* Obstacles::Impl::findBody(BodyIndex index) const {
 
 void Obstacles::Impl::remove(btCollisionObject* original) {
   changed = true;
+  forgetRefused(original);
   search.remove(original, [&](PrivateCopy& removed, PrivateCopy& partner) {
     const bool it_keeps = isKeeper(removed, partner);
     unfilter(it_keeps ? removed : partner, it_keeps ? partner : removed);
@@ -291,7 +365,7 @@ void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btSca
   // Known objects stay near bodies that stand.
   if (moves)
     for (const auto& copy : search.standing())
-      if (findInWorld(host, copy->original, copy->world_index) >= 0)
+      if (findInWorld(host, copy->original, copy->world_index) >= 0 && isObstacle(*copy->original))
         found.push_back(copy->original);
   for (const auto& body : search.bodies()) {
     if (body->original->isKinematicObject()) continue;
@@ -300,7 +374,16 @@ void Obstacles::Impl::findForBodies(const std::vector<RigidState>& states, btSca
     const Region region = computeRegion(*body->look.shape, toBullet(state.p_W, state.q_WB));
     findStaticObjects(host, growRegion(region, margin), found);
   }
+  dropHeld();
   sortAsAdded(found);
+}
+
+/// A body may have been disabled by its host since it is held: it stands once it has left.
+void Obstacles::Impl::dropHeld() {
+  std::erase_if(found, [&](const btCollisionObject* object) {
+    return std::any_of(search.bodies().begin(), search.bodies().end(),
+                       [&](const auto& body) { return body->original == object; });
+  });
 }
 
 /// The host may remove a body from its world and delete it.
@@ -326,11 +409,16 @@ void Obstacles::Impl::renewChangedBodies() {
 
 /// The host may change at any time which objects touch, and of which it asks for contact points.
 void Obstacles::Impl::renewPairs() {
+  const bool had_near_callback = std::exchange(has_near_callback, hasOwnNearCallback(host));
+  const bool asks_all = hasOwnFilter(host);  // of each pair, one is a body
   for (const auto* copies : {&search.bodies(), &search.standing()}) {
     for (const auto& copy : *copies) {
       const bool asks_host = asksContactCallback(*copy->original);
-      const bool is_renewed = copy->hasNewFilters() || asks_host != copy->asks_host;
+      const bool is_renewed = copy->hasNewFilters() || asks_host != copy->asks_host ||
+                              has_near_callback != had_near_callback ||
+                              (asks_all && copy->index != kStanding && hasOtherAnswers(*copy));
       if (!is_renewed) continue;
+      forgetRefused(copy->original);
       copy->asks_host = asks_host;
       changed = true;
       search.renewPairs(
@@ -376,6 +464,7 @@ void Obstacles::Impl::findForSpheres(const std::vector<RigidState>& states, btSc
     regions.push_back(growRegion({p, p}, ball.radius + margin));
     findStaticObjects(host, regions.back(), found);
   }
+  dropHeld();
   sortAsAdded(found);
   next_near_spheres.clear();
   for (const btCollisionObject* object : found) {

@@ -31,6 +31,10 @@ namespace tandem {
 ///
 /// Native contact of an island body with a candidate or another island body is filtered meanwhile.
 /// Between two links of multi-bodies it stays Bullet's: they have no list of ignored objects.
+/// Which pairs touch is the host's decision: groups, masks, ignored pairs, an overlap filter
+/// callback, and needsCollision() and needsResponse() of its dispatcher are asked once per search.
+/// With a near callback of the host's all contact stays Bullet's, and so does that of pairs whose
+/// dispatcher minds no filter.
 /// It stays Bullet's for shapes that cannot be copied (convex classes of the host's own, signed
 /// distance fields), and for objects whose contact points the host changes in
 /// `gContactAddedCallback`. Kinematic objects are no candidates: they can be bodies. Bullet's
@@ -73,6 +77,10 @@ class Obstacles final : public ContactFinder {
   /// searches around moving bodies only and keeps earlier results; call it without now and then.
   bool search(const std::vector<RigidState>& states, double margin,
               const std::vector<char>* moves = nullptr);
+
+  /// From the host's thread, between its steps. True if the host changed surface, place, shape or
+  /// filter of an object that the last search() found: search() again, before the island goes on.
+  [[nodiscard]] bool hasNews();
 
   /// Applies all added, removed and found objects. Real-time safe. nearSpheres() then returns
   /// another vector.

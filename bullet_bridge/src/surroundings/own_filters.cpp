@@ -6,6 +6,8 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "bodies/haptic_body.h"
+#include "surroundings/filtered_queries.h"
+#include "surroundings/per_dispatcher.h"
 #include "world/world_lookup.h"
 
 namespace tandem {
@@ -23,12 +25,37 @@ const btCollisionObject& mark() {
 
 }  // namespace
 
+OwnFilters::OwnFilters(btDiscreteDynamicsWorld& host) : host_(host) {}
+
+OwnFilters::~OwnFilters() { forgetWorld(); }
+
+void OwnFilters::forgetWorld() noexcept {
+  late_.clear();
+  pairs_.clear();
+  if (queries_) queries_->remove(*this);
+  queries_.reset();
+}
+
+void OwnFilters::openQueries() {
+  auto* dispatcher = dynamic_cast<btCollisionDispatcher*>(host_.getDispatcher());
+  if (queries_ || dispatcher == nullptr) return;
+  queries_ = guestOf<FilteredQueries>(*dispatcher);
+  queries_->add(*this);
+}
+
+bool OwnFilters::has(const btCollisionObject& a, const btCollisionObject& b) const noexcept {
+  return pairs_.count({&a, &b}) > 0 || pairs_.count({&b, &a}) > 0;
+}
+
 void OwnFilters::add(btCollisionObject& keeper, btCollisionObject& other) {
+  openQueries();
+  pairs_.emplace(&keeper, &other);
   keeper.setIgnoreCollisionCheck(&mark(), true);
   filterNativeContact(host_, keeper, other, true);
 }
 
 void OwnFilters::remove(btCollisionObject* keeper, btCollisionObject* other) {
+  pairs_.erase({keeper, other});
   if (findInWorld(host_, keeper) < 0) return noteLate(keeper, other);
   if (countIn(*keeper) == 0) return;  // the host made another object at the address
   keeper->setIgnoreCollisionCheck(&mark(), false);

@@ -169,12 +169,14 @@ bool asksContactCallback(const btCollisionObject& object) noexcept {
 }
 
 bool PrivateCopy::hasNewFilters() noexcept {
-  const CollisionFilter now = filterOf(*original);
-  const int of_host = OwnFilters::countOfHost(*original);
-  const bool has_new = !(now == filter) || of_host != host_filters;
-  filter = now;
-  host_filters = of_host;
+  const bool has_new = hasOtherFilters();
+  filter = filterOf(*original);
+  host_filters = OwnFilters::countOfHost(*original);
   return has_new;
+}
+
+bool PrivateCopy::hasOtherFilters() const noexcept {
+  return !(filterOf(*original) == filter) || OwnFilters::countOfHost(*original) != host_filters;
 }
 
 }  // namespace tandem

@@ -80,6 +80,8 @@ struct PrivateCopy {
   }
   /// True if the host changed what the original may touch since the last call. It must exist.
   [[nodiscard]] bool hasNewFilters() noexcept;
+  /// The same, and the next call says so again.
+  [[nodiscard]] bool hasOtherFilters() const noexcept;
 
   btCollisionObject* original;  ///< the host may have deleted it: compare, do not read
   bool may_keep_filters;        ///< false: a link of a multi-body asks no list of ignored objects

@@ -5,8 +5,11 @@
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletDynamics/Dynamics/btActionInterface.h>
 
 #include "tandem/bullet_bridge/convert.h"
+
+#include "surroundings/per_dispatcher.h"
 
 namespace tandem {
 namespace {
@@ -21,6 +24,16 @@ Manifolds& listOf(btCollisionDispatcher& dispatcher) {
     static Manifolds btCollisionDispatcher::*list() { return &Access::m_manifoldsPtr; }
   };
   return dispatcher.*Access::list();
+}
+
+using Actions = btAlignedObjectArray<btActionInterface*>;
+
+/// The world's actions, in the same way.
+Actions& actionsOf(btDiscreteDynamicsWorld& world) {
+  struct Access : btDiscreteDynamicsWorld {
+    static Actions btDiscreteDynamicsWorld::*list() { return &Access::m_actions; }
+  };
+  return world.*Access::list();
 }
 
 }  // namespace
@@ -49,10 +62,56 @@ class ShownContacts::Algorithm final : public btCollisionAlgorithm {
   Pair& pair_;
 };
 
+/// Stands before the actions of the host, which may look at contacts.
+class ShownContacts::Action final : public btActionInterface {
+ public:
+  explicit Action(ShownContacts& owner) : owner_(owner) {
+    Actions& actions = actionsOf(owner.world_);
+    actions.push_back(this);
+    std::rotate(&actions[0], &actions[0] + actions.size() - 1, &actions[0] + actions.size());
+  }
+  /// The host's actions keep their order, unlike in removeAction().
+  ~Action() override {
+    Actions& actions = actionsOf(owner_.world_);
+    int kept = 0;
+    for (int i = 0; i < actions.size(); ++i)
+      if (actions[i] != this) actions[kept++] = actions[i];
+    actions.resizeNoInitialize(kept);
+  }
+  Action(const Action&) = delete;
+  Action& operator=(const Action&) = delete;
+
+  void updateAction(btCollisionWorld*, btScalar) override { owner_.unhide(); }
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  ShownContacts& owner_;
+};
+
 ShownContacts::ShownContacts(btDiscreteDynamicsWorld& world)
-    : world_(world), dispatcher_(dynamic_cast<btCollisionDispatcher*>(world.getDispatcher())) {}
+    : world_(world), dispatcher_(dynamic_cast<btCollisionDispatcher*>(world.getDispatcher())) {
+  if (dispatcher_ == nullptr) return;
+  group_ = guestOf<Group>(*dispatcher_);
+  group_->members.push_back(this);
+}
+
+ShownContacts::~ShownContacts() { clear(); }
 
 void ShownContacts::hide() noexcept {
+  is_stepping_ = true;
+  if (!group_) return;
+  for (ShownContacts* member : group_->members) member->takeOut();
+}
+
+void ShownContacts::unhide() {
+  is_stepping_ = false;
+  if (!group_) return;
+  const auto steps = [](const ShownContacts* member) { return member->is_stepping_; };
+  if (std::any_of(group_->members.begin(), group_->members.end(), steps)) return;
+  for (ShownContacts* member : group_->members) member->putBack();
+}
+
+void ShownContacts::takeOut() noexcept {
   if (is_hidden_) return;
   is_hidden_ = true;
   if (listed_.empty()) return;
@@ -74,7 +133,7 @@ void ShownContacts::hide() noexcept {
   first_ = kNowhere;
 }
 
-void ShownContacts::unhide() {
+void ShownContacts::putBack() {
   if (!is_hidden_) return;
   is_hidden_ = false;
   if (is_changed_) {
@@ -120,6 +179,7 @@ bool ShownContacts::attach(Pair& pair) {
   if (proxy_a == nullptr || proxy_b == nullptr) return false;
   btBroadphasePair* overlap = world_.getPairCache()->findPair(proxy_a, proxy_b);
   if (overlap == nullptr || overlap->m_algorithm != nullptr) return false;
+  if (!action_) action_ = std::make_unique<Action>(*this);
   btCollisionAlgorithmConstructionInfo info;
   info.m_dispatcher1 = dispatcher_;
   void* place = dispatcher_->allocateCollisionAlgorithm(sizeof(Algorithm));
@@ -261,6 +321,9 @@ void ShownContacts::clear() {
     remove(*pairs_.back());
     if (pairs_.size() == before) pairs_.pop_back();
   }
+  action_.reset();
+  if (group_) std::erase(group_->members, this);
+  group_.reset();
 }
 
 }  // namespace tandem

@@ -15,22 +15,27 @@ namespace tandem {
 /// dispatcher, with points and impulses, owned by an algorithm in the pair of the broadphase.
 ///
 ///   pre-tick    hide    Bullet's solver and islands see no manifold of ours
+///   actions     unhide  the host's actions see the points of the step before
 ///   post-tick   show    points of the step; Bullet's global callbacks for points are called
 ///   in between  whatever ends a pair in Bullet (removal of a body, another filter, the end of its
 ///               overlap) destroys the algorithm, and with it the manifolds
 // clang-format on
+///
+/// Worlds may have one dispatcher: each of them has all manifolds of it in its solver. So the sites
+/// of all hide theirs while one of these worlds steps.
 ///
 /// For the thread that steps the host's world.
 class ShownContacts {
  public:
   /// `world` must live until clear(), or until none is shown.
   explicit ShownContacts(btDiscreteDynamicsWorld& world);
-  ~ShownContacts() { clear(); }
+  ~ShownContacts();
   ShownContacts(const ShownContacts&) = delete;
   ShownContacts& operator=(const ShownContacts&) = delete;
 
   /// Takes all manifolds out of the dispatcher's list until unhide(), without a callback.
   void hide() noexcept;
+  /// Puts them back, unless another world of the dispatcher steps.
   void unhide();
 
   /// @name Between hide() and unhide(): the points of a host step.
@@ -52,11 +57,17 @@ class ShownContacts {
   }
   /// @}
 
-  /// Removes all.
+  /// Removes all, for good.
   void clear();
 
  private:
   class Algorithm;
+  class Action;
+  /// Holds the sites of all worlds that have one dispatcher.
+  struct Group {
+    explicit Group(btCollisionDispatcher&) {}
+    std::vector<ShownContacts*> members;
+  };
   /// Two objects, which are in the world as long as there is an algorithm.
   struct Pair {
     const btCollisionObject* a;
@@ -68,6 +79,8 @@ class ShownContacts {
     bool is_reported = false, rests = false;
   };
 
+  void takeOut() noexcept;
+  void putBack();
   [[nodiscard]] Pair& findOrAdd(const btCollisionObject& a, const btCollisionObject& b);
   [[nodiscard]] bool attach(Pair& pair);
   [[nodiscard]] btPersistentManifold* makeManifold(const Pair& pair);
@@ -81,7 +94,10 @@ class ShownContacts {
   btDiscreteDynamicsWorld& world_;
   btCollisionDispatcher* dispatcher_;  ///< null: of another class; nothing is shown
   std::vector<std::unique_ptr<Pair>> pairs_;
-  std::size_t next_ = 0;  ///< place after the last pair found
+  std::size_t next_ = 0;            ///< place after the last pair found
+  std::shared_ptr<Group> group_;    ///< null: nothing is shown, or no more
+  std::unique_ptr<Action> action_;  ///< null until the first is shown
+  bool is_stepping_ = false;        ///< from hide() to unhide()
   // Places in the dispatcher's list.
   std::vector<btPersistentManifold*> listed_;  ///< ours, in order, at the last unhide()
   int first_ = 0;                              ///< place of the first at the last unhide()

@@ -7,9 +7,10 @@
 
 #include "tandem/bullet_bridge/convert.h"
 
-#include "bodies/filter_of.h"
+#include "bodies/collider_look.h"
 #include "bodies/haptic_body.h"
 #include "surroundings/obstacle_search.h"
+#include "surroundings/private_copies.h"
 
 namespace tandem {
 namespace {
@@ -17,15 +18,15 @@ namespace {
 struct Known {
   const btCollisionObject* object;
   int world_index;
-  const btCollisionShape* shape;
   btTransform pose;
-  int flags;
-  CollisionFilter filter;
+  ColliderLook look;
+  Surface surface;
 
   /// Compares addresses first: the object may have been deleted.
   [[nodiscard]] bool isAsKnown(const btCollisionObjectArray& objects) const noexcept {
-    return objects[world_index] == object && object->getCollisionShape() == shape &&
-           object->getCollisionFlags() == flags && filterOf(*object) == filter &&
+    return objects[world_index] == object && isObstacle(*object) &&
+           object->getCollisionShape() == look.shape && ColliderLook::at(*object) == look &&
+           Surface::of(*object) == surface &&
            std::memcmp(&object->getWorldTransform(), &pose, sizeof pose) == 0;
   }
 };
@@ -56,9 +57,8 @@ void StandingWatch::remember(const std::vector<HapticBody*>& bodies, const Vec3&
   sortAsAdded(impl_->found);
   impl_->known.clear();
   for (const btCollisionObject* object : impl_->found)
-    impl_->known.push_back({object, object->getWorldArrayIndex(), object->getCollisionShape(),
-                            object->getWorldTransform(), object->getCollisionFlags(),
-                            filterOf(*object)});
+    impl_->known.push_back({object, object->getWorldArrayIndex(), object->getWorldTransform(),
+                            ColliderLook::at(*object), Surface::of(*object)});
   impl_->object_count = impl_->host.getNumCollisionObjects();
   impl_->gravity = impl_->host.getGravity();
 }

@@ -15,10 +15,11 @@ class HapticBody;
 /// Checks within a few nanoseconds whether the surroundings of bodies at rest are unchanged. While
 /// they are and nothing moves, no search is needed.
 ///
-/// A change is: a static object nearby left the host's world, moved, got another shape or
-/// filter, or lost its contact response. Objects added to or removed from the world count too, as
-/// do bodies at other indices in its list. A static object that arrives from afar is not noticed;
-/// Bullet's sleeping bodies do not notice it either. For the thread that steps the host's world.
+/// A change is: a static object nearby left the host's world, moved, got another shape, scaling,
+/// surface or filter, or lost its contact response. Objects added to or removed from the world
+/// count too, as do bodies at other indices in its list. A static object that arrives from afar is
+/// not noticed; Bullet's sleeping bodies do not notice it either. For the thread that steps the
+/// host's world.
 class StandingWatch {
  public:
   /// `host` must outlive this object.

@@ -19,13 +19,14 @@ void HandOffStep::before(double dt) noexcept {
                            !site_.surroundings.mayBodiesBeBack() &&
                            !site_.surroundings.joints().hasNews();
   if (!looks_quiet) {
+    if (!site_.settings.guide) site_.surroundings.lookAtFrames(dt);
     if (!findChanges()) {
       site_.rest.disturb();
       return site_.desk.run([&] { site_.passStepWithout(dt); });
     }
     renewObjects(dt);
     lookAtBodies(dt);
-    lookAroundTeleports();
+    lookAroundNews();
   }
   site_.desk.run([&] { goIn(dt, looks_quiet); });
   if (site_.rest.isQuiet()) return;
@@ -127,8 +128,19 @@ bool HandOffStep::hasItsShare(const SiteBody& body) noexcept {
   return !rigid || rigid->massShare() == body.step.mass_share;
 }
 
+/// Objects that the host has put to sleep stop where they are, as in Bullet.
+void HandOffStep::stopSleepers() noexcept {
+  for (SharedObject& object : site_.bodies.objects) {
+    SiteBody& body = object.body;
+    if (!body.is_held || body.is_leaving || !object.bullet->wasPutToSleep()) continue;
+    body.step.end = object.bullet->stop();
+    body.step.is_stopped = true;
+  }
+}
+
 /// Reads how the host changed its bodies for its coming step.
 void HandOffStep::lookAtBodies(double dt) noexcept {
+  if (!site_.settings.guide) stopSleepers();
   site_.surroundings.lookAtArms(dt);
   site_.bodies.forEachPresent([&](SiteBody& body) {
     HostBody& bullet = *body.bullet;
@@ -145,9 +157,11 @@ void HandOffStep::lookAtBodies(double dt) noexcept {
   site_.surroundings.lookAtDamping();
 }
 
-/// The island has to know what is around a body that the host put elsewhere before it goes on.
-void HandOffStep::lookAroundTeleports() {
-  bool is_any = false;
+/// The island has to know before it goes on what is around a body that the host put elsewhere, and
+/// how the host changed what bodies touch.
+void HandOffStep::lookAroundNews() {
+  if (site_.settings.guide) return;
+  bool is_any = site_.surroundings.hasNews();
   for (const SharedObject& object : site_.bodies.objects) {
     const HandOver& step = object.body.step;
     if (!object.body.is_held || object.body.is_leaving || !step.is_told || !step.change.moved ||
@@ -156,7 +170,7 @@ void HandOffStep::lookAroundTeleports() {
     site_.surroundings.expectAt(object.body.index, object.bullet->state());
     is_any = true;
   }
-  if (!is_any || site_.settings.guide) return;
+  if (!is_any) return;
   site_.surroundings.searchObstacles(true);
   site_.desk.run([&] { site_.surroundings.takeObstacles(); });
 }

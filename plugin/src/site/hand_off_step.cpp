@@ -109,6 +109,7 @@ void HandOffStep::passHostChanges(double dt) noexcept {
     if (body.step.is_told && body.step.change.moved) moveBody(body, body.step.change);
   });
   site_.forces.pass(dt, site_.ticksInHostStep());
+  takeStops();
   takeMasses();
   site_.surroundings.followDamping();
   const PayWindow window = site_.forces.findWindow(dt, site_.ticksInHostStep());
@@ -131,6 +132,21 @@ void HandOffStep::moveBody(SiteBody& body, const HostChange& change) noexcept {
   for (SharedObject& object : site_.bodies.objects)
     if (&object.body == &body && isTeleport(way, change.rotation_W, object.bounding_radius))
       site_.peers.beginEpoch(object);
+}
+
+/// Stops objects that the host has put to sleep. They hang without weight until something wakes
+/// them.
+void HandOffStep::takeStops() noexcept {
+  for (SharedObject& object : site_.bodies.objects) {
+    SiteBody& body = object.body;
+    if (!body.is_held || !body.step.is_stopped) continue;
+    body.step.is_stopped = false;
+    const RigidState last = site_.island.state(body.index);
+    if (isTeleport(last, body.step.end, object.bounding_radius)) site_.peers.beginEpoch(object);
+    site_.forces.stop(body);
+    site_.timeline.put(body.index, body.step.end);
+    site_.hand.energy().refill();
+  }
 }
 
 /// Looks up the states of all bodies at the end of the host's step.

@@ -41,8 +41,9 @@ class HandOffStep final : public IslandStep {
   void renewObjects(double dt);
   void giveBack();
   [[nodiscard]] static bool hasItsShare(const SiteBody& body) noexcept;
+  void stopSleepers() noexcept;
   void lookAtBodies(double dt) noexcept;
-  void lookAroundTeleports();
+  void lookAroundNews();
   void handOff(double dt) noexcept;
   void takeBack(double dt);
   void restore(SiteBody& body) noexcept;
@@ -54,6 +55,7 @@ class HandOffStep final : public IslandStep {
   void restOn(double dt) noexcept;
   void passHostChanges(double dt) noexcept;
   void moveBody(SiteBody& body, const HostChange& change) noexcept;
+  void takeStops() noexcept;
   void findEnds() noexcept;
   void findShares() noexcept;
   void takeMasses() noexcept;

@@ -12,6 +12,23 @@ namespace {
 /// awake [N s, N m s].
 constexpr double kNoMomentum = 1e-15;
 
+/// A force that changed by less than this part of itself is the same: Bullet's rounding.
+constexpr double kSamePart = 1e-6;
+
+/// A body with less than this part of what a force gives it in a step stands: supports and friction
+/// hold it.
+constexpr double kStandingPart = 3e-4;
+
+/// True if a force is that of the step before, or has just begun.
+bool isEven(const Vec3& told_W, const Vec3& now_W) noexcept {
+  return told_W == Vec3::Zero() || (now_W - told_W).norm() <= kSamePart * now_W.norm();
+}
+
+/// True if motion of this momentum is none beside `impulse_W`, a force or torque over a step.
+bool stands(const Vec3& momentum_W, const Vec3& impulse_W) noexcept {
+  return momentum_W.norm() <= kStandingPart * impulse_W.norm();
+}
+
 Vec3 undoFactor(const Vec3& felt_W, const Vec3& factor) noexcept {
   return (factor.array() > 0.0).select(felt_W.array() / factor.array(), 0.0);
 }
@@ -65,16 +82,38 @@ void HostForces::pass(double dt, bool is_behind) noexcept {
     give(body, {change.impulse_W - dt * change.f_W, change.angular_impulse_W - dt * change.t_W});
 
     HostLoad& load = body.load;
-    load.owed.linear_W = dropRounding(load.owed.linear_W + dt * change.f_W);
-    load.owed.angular_W = dropRounding(load.owed.angular_W + dt * change.t_W);
-    load.f_host_W = change.f_W + (load.owed.linear_W - rest * change.f_W) / pay_over;
-    load.t_host_W = change.t_W + (load.owed.angular_W - rest * change.t_W) / pay_over;
+    const Wrench even = takeEvenPart(body, dt);
+    load.told = {change.f_W, change.t_W};
+    giveAtStart(body, {dt * (change.f_W - even.f_W), dt * (change.t_W - even.t_W)});
+
+    load.owed.linear_W = dropRounding(load.owed.linear_W + dt * even.f_W);
+    load.owed.angular_W = dropRounding(load.owed.angular_W + dt * even.t_W);
+    load.f_host_W = even.f_W + (load.owed.linear_W - rest * even.f_W) / pay_over;
+    load.t_host_W = even.t_W + (load.owed.angular_W - rest * even.t_W) / pay_over;
     load.f_gravity_W = body.step.f_gravity_W;
     renew(body);
     body.step.is_told = false;
   });
   end_ = window.end + dt;
   are_on_ = true;
+}
+
+/// Returns the part of the host's wrench that is spread over its present step of `dt` [s].
+Wrench HostForces::takeEvenPart(SiteBody& body, double dt) const noexcept {
+  const HostChange& change = body.step.change;
+  const IslandBody& own = island_.body(body.index);
+  const RigidState& state = island_.state(body.index);
+  const Vec3 spin_B = own.inertia_B.cwiseProduct(state.q_WB.conjugate() * state.w_W);
+  const Wrench& told = body.load.told;
+  // A swinging body stands at its turning points, but not for two steps.
+  const bool stands_now = stands(own.mass * state.v_W, dt * change.f_W);
+  const bool is_still_now = stands(spin_B, dt * change.t_W);
+  const bool is_even = isEven(told.f_W, change.f_W) || (stands_now && body.step.moves_not);
+  const bool is_even_turn = isEven(told.t_W, change.t_W) || (is_still_now && body.step.turns_not);
+  body.step.moves_not = stands_now;
+  body.step.turns_not = is_still_now;
+  return {is_even ? change.f_W : Vec3(Vec3::Zero()),
+          is_even_turn ? change.t_W : Vec3(Vec3::Zero())};
 }
 
 void HostForces::push(const SiteBody& body, const Momentum& momentum) noexcept {
@@ -90,7 +129,46 @@ void HostForces::give(SiteBody& body, const Momentum& momentum) noexcept {
   if (timeline_.time() > clock_.time()) body.load.note({timeline_.time(), momentum});
 }
 
-/// Bullet's solver acted when the host step ended. Ticks that have run since missed its impulses.
+/// Gives momentum, and `shift`, at the host's time. Ticks that have run since missed them.
+void HostForces::giveAtHostTime(SiteBody& body, const Momentum& momentum,
+                                const HostChange& shift) noexcept {
+  const RigidState before = island_.state(body.index);
+  push(body, momentum);
+  const RigidState after = island_.state(body.index);
+  const Vec3 dv_W = after.v_W - before.v_W, dw_W = after.w_W - before.w_W;
+  const double since = std::max(0.0, timeline_.time() - clock_.time());
+  island_.shift(body.index, shift.offset_W + since * dv_W,
+                makeRotation(since * dw_W) * shift.rotation_W);
+  // Rigid contacts may have held the body back: on its way since the host's time, and beyond that
+  // already there.
+  const Vec3 way_W = since * dv_W;
+  const Vec3 held_back_W = shift.offset_W + way_W - (island_.state(body.index).p_W - after.p_W);
+  const double size = way_W.squaredNorm();
+  const double part = size > 0.0 ? std::clamp(held_back_W.dot(way_W) / size, 0.0, 1.0) : 0.0;
+  const Vec3 offset_W = shift.offset_W - (held_back_W - part * way_W);
+  const auto change = [&](RigidState state, double time) {
+    const double until = time - clock_.time();
+    state.p_W += offset_W + (1.0 - part) * until * dv_W;
+    state.q_WB = (makeRotation(until * dw_W) * shift.rotation_W * state.q_WB).normalized();
+    state.v_W += dv_W;
+    state.w_W += dw_W;
+    return state;
+  };
+  // Newcomers catch up from the host's time on: a move from there to the next tick would look like
+  // a speed of metres per millisecond.
+  timeline_.changeKeptAfter(clock_.time() - kClockTolerance, body.index, change);
+  body.step.end = change(body.step.end, clock_.time());
+}
+
+/// Gives momentum at the start of the host's present step.
+void HostForces::giveAtStart(SiteBody& body, const Momentum& momentum) noexcept {
+  if (momentum.isZero()) return;
+  if (!island_.body(body.index).is_rigid) return give(body, momentum);
+  HostChange none;
+  giveAtHostTime(body, momentum, none);
+}
+
+/// Bullet's solver acted when the host step ended.
 void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
   HandOver& step = body.step;
   if (!island_.body(body.index).is_rigid) {
@@ -99,33 +177,7 @@ void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
     return give(body, step.hit);
   }
   if (!step.hit.isZero() || step.shift.moved) {
-    const RigidState before = island_.state(body.index);
-    push(body, step.hit);
-    const RigidState after = island_.state(body.index);
-    const Vec3 dv_W = after.v_W - before.v_W, dw_W = after.w_W - before.w_W;
-    const double since = std::max(0.0, timeline_.time() - clock_.time());
-    island_.shift(body.index, step.shift.offset_W + since * dv_W,
-                  makeRotation(since * dw_W) * step.shift.rotation_W);
-    // Rigid contacts may have held the body back: on its way since the end of the step, and beyond
-    // that already there.
-    const Vec3 way_W = since * dv_W;
-    const Vec3 held_back_W =
-        step.shift.offset_W + way_W - (island_.state(body.index).p_W - after.p_W);
-    const double size = way_W.squaredNorm();
-    const double part = size > 0.0 ? std::clamp(held_back_W.dot(way_W) / size, 0.0, 1.0) : 0.0;
-    const Vec3 offset_W = step.shift.offset_W - (held_back_W - part * way_W);
-    const auto change = [&](RigidState state, double time) {
-      const double until = time - clock_.time();
-      state.p_W += offset_W + (1.0 - part) * until * dv_W;
-      state.q_WB = (makeRotation(until * dw_W) * step.shift.rotation_W * state.q_WB).normalized();
-      state.v_W += dv_W;
-      state.w_W += dw_W;
-      return state;
-    };
-    // Newcomers catch up from the end of the step on: a move from there to the next tick would look
-    // like a speed of metres per millisecond.
-    timeline_.changeKeptAfter(clock_.time() - kClockTolerance, body.index, change);
-    step.end = change(step.end, clock_.time());
+    giveAtHostTime(body, step.hit, step.shift);
     step.shift.moved = true;
   }
   const bool was_none = body.load.foresight.isNone() && body.load.press.isNone();
@@ -142,6 +194,17 @@ void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
 void HostForces::forgetForesight(SiteBody& body) noexcept {
   body.load.foresight.forget();
   renew(body);
+}
+
+void HostForces::stop(SiteBody& body) noexcept {
+  settle();
+  HostLoad& load = body.load;
+  load.f_host_W = load.t_host_W = Vec3::Zero();
+  load.owed = {};
+  load.late.clear();
+  load.foresight.forget();
+  load.press = {};
+  setWeight(body, Vec3::Zero());
 }
 
 Momentum HostForces::computeOwed(const SiteBody& body) noexcept {

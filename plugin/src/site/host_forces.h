@@ -13,8 +13,11 @@ namespace tandem {
 
 /// Applies the host's forces and impulses to the bodies of the island.
 ///
-/// An impulse acts at once. A force acts over the host's step. If the ticks of that step have run
-/// already, it acts over the next step, delayed by the host's lateness.
+/// An impulse acts at once. An even force acts over the host's step. If the ticks of that step have
+/// run already, it acts over the next step, delayed by the host's lateness. A force that differs
+/// from the one of the step before may follow the body's motion, as a spring does. All of it acts
+/// at the start of the host's step, as in Bullet: spread over the step, or late, it would feed the
+/// motion.
 ///
 /// Ticks and host steps do not end together, so an account keeps the momentum that is still owed. A
 /// steady force stays steady, and momentum is neither lost nor made. Without news from the host its
@@ -44,6 +47,8 @@ class HostForces {
   [[nodiscard]] Foresight::Given takeForeseen(SiteBody& body, double end) noexcept {
     return body.load.foresight.take(clock_.time(), end);
   }
+  /// The host has stopped a body: no force acts on it, its weight neither, and it is owed nothing.
+  void stop(SiteBody& body) noexcept;
   /// Gives a body momentum from the host's side, at once.
   void give(SiteBody& body, const Momentum& momentum) noexcept;
   /// Momentum that the host's body still lacks: impulses that reached the island after the host's
@@ -70,7 +75,10 @@ class HostForces {
 
  private:
   void end() noexcept;
+  [[nodiscard]] Wrench takeEvenPart(SiteBody& body, double dt) const noexcept;
   void push(const SiteBody& body, const Momentum& momentum) noexcept;
+  void giveAtHostTime(SiteBody& body, const Momentum& momentum, const HostChange& shift) noexcept;
+  void giveAtStart(SiteBody& body, const Momentum& momentum) noexcept;
   void setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
 
   Island& island_;

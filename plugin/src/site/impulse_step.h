@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "coordination/src/island/wrench.h"
 #include "site/island_step.h"
 
 namespace tandem {
@@ -22,10 +23,6 @@ class ImpulseStep final : public IslandStep {
   void after(double dt) noexcept override;
 
  private:
-  struct Wrench {
-    Vec3 f_W = Vec3::Zero(), t_W = Vec3::Zero();
-  };
-
   void checkStable(const char* what, double mass) const;
 
   std::vector<Wrench> wrenches_;  ///< by body, for the next host step

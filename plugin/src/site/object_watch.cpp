@@ -6,6 +6,7 @@
 #include "tandem/bullet_bridge/shapes.h"
 
 #include "bullet_bridge/src/bodies/body_look.h"
+#include "bullet_bridge/src/bodies/mass_restore.h"
 #include "bullet_bridge/src/world/world_access.h"
 #include "site/teleport.h"
 
@@ -13,7 +14,8 @@ namespace tandem {
 
 /// True if the island may hold the body. It must be in its world.
 bool ObjectWatch::mayHold(const SharedObject& object) const noexcept {
-  return isMovedByForces(*object.rigid) && isFinite(readState(*object.rigid));
+  return isMovedByForces(*object.rigid) && isFinite(readState(*object.rigid)) &&
+         !surroundings_.isDragged(*object.rigid);
 }
 
 bool ObjectWatch::findChanged() {
@@ -66,6 +68,8 @@ void ObjectWatch::expect(SharedObject& object, btRigidBody& rigid) noexcept {
 
 void ObjectWatch::leave(SharedObject& object) {
   object.body.is_leaving = true;
+  object.led = {};
+  object.was_put = false;
   object.body.step.forgetReaction();
   are_leaving_ = true;
   ++left_;
@@ -89,7 +93,7 @@ void ObjectWatch::takeLeaving() noexcept {
   }
 }
 
-void ObjectWatch::giveBack() {
+void ObjectWatch::giveBack(bool is_between_steps) {
   if (!are_leaving_) return;
   are_leaving_ = false;
   for (SharedObject& object : bodies_.objects) {
@@ -99,7 +103,9 @@ void ObjectWatch::giveBack() {
     // A missing body may come back; its mass is restored then.
     if (!object.is_there) continue;
     object.bullet->addMomentum(object.owed.linear_W, object.owed.angular_W);
+    const WeightInStep weight(*object.rigid);
     object.bullet.reset();
+    if (!is_between_steps) weight.follow(*object.rigid);
   }
 }
 
@@ -120,9 +126,10 @@ void ObjectWatch::explain(std::vector<std::string>& lines) const {
       lines.push_back(name +
                       " is not in the Bullet world: put its body back, or share another for it");
     } else if (!mayHold(object)) {
-      lines.push_back(name +
-                      " is left to Bullet: its body is static, kinematic, without contact response "
-                      "or switched off; peers follow it");
+      lines.push_back(
+          name +
+          " is left to Bullet: its body is static, kinematic, without contact response, "
+          "switched off or dragged by a joint whose frames move; peers follow it");
     } else if (!findShareableShape(*object.rigid)) {
       lines.push_back(name + " is left to Bullet: its shape cannot be shared; peers follow it");
     }
@@ -138,7 +145,8 @@ bool ObjectWatch::findReturned() {
     object.is_there = findRigidBody(world_, object.rigid, hint) != nullptr;
     if (!object.is_there) continue;
     object.bullet.reset();
-    object.seen = readState(*object.rigid);
+    object.lookAtLed(readState(*object.rigid), object.rigid->isKinematicObject(),
+                     object.rigid->isStaticObject() || !object.rigid->isActive());
     if (!mayHold(object) || surroundings_.isNeighbour(*object.rigid)) continue;
     object.is_new = hold(object);
     is_any_new |= object.is_new;
@@ -151,7 +159,9 @@ bool ObjectWatch::hold(SharedObject& object) {
   const std::optional<Shape> shape = findShareableShape(*object.rigid);
   if (!shape) return false;
   object.body.step = {};
+  const WeightInStep weight(*object.rigid);
   object.hold(world_, *shape);
+  weight.follow(*object.rigid);
   object.body.load = {};
   object.body.load.makeRoom();
   object.body.step.f_gravity_W = object.bullet->gravityForce();

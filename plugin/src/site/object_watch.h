@@ -17,6 +17,7 @@ namespace tandem {
 ///
 ///   taken out of its world        its state is not sent; peers let go of their copies' ties
 ///   pinned, led, switched off     Bullet moves it; its state is sent, so that peers follow
+///   dragged by a moved joint      the same, until the joint's frames have stood for a while
 ///   another mass or shape         held again at once as it is now, or after Bullet's step if it
 ///                                 changed in that
 ///
@@ -60,8 +61,8 @@ class ObjectWatch {
   /// Reads Bullet's states of objects that are left to it, and holds those again that may be held.
   /// True if there are any. May allocate.
   bool findReturned();
-  /// Gives objects that left the island back to the host.
-  void giveBack();
+  /// Gives objects that left the island back to the host, in its step unless told otherwise.
+  void giveBack(bool is_between_steps = false);
   /// Adds a line for each object that is missing or left to Bullet.
   void explain(std::vector<std::string>& lines) const;
   /// @}

@@ -6,6 +6,8 @@
 
 #include "tandem/coordination/link.h"
 
+#include "bullet_bridge/src/bodies/driven_body.h"
+#include "coordination/src/same_state.h"
 #include "site/site_body.h"
 
 class btDiscreteDynamicsWorld;
@@ -36,13 +38,23 @@ struct SharedObject {
   bool is_sent = true;   ///< peers get its state; for the thread that ticks
   bool is_new = false;   ///< held again, but not in the island yet
   Momentum owed;         ///< momentum it still gets when it goes back
-  RigidState seen;       ///< Bullet's state
+  RigidState seen;       ///< Bullet's state; at rest if its velocity does not move it
+  RigidState led;        ///< the same with the velocity that Bullet says
+  bool was_put = false;  ///< the last way of a kinematic body was a jump
 
   /// The host has moved all of its world by `offset_W` [m].
   void shiftOrigin(const Vec3& offset_W) noexcept {
     body.shiftOrigin(offset_W);
     settings.start.p_W += offset_W;
     seen.p_W += offset_W;
+    led.p_W += offset_W;
+  }
+  /// Takes Bullet's state, once or more in a step. A jump of a kinematic body has a velocity in
+  /// Bullet, and is no motion. Nor is that of a body that `stands`: Bullet does not move it.
+  void lookAtLed(const RigidState& now, bool is_kinematic, bool stands) noexcept {
+    if (!isSame(led, now)) was_put = is_kinematic && isPut(led, now, was_put);
+    seen = led = now;
+    if (was_put || stands) seen.v_W = seen.w_W = Vec3::Zero();
   }
 
   /// Takes the host's body as it is now. It must be dynamic and in the world.

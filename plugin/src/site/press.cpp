@@ -13,12 +13,17 @@ constexpr double kSameFace = 1.0 - 1e-9;
 /// Strangers are looked for as far as they come in this many host steps.
 constexpr double kStepsAhead = 1.5;
 
+bool isMoving(const RigidState& state) noexcept {
+  return state.v_W != Vec3::Zero() || state.w_W != Vec3::Zero();
+}
+
 }  // namespace
 
 void Press::makeRoom() {
   const auto count = static_cast<std::size_t>(island_.bodyCount());
   pressed_.resize(count);
   held_.resize(count);
+  led_.resize(count);
   states_.resize(count);
   contacts_.reserve(kMostContacts);
 }
@@ -39,8 +44,11 @@ void Press::findContacts(double step_end) noexcept {
   contacts_.clear();
   if (!is_any_pressed_) return;
   const std::vector<RigidState>* kept = timeline_.findStates(step_end);
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    states_[b] = kept ? (*kept)[b] : island_.state(static_cast<BodyIndex>(b));
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    const auto body = static_cast<BodyIndex>(b);
+    states_[b] = kept ? (*kept)[b] : island_.state(body);
+    led_[b] = island_.body(body).motion == Motion::kPrescribed && isMoving(states_[b]);
+  }
   bodies_.forEach(
       [&](const SiteBody& body) { states_[static_cast<std::size_t>(body.index)] = body.step.end; });
   surroundings_.contactFinder().find(states_, contacts_);
@@ -63,10 +71,11 @@ void Press::spread() noexcept {
 void Press::show(double dt) {
   rows_.clear();
   if (contacts_.empty()) return;
-  std::fill(held_.begin(), held_.end(), SupportBody{});
+  for (std::size_t b = 0; b < held_.size(); ++b) held_[b] = {nullptr, nullptr, led_[b] != 0};
   bodies_.forEachPresent([&](SiteBody& body) {
-    if (const HapticBody* rigid = body.bullet->asRigid())
-      held_[static_cast<std::size_t>(body.index)] = {rigid, &body.step.shift};
+    const HapticBody* rigid = body.bullet->asRigid();
+    HostChange* const change = rigid ? &body.step.shift : nullptr;
+    held_[static_cast<std::size_t>(body.index)] = {rigid, change};
   });
   const auto held = [&](BodyIndex body) {
     return body == kStanding ? SupportBody{} : held_[static_cast<std::size_t>(body)];

@@ -56,6 +56,7 @@ class Press {
   SupportRows rows_;
   std::vector<char> pressed_;           ///< by body
   std::vector<SupportBody> held_;       ///< by body; null: Bullet's solver does not move it
+  std::vector<char> led_;               ///< by body: kinematic and moving
   std::vector<RigidContact> contacts_;  ///< at the end of the host's step
   std::vector<RigidState> states_;      ///< at that time
   bool is_any_pressed_ = false;

@@ -32,12 +32,12 @@ void Rest::noteWoken(SiteBody& body) noexcept {
 
 bool Rest::looksQuiet() const noexcept {
   return may_be_quiet_ && (looks_.isEmpty() || watch_.isGravityUnchanged()) &&
-         looks_.isUndisturbed();
+         looks_.isUndisturbed() && watch_.isUnchanged();
 }
 
 bool Rest::staysQuiet() noexcept {
   if (!is_quiet_) return false;
-  may_be_quiet_ = looks_.areAsleep() && watch_.isUnchanged();
+  may_be_quiet_ = looks_.areAsleep();
   return may_be_quiet_;
 }
 

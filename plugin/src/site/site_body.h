@@ -5,6 +5,7 @@
 #include "bullet_bridge/src/bodies/filter_of.h"
 #include "bullet_bridge/src/bodies/haptic_body.h"
 #include "coordination/src/island/island.h"
+#include "coordination/src/island/wrench.h"
 #include "site/foresight.h"
 
 namespace tandem {
@@ -19,6 +20,7 @@ struct LateMomentum {
 struct HostLoad {
   Vec3 f_gravity_W = Vec3::Zero();                        ///< weight, always applied
   Vec3 f_host_W = Vec3::Zero(), t_host_W = Vec3::Zero();  ///< host force applied now
+  Wrench told;                                            ///< the host's, in its latest step
   Momentum owed;                                          ///< of the host's forces, not yet given
   std::vector<LateMomentum> late;                         ///< not yet in Bullet's state; reserved
   Foresight foresight;                                    ///< of Bullet's contacts and joints
@@ -33,8 +35,8 @@ struct HostLoad {
   void note(const LateMomentum& momentum) noexcept;
   /// True if no force of the host acts, and none is owed or foreseen.
   [[nodiscard]] bool isSettled() const noexcept {
-    return f_host_W == Vec3::Zero() && t_host_W == Vec3::Zero() && owed.isZero() &&
-           foresight.isNone() && press.isNone();
+    return f_host_W == Vec3::Zero() && t_host_W == Vec3::Zero() && told.f_W == Vec3::Zero() &&
+           told.t_W == Vec3::Zero() && owed.isZero() && foresight.isNone() && press.isNone();
   }
 
  private:
@@ -47,6 +49,7 @@ struct HandOver {
   bool is_told = false;  ///< `change` and `f_gravity_W` are new
   HostChange change;
   Vec3 f_gravity_W = Vec3::Zero();
+  bool is_stopped = false;  ///< the host has put it to sleep, at `end` from now on
   // Answered by the island.
   RigidState end;             ///< at the end of the step
   Foresight::Given foreseen;  ///< in the step, for Bullet's contacts and joints
@@ -54,6 +57,8 @@ struct HandOver {
   bool is_put = false;        ///< a peer's reset puts it to `put` at the end of the step
   RigidState put;
   bool may_park = false;    ///< the host's forces are settled
+  bool moves_not = false;   ///< its motion was none beside what the host's force gave, a step ago
+  bool turns_not = false;   ///< the same for its turning and torque
   double mass_share = 1.0;  ///< part of the body's mass that is ours from now on
   // Read by the host's thread on the way out.
   bool stands = false;          ///< it is where it was a step ago

@@ -113,7 +113,7 @@ void Site::Impl::unshare(ObjectId id) {
     surroundings.takeObstacles();
     objects.takeLeaving();
   });
-  objects.giveBack();
+  objects.giveBack(true);
   desk.run([&] { objects.forget(object); });
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_bridge/src/shapes/parts_look.h"
+#include "bullet_bridge/src/surroundings/host_pairs.h"
 
 // Runs in the host's thread: searches for what is near and promotes neighbours.
 // neighbours_coming.cpp applies the results where the ticks run.
@@ -47,8 +48,9 @@ Surroundings::Surroundings(btDiscreteDynamicsWorld& world, const SiteSettings& s
       log_(log),
       obstacles_(world),
       away_(world),
-      search_(world, static_cast<std::size_t>(settings.max_neighbours)),
-      joints_(world) {}
+      moved_frames_(world),
+      search_(world, static_cast<std::size_t>(settings.max_neighbours), &moved_frames_),
+      joints_(world, moved_frames_) {}
 
 void Surroundings::addSlots(int count) {
   neighbours_.resize(static_cast<std::size_t>(count));
@@ -78,7 +80,8 @@ void Surroundings::findMissing() {
   restoreReturned();
   for (Neighbour& neighbour : neighbours_) {
     if (neighbour.isEmpty() || neighbour.body.is_leaving) continue;
-    if (neighbour.isInWorld() && !neighbour.hasChanged()) continue;
+    const bool is_dragged = neighbour.rigid && isDragged(*neighbour.rigid);
+    if (neighbour.isInWorld() && !neighbour.hasChanged() && !is_dragged) continue;
     if (neighbour.link) {
       leaveArm(neighbour.link->arm());
       continue;
@@ -101,8 +104,18 @@ void Surroundings::look(double dt, double step_end, double age, bool everywhere)
   searchObstacles(everywhere);
 }
 
+void Surroundings::explain(std::vector<std::string>& lines) const {
+  search_.explainArms(lines);
+  if (settings_.injection == Injection::kHandoff && hasOwnNearCallback(world_))
+    lines.emplace_back(
+        "the host's near callback decides on contact: contact of all bodies stays Bullet's, at the "
+        "host's rate; use groups, masks, an overlap filter callback or needsCollision() of a "
+        "dispatcher class instead");
+}
+
 void Surroundings::shiftOrigin(const Vec3& offset_W) noexcept {
   obstacles_.shiftOrigin(offset_W);
+  moved_frames_.forget();
   for (RigidState& state : mirror_.states) state.p_W += offset_W;
   for (Neighbour& neighbour : neighbours_) neighbour.shiftOrigin(offset_W);
 }
@@ -348,7 +361,7 @@ void Surroundings::filterProxies(btCollisionObject& object, bool is_present, boo
 
 /// Marks a neighbour as leaving and gives its contact with proxies back to Bullet.
 void Surroundings::leave(Neighbour& neighbour) {
-  neighbour.body.is_leaving = true;
+  neighbour.body.is_leaving = has_left_ = true;
   leaving_.push_back(&neighbour);
   if (neighbour.object) filterProxies(*neighbour.object, neighbour.isInWorld(), false);
   obstacles_.removeBody(neighbour.body.index);
@@ -363,6 +376,7 @@ void Surroundings::leaveAll() {
 }
 
 void Surroundings::releaseBody(BodyIndex index, btRigidBody& rigid, bool is_present) {
+  has_left_ = true;
   obstacles_.removeBody(index);
   search_.include(&rigid);
   filterProxies(rigid, is_present, false);

@@ -7,6 +7,7 @@
 
 #include "bullet_bridge/src/arms/world_joints.h"
 #include "bullet_bridge/src/bodies/away_bodies.h"
+#include "bullet_bridge/src/joints/moved_frames.h"
 #include "bullet_bridge/src/surroundings/neighbours.h"
 #include "bullet_bridge/src/surroundings/obstacles.h"
 #include "site/host_forces.h"
@@ -70,7 +71,13 @@ class Surroundings {
 
   /// @name For the thread that steps the host's world.
   /// @{
-  /// Marks neighbours that the host removed from its world or changed into another body.
+  /// Finds joints whose frames the host moved, before its step of `dt` [s].
+  void lookAtFrames(double dt) { moved_frames_.look(dt); }
+  /// True if such a joint drags the body.
+  [[nodiscard]] bool isDragged(const btRigidBody& rigid) const noexcept {
+    return moved_frames_.isDragged(rigid);
+  }
+  /// Marks neighbours that the host removed from its world, drags or changed into another body.
   void findMissing();
   /// Searches around the bodies for a host step of `dt` that ends at `step_end` [s]. The mirror is
   /// up to `age` old [s]. `everywhere`: also around parked bodies with nothing awake near them,
@@ -80,6 +87,9 @@ class Surroundings {
   void expectAt(BodyIndex body, const RigidState& state) noexcept {
     mirror_.set(body, state, true);
   }
+  /// True if the host changed an object that may be touched since the last search for them, or a
+  /// body has left the island since the last call: it may stand now.
+  [[nodiscard]] bool hasNews() { return std::exchange(has_left_, false) || obstacles_.hasNews(); }
   /// Searches for standing objects; `everywhere` as in look().
   void searchObstacles(bool everywhere);
   /// The host has moved all of its world by `offset_W` [m]; the thread that ticks waits.
@@ -113,8 +123,8 @@ class Surroundings {
   [[nodiscard]] bool leavesJointsOf(const btRigidBody& rigid) const {
     return search_.leavesJointsOf(rigid);
   }
-  /// Adds lines about multi-bodies that the island cannot hold.
-  void explain(std::vector<std::string>& lines) const { search_.explainArms(lines); }
+  /// Adds lines about multi-bodies that the island cannot hold, and contact that stays Bullet's.
+  void explain(std::vector<std::string>& lines) const;
   /// True if a moving object that the island does not hold may touch the body within `horizon` [s].
   [[nodiscard]] bool isStrangerNear(const SiteBody& body, double horizon) const {
     const HapticBody* rigid = body.bullet->asRigid();
@@ -129,6 +139,7 @@ class Surroundings {
   void forgetWorld() {
     obstacles_.forgetWorld();
     joints_.forgetWorld();
+    moved_frames_.forget();
     away_.clear();
   }
   /// Gives a body of the host back what is its own, as soon as it is in the world.
@@ -207,6 +218,7 @@ class Surroundings {
 
   Obstacles obstacles_;
   AwayBodies away_;
+  MovedFrames moved_frames_;
   NeighbourSearch search_;
   WorldJoints joints_;
   std::vector<std::unique_ptr<HostArm>> arms_;  ///< that the island holds, or will
@@ -222,6 +234,7 @@ class Surroundings {
   double way_by_springs_ = 0.0;       ///< extra motion of bodies by springs [m]
   double spring_speed_ = 0.0;         ///< speed that stretched springs may add [m/s]
   bool holds_neighbours_ = true;      ///< false: not before the first tick
+  bool has_left_ = false;             ///< a body has left since hasNews()
   bool has_changed_ = false;          ///< obstacles changed since take()
   bool has_more_ = false;             ///< results of lookFarther() do not act yet
   std::vector<BodyIndex> newcomers_;  ///< slots filled since the last catch-up

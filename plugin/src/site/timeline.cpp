@@ -58,8 +58,13 @@ Timeline::Timeline(Island& island, double period, double host_step) noexcept
       step_end_(host_step > 0.0 ? host_step : kNever) {}
 
 void Timeline::setBodyCount(std::size_t count) {
+  const std::size_t count_before = start_states_.size();
   snapshots_.setBodyCount(count);
   start_states_.resize(count);
+  for (std::size_t b = count_before; b < count; ++b) {
+    const auto body = static_cast<BodyIndex>(b);
+    enter(body, island_.state(body));
+  }
   moved_.reserve(count);
   start_rest_.clear();
   snapshot_rest_.clear();

@@ -23,7 +23,8 @@ class Timeline {
   /// `period` of the ticks and expected `host_step` [s]; 0 if unknown.
   Timeline(Island& island, double period, double host_step) noexcept;
 
-  /// After set-up: forgets that states were kept. Allocates.
+  /// After set-up: forgets that states were kept. New bodies have always been where they are.
+  /// Allocates.
   void setBodyCount(std::size_t count);
   /// Makes room for the states at the ends of this many host steps. Allocates.
   void makeRoom(std::size_t moments) { snapshots_.makeRoom(moments); }
