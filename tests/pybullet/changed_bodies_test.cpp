@@ -1,5 +1,7 @@
 // Bodies that the script changes while a site has them.
 
+#include <functional>
+
 #include "plugin_rig.h"
 
 namespace tandem::test {
@@ -174,6 +176,27 @@ TEST(ChangedBody, CarriesItsShareOfANewMass) {
   shared.host.command("close");
   EXPECT_DOUBLE_EQ(shared.body().mass, 1.0);
   EXPECT_LT((shared.body().inertia - 1.5 * inertia).norm(), 1e-18);
+}
+
+// Its weight acts once in the step in which Tandem follows the change: half of it on half the mass.
+TEST(ChangedBody, FallsAsBefore) {
+  const auto change_friction = [](SharedCube& shared) { shared.body().friction = 0.3; };
+  const auto change_mass = [](SharedCube& shared) { shared.body().mass = 0.3; };
+  const auto share_again = [](SharedCube& shared) {
+    shared.host.command("unshare object=0");
+    shared.host.command("share body=0 object=0");
+  };
+  const std::vector<std::function<void(SharedCube&)>> changes{change_friction, change_mass,
+                                                              share_again};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    SharedCube shared;
+    shared.host.engine.gravity = Vec3(0.0, 0.0, -9.81);
+    shared.host.engine.time_step = 0.01;
+    shared.host.step(5);
+    changes[i](shared);
+    shared.host.step(5);
+    EXPECT_NEAR(shared.body().state.v_W.z(), -0.981, 1e-12) << i;
+  }
 }
 
 // A pair has the product of its frictions. A slope of 10 degrees holds a cube with 0.5 on a floor

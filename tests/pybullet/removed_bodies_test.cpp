@@ -52,6 +52,15 @@ TEST(RemovedBody, IsNotMistakenForTheNextOfItsNumber) {
   }
 }
 
+// PyBullet keeps a filter when a body goes, and the next body gets its number.
+TEST(RemovedBody, LeavesNoFilterWhenTheSiteClosesAtOnce) {
+  TwoShared two;
+  two.host.engine.remove(two.cube);
+  two.host.engine.add(makeStubCube());
+  two.host.command("close");
+  EXPECT_TRUE(two.host.engine.without_contact.empty());
+}
+
 // With a guide no object leaves alone: the site ends, and says so.
 TEST(RemovedBody, EndsASiteWithAGuide) {
   SharedCube shared(makeStubCube(), "guide=1,0,0");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stub_contacts.h"
+
 namespace tandem::test {
 namespace {
 
@@ -17,6 +19,13 @@ void turnFreely(StubBody& body, double dt) {
   body.state.w_W = body.state.q_WB * Vec3(w - dt * torque.cwiseQuotient(body.inertia));
 }
 
+// btMultiBody's default.
+void limit(RigidState& state) {
+  constexpr double kMost = 100.0;  // [m/s, rad/s]
+  for (Vec3* velocity : {&state.v_W, &state.w_W})
+    *velocity = velocity->cwiseMax(-kMost).cwiseMin(kMost);
+}
+
 void turn(RigidState& state, double dt) {
   const double angle = state.w_W.norm() * dt;
   if (angle == 0.0) return;
@@ -30,6 +39,7 @@ int StubEngine::add(const StubBody& body) {
   int number = 0;
   while (bodies.count(number) > 0) ++number;
   StubBody& added = bodies[number] = body;
+  added.serial = ++last_serial_;
   for (b3::CollisionShapeData& piece : added.shape) piece.body = number;
   return number;
 }
@@ -37,9 +47,10 @@ int StubEngine::add(const StubBody& body) {
 void StubEngine::accelerate(StubBody& body, double dt) const {
   if (body.mass == 0.0) return;
   damp(body, dt);
-  turnFreely(body, dt);
+  if (body.is_multibody || !contacts) turnFreely(body, dt);
   body.state.v_W += dt * gravity + body.hit / body.mass;
   body.hit.setZero();
+  if (body.is_multibody) limit(body.state);
 }
 
 void StubEngine::move(StubBody& body, double dt) const {
@@ -47,6 +58,11 @@ void StubEngine::move(StubBody& body, double dt) const {
   const double moved = moves_for > 0.0 ? moves_for : dt;
   body.state.p_W += moved * body.state.v_W;
   turn(body.state, moved);
+}
+
+void StubEngine::moveAll(double dt) {
+  if (contacts) return contacts->move(bodies, without_contact, dt);
+  for (auto& [number, body] : bodies) move(body, dt);
 }
 
 void StubEngine::step(Tick pre_tick, Tick post_tick, void* user_pointer) {
@@ -58,15 +74,12 @@ void StubEngine::step(Tick pre_tick, Tick post_tick, void* user_pointer) {
     context.user_pointer = user_pointer;
     if (pre_tick) pre_tick(&context);
     for (auto& [number, body] : bodies) accelerate(body, dt);
-    const auto moveAll = [&] {
-      for (auto& [number, body] : bodies) move(body, dt);
-    };
-    if (!is_deformable) moveAll();
+    if (!is_deformable) moveAll(dt);
     b3::PluginContext after{};
     after.client = client();
     after.user_pointer = user_pointer;
     if (post_tick) post_tick(&after);
-    if (is_deformable) moveAll();
+    if (is_deformable) moveAll(dt);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -29,11 +30,14 @@ struct StubBody {
   RigidState state;
   std::vector<b3::CollisionShapeData> shape;
   Vec3 hit = Vec3::Zero();  // impulse in the next internal step [N s], as of a native contact
+  int serial = 0;           // of all that the engine has had; add() sets it
 };
 
+class StubContacts;
+
 /// A minimal physics server for a plugin, behind the C functions that the program exports. It does
-/// gravity and damping, then x += v dt. Each internal step ticks with a context that is zeroed like
-/// PyBullet's. Shares no code with the plugin except the layouts.
+/// gravity and damping, then x += v dt, or contacts. Each internal step ticks with a context that
+/// is zeroed like PyBullet's. Shares no code with the plugin except the layouts.
 class StubEngine {
  public:
   double time_step = 1.0 / 240.0;
@@ -43,7 +47,8 @@ class StubEngine {
   double moves_for = 0.0;      // time that bodies really move for; 0: the step
   std::map<int, StubBody> bodies;
   std::set<std::pair<int, int>> without_contact;
-  int commands = 0;  // commands submitted so far
+  std::shared_ptr<StubContacts> contacts;  // nothing touches without
+  int commands = 0;                        // commands submitted so far
 
   /// Adds a body. The number of a removed body goes to the next one.
   int add(const StubBody& body);
@@ -58,7 +63,10 @@ class StubEngine {
 
  private:
   void accelerate(StubBody& body, double dt) const;
+  void moveAll(double dt);
   void move(StubBody& body, double dt) const;
+
+  int last_serial_ = 0;
 };
 
 /// One piece of a shape as PyBullet reports it for body 0; the caller sets the number.

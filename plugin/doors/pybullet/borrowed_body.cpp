@@ -10,6 +10,9 @@
 namespace tandem::pybullet {
 namespace {
 
+/// Limit of btMultiBody for each axis of the world; PyBullet does not tell another [rad/s].
+constexpr double kMostTurning = 100.0;
+
 /// Makes a new mark. It is so small that 1 - mark is 1 and v + mark v is v, in float and double.
 /// Both types keep all 20 bits of the count.
 double makeMark() {
@@ -169,12 +172,20 @@ bool BorrowedBody::giveBack(const Engine& engine) {
   return true;
 }
 
-void BorrowedBody::makeReadyToTurn(double step, TandemState& target) const {
+void BorrowedBody::makeReadyToTurn(double step, TandemState& target) {
   const GyroLaw law = before_.is_multibody ? GyroLaw::kExplicit : GyroLaw::kImplicit;
   const double* const q = target.orientation;
-  const Vec3 w_W = computeVelocityBefore(law, inertia_, Quat(q[3], q[0], q[1], q[2]),
-                                         Vec3(target.angular_velocity), step);
+  const Quat R_WB(q[3], q[0], q[1], q[2]);
+  const Vec3 wanted_W(target.angular_velocity);
+  const Vec3 w_W = computeVelocityBefore(law, inertia_, R_WB, wanted_W, step);
+  Vec3 after_W = applyGyroLaw(law, inertia_, R_WB, w_W, step);
+  if (before_.is_multibody) after_W = after_W.cwiseMax(-kMostTurning).cwiseMin(kMostTurning);
+  turn_ = after_W - wanted_W;
   std::copy_n(w_W.data(), 3, target.angular_velocity);
+}
+
+void BorrowedBody::leaveOutTurn(TandemState& after) const {
+  for (int i = 0; i < 3; ++i) after.angular_velocity[i] -= turn_[i];
 }
 
 }  // namespace tandem::pybullet

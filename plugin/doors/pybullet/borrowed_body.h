@@ -47,7 +47,9 @@ class BorrowedBody {
   bool giveBack(const Engine& engine);
 
   /// Changes the velocities so that PyBullet's step ends with those of `target`.
-  void makeReadyToTurn(double step, TandemState& target) const;
+  void makeReadyToTurn(double step, TandemState& target);
+  /// Takes out of the state after the step what makeReadyToTurn() could not make up for.
+  void leaveOutTurn(TandemState& after) const;
 
  private:
   struct Marks {
@@ -67,6 +69,7 @@ class BorrowedBody {
   bool keeps_mass_ = false;
   double mass_ = 0.0;      // in PyBullet meanwhile
   Vec3 inertia_{0, 0, 0};  // in PyBullet meanwhile
+  Vec3 turn_{0, 0, 0};     // of PyBullet itself, not made up for [rad/s]
 };
 
 }  // namespace tandem::pybullet

@@ -1,5 +1,7 @@
 #include "gyroscope.h"
 
+#include <limits>
+
 #include <Eigen/LU>
 
 namespace tandem::pybullet {
@@ -31,15 +33,19 @@ Vec3 applyGyroLaw(GyroLaw law, const Vec3& inertia, const Quat& R_WB, const Vec3
 Vec3 computeVelocityBefore(GyroLaw law, const Vec3& inertia, const Quat& R_WB, const Vec3& target_W,
                            double dt) {
   if (inertia.x() == inertia.y() && inertia.y() == inertia.z()) return target_W;
-  // A step turns w only slightly, so the error shrinks by |w| dt per round.
+  // The error shrinks by about |w| dt per round, and grows where a step turns the body far.
   constexpr int kRounds = 30;
-  Vec3 before = target_W;
+  Vec3 before = target_W, best = target_W;
+  double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kRounds; ++round) {
     const Vec3 missing = target_W - applyGyroLaw(law, inertia, R_WB, before, dt);
+    if (!(missing.squaredNorm() < least)) break;
+    least = missing.squaredNorm();
+    best = before;
+    if (least <= 1e-28 * target_W.squaredNorm()) break;
     before += missing;
-    if (missing.squaredNorm() <= 1e-28 * target_W.squaredNorm()) break;
   }
-  return before;
+  return best;
 }
 
 }  // namespace tandem::pybullet

@@ -15,8 +15,9 @@ enum class GyroLaw {
 [[nodiscard]] Vec3 applyGyroLaw(GyroLaw law, const Vec3& inertia, const Quat& R_WB, const Vec3& w_W,
                                 double dt);
 
-/// Angular velocity that applyGyroLaw() turns into `target_W` [rad/s]. It is the target itself if
-/// all principal moments are equal. Pure; bounded time.
+/// Angular velocity that applyGyroLaw() turns into `target_W` [rad/s], or near it if one step turns
+/// the body by a radian or more. It is the target itself if all principal moments are equal. Pure;
+/// bounded time.
 [[nodiscard]] Vec3 computeVelocityBefore(GyroLaw law, const Vec3& inertia, const Quat& R_WB,
                                          const Vec3& target_W, double dt);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include "refusal.h"
 #include "session.h"
@@ -117,16 +116,10 @@ void Session::showProxy(int remote, int body) {
 
 void Session::close() {
   constexpr int kFarewells = 10;
-  std::set<int> there;
-  for (Moving& one : moving_) {
-    if (one.body.giveBack(engine_)) there.insert(one.body.number());
-  }
-  for (Standing& one : standing_) {
-    if (one.body.giveBack(engine_)) there.insert(one.body.number());
-  }
-  for (const auto& [a, b] : without_contact_) {
-    if (there.count(a) > 0 && there.count(b) > 0) engine_.setCollides(a, b, true);
-  }
+  for (Moving& one : moving_) one.body.giveBack(engine_);
+  for (Standing& one : standing_) one.body.giveBack(engine_);
+  // A body that was removed since the last step may have left its number to another.
+  for (const auto& [a, b] : without_contact_) engine_.setCollides(a, b, true);
   sayFarewell(kFarewells);
   site_.reset();
   world_.reset();

@@ -183,6 +183,7 @@ void Session::finish() {
       now_[i] = one.set;
     } else {
       watchStep(one, now_[i]);
+      one.body.leaveOutTurn(now_[i]);
     }
   }
   check(tandem_world_end_step(world_.get(), ids_.size(), ids_.data(), now_.data(), told_.data()));
