@@ -1,6 +1,15 @@
 #include "bench/guest/guest_acts.h"
 
 namespace tandem::demos::bench {
+namespace {
+
+int countActs(void (*append)(std::vector<GuestAct>& acts)) {
+  std::vector<GuestAct> acts;
+  append(acts);
+  return static_cast<int>(acts.size());
+}
+
+}  // namespace
 
 const std::vector<GuestAct>& guestActs() {
   static const std::vector<GuestAct> acts = [] {
@@ -13,18 +22,23 @@ const std::vector<GuestAct>& guestActs() {
     appendJointActs(all);
     appendSiteActs(all);
     appendArmActs(all);
+    appendMoreActs(all);
     return all;
   }();
   return acts;
 }
 
-std::size_t countWorldActs() {
-  static const std::size_t count = [] {
-    std::vector<GuestAct> of_arms;
-    appendArmActs(of_arms);
-    return guestActs().size() - of_arms.size();
-  }();
-  return count;
+GuestActRange worldActs() { return {0, armActs().first - 1}; }
+
+GuestActRange armActs() {
+  static const int count = countActs(appendArmActs);
+  return {moreActs().first - count, moreActs().first - 1};
+}
+
+GuestActRange moreActs() {
+  static const int count = countActs(appendMoreActs);
+  const int all = static_cast<int>(guestActs().size());
+  return {all - count, all - 1};
 }
 
 }  // namespace tandem::demos::bench

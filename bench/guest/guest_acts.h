@@ -23,8 +23,14 @@ struct GuestAct {
 /// and calls of Site.
 [[nodiscard]] const std::vector<GuestAct>& guestActs();
 
-/// The first so many are done in all worlds. Those after them are done to arms.
-[[nodiscard]] std::size_t countWorldActs();
+/// Acts that are drawn from one stream, by their index.
+struct GuestActRange {
+  int first, last;
+};
+/// Done in all worlds; to arms; and those that came later, which some worlds draw besides.
+[[nodiscard]] GuestActRange worldActs();
+[[nodiscard]] GuestActRange armActs();
+[[nodiscard]] GuestActRange moreActs();
 
 /// @name Parts of the table.
 /// @{
@@ -36,6 +42,7 @@ void appendWorldActs(std::vector<GuestAct>& acts);
 void appendJointActs(std::vector<GuestAct>& acts);
 void appendSiteActs(std::vector<GuestAct>& acts);
 void appendArmActs(std::vector<GuestAct>& acts);
+void appendMoreActs(std::vector<GuestAct>& acts);
 /// @}
 
 }  // namespace tandem::demos::bench

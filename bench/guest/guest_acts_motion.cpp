@@ -146,8 +146,10 @@ void setDamping(GuestWorld& world, Draw& draw) {
 void setActivation(GuestWorld& world, Draw& draw) {
   constexpr int kStates[] = {ACTIVE_TAG, ISLAND_SLEEPING, WANTS_DEACTIVATION, DISABLE_DEACTIVATION,
                              DISABLE_SIMULATION};
-  btRigidBody& rigid = pick(world, draw);
+  GuestBody& body = world.drawDynamicBody(draw);
+  btRigidBody& rigid = *body.rigid;
   const int state = kStates[draw.count(0, 4)];
+  body.was_put_to_sleep |= state == ISLAND_SLEEPING;
   if (draw.chance(0.3)) {
     rigid.setActivationState(state);
   } else {

@@ -1,8 +1,5 @@
 #include "bench/guest/guest_arm_plan.h"
 
-#include <algorithm>
-#include <cstddef>
-
 #include <fmt/format.h>
 
 #include "bench/guest/guest_acts.h"
@@ -51,23 +48,6 @@ GuestArmPlan drawArm(Draw& draw, int place) {
   return plan;
 }
 
-void drawArmActs(Draw& draw, GuestCase& one) {
-  const auto first = static_cast<int>(countWorldActs());
-  const auto last = static_cast<int>(guestActs().size()) - 1;
-  for (double time = draw.even(0.0, 0.05); time < one.duration - 0.03;
-       time += draw.even(0.0, 0.08)) {
-    GuestActPlan plan;
-    plan.time = time;
-    plan.act = draw.count(first, last);
-    plan.site = draw.count(0, one.sites - 1);
-    plan.in_callback = draw.chance(0.1) && guestActs()[static_cast<std::size_t>(plan.act)].in_step;
-    plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
-    one.acts.push_back(plan);
-  }
-  std::stable_sort(one.acts.begin(), one.acts.end(),
-                   [](const GuestActPlan& a, const GuestActPlan& b) { return a.time < b.time; });
-}
-
 }  // namespace
 
 void drawArms(GuestCase& one) {
@@ -75,7 +55,7 @@ void drawArms(GuestCase& one) {
   if (!draw.chance(kShare)) return;
   const int count = draw.chance(0.7) ? 1 : 2;
   for (int i = 0; i < count; ++i) one.arms.push_back(drawArm(draw, i));
-  drawArmActs(draw, one);
+  drawActsAmong(draw, one, armActs(), 0.08, true);
 }
 
 std::string describeArm(const GuestArmPlan& plan) {

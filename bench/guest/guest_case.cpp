@@ -83,12 +83,12 @@ void drawBodies(Draw& draw, GuestCase& one) {
 
 void drawActs(Draw& draw, GuestCase& one) {
   const std::vector<GuestAct>& acts = guestActs();
-  const auto last = static_cast<int>(countWorldActs()) - 1;
+  const auto [first, last] = worldActs();
   double time = draw.even(0.0, 0.05);
   while (time < one.duration - 0.03) {
     GuestActPlan plan;
     plan.time = time;
-    plan.act = draw.count(0, last);
+    plan.act = draw.count(first, last);
     plan.site = one.sites > 1 && draw.chance(0.2) ? -1 : draw.count(0, one.sites - 1);
     plan.in_callback = draw.chance(0.1) && acts[static_cast<std::size_t>(plan.act)].in_step;
     plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
@@ -97,6 +97,17 @@ void drawActs(Draw& draw, GuestCase& one) {
   }
 }
 
+/// Acts that came later, and other broadphases, from a stream of draws of their own: all other
+/// worlds of a seed are what they were.
+void drawMore(GuestCase& one) {
+  constexpr std::uint64_t kMoreStream = 0x6d6f7265U;
+  Draw draw(one.seed ^ kMoreStream, one.index);
+  if (!draw.chance(0.25)) return;
+  one.broadphase = static_cast<GuestBroadphase>(draw.count(0, kGuestBroadphaseCount - 1));
+  drawActsAmong(draw, one, moreActs(), 0.1, false);
+}
+
+constexpr const char* kBroadphaseNames[] = {"trees", "axis sweep", "32-bit axis sweep", "pairs"};
 constexpr const char* kRoleNames[] = {"plain", "character", "mover", "ramp", "far"};
 constexpr const char* kShapeNames[] = {"box",       "sphere",       "capsule x",    "capsule y",
                                        "capsule z", "cylinder",     "cone",         "hull",
@@ -105,6 +116,24 @@ constexpr const char* kFloorNames[] = {"box", "plane", "mesh", "height field"};
 constexpr const char* kHandNames[] = {"following", "resting", "pressing", "jumping", "gone", "far"};
 
 }  // namespace
+
+void drawActsAmong(Draw& draw, GuestCase& one, const GuestActRange& range, double apart,
+                   bool in_callbacks) {
+  const std::vector<GuestAct>& acts = guestActs();
+  for (double time = draw.even(0.0, 0.05); time < one.duration - 0.03;
+       time += draw.even(0.0, apart)) {
+    GuestActPlan plan;
+    plan.time = time;
+    plan.act = draw.count(range.first, range.last);
+    plan.site = draw.count(0, one.sites - 1);
+    plan.in_callback =
+        in_callbacks && draw.chance(0.1) && acts[static_cast<std::size_t>(plan.act)].in_step;
+    plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
+    one.acts.push_back(plan);
+  }
+  std::stable_sort(one.acts.begin(), one.acts.end(),
+                   [](const GuestActPlan& a, const GuestActPlan& b) { return a.time < b.time; });
+}
 
 GuestCase drawGuestCase(std::uint64_t seed, std::uint64_t index) {
   Draw draw(seed, index);
@@ -130,6 +159,7 @@ GuestCase drawGuestCase(std::uint64_t seed, std::uint64_t index) {
   one.world_ends_first = draw.chance(0.1);
   drawActs(draw, one);
   drawArms(one);
+  drawMore(one);
   return one;
 }
 
@@ -148,7 +178,8 @@ std::string describeCase(const GuestCase& one) {
                   one.world_ends_first ? ", world ends before its site" : "");
   for (const GuestHand hand : one.hands)
     text += fmt::format(" {}", kHandNames[static_cast<int>(hand)]);
-  text += fmt::format("; {} joints\n", one.joints);
+  text += fmt::format("; {} joints; broadphase: {}\n", one.joints,
+                      kBroadphaseNames[static_cast<int>(one.broadphase)]);
   for (std::size_t b = 0; b < one.bodies.size(); ++b) {
     const GuestPlan& plan = one.bodies[b];
     text += fmt::format("  body {}: {} {}{}, {:.3f} kg, {:.1f} mm, at {:.3f} {:.3f} {:.3f}\n", b,

@@ -29,6 +29,10 @@ inline constexpr int kGuestShapeCount = 11;
 enum class GuestFloor { kBox, kPlane, kMesh, kHeightField };
 inline constexpr int kGuestFloorCount = 4;
 
+/// Bullet's searches for bodies whose boxes meet.
+enum class GuestBroadphase { kTrees, kAxisSweep, kAxisSweep32, kPairs };
+inline constexpr int kGuestBroadphaseCount = 4;
+
 /// Parts that a body plays.
 enum class GuestRole {
   kPlain,      ///< a dynamic body near the hand
@@ -74,6 +78,7 @@ struct GuestCase {
   bool is_caller = false;        ///< TickSource::kCaller
   double delay = 0.0, loss = 0.0;
   GuestFloor floor = GuestFloor::kBox;
+  GuestBroadphase broadphase = GuestBroadphase::kTrees;
   bool is_planar = false;  ///< all bodies stay in the plane y = 0
   /// Nothing is shared, nobody connected, the hand far or without feeling for moving bodies: the
   /// world must be the twin's to the bit.
@@ -91,6 +96,15 @@ struct GuestCase {
 
   [[nodiscard]] double step() const { return max_substeps > 0 ? fixed_step : frame; }
 };
+
+class Draw;
+struct GuestActRange;
+
+/// Draws acts of `range` by single hosts, up to `apart` [s] from one to the next, among those of
+/// the case in the order of time. A tenth of those that may are done in the host's callback, if
+/// `in_callbacks`.
+void drawActsAmong(Draw& draw, GuestCase& one, const GuestActRange& range, double apart,
+                   bool in_callbacks);
 
 /// Pure: equal seeds and indices give equal cases.
 [[nodiscard]] GuestCase drawGuestCase(std::uint64_t seed, std::uint64_t index);

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kArena = 1.0;  // bodies nearer to the middle are judged [m]
 constexpr double kLost = -0.6;  // a body lower than this has left [m]
+/// No centre that can stand is as much below the floor's top [m].
+constexpr double kFallen = 0.03;
 
 /// Energy of motion and weight, with the mass that the host sees [J].
 double energyOf(const GuestBody& body) {
@@ -34,6 +36,10 @@ Vec3 placeOf(const GuestBody& body) {
 bool isInArena(const GuestBody& body) {
   const Vec3 p_W = placeOf(body);
   return p_W.head<2>().cwiseAbs().maxCoeff() < kArena && p_W.z() > kLost && p_W.z() < kArena;
+}
+
+bool isBelowAll(const GuestWorld& world, const GuestBody& body) {
+  return placeOf(body).z() < static_cast<double>(world.floorTop()) - kFallen;
 }
 
 bool isMoving(const GuestBody& body) {

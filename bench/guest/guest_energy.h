@@ -9,6 +9,8 @@ namespace tandem::demos::bench {
 [[nodiscard]] bool isInArena(const GuestBody& body);
 /// True if forces move it.
 [[nodiscard]] bool isMoving(const GuestBody& body);
+/// True if its centre is lower than that of any body that stands on the floor.
+[[nodiscard]] bool isBelowAll(const GuestWorld& world, const GuestBody& body);
 /// Energy of motion and weight of all bodies in the arena and of all arms, as the host sees it [J].
 [[nodiscard]] double energyOf(const GuestWorld& world);
 /// Index of the body with the most energy.

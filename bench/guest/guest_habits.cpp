@@ -1,4 +1,6 @@
 
+#include <algorithm>
+
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bench/guest/guest_world.h"
@@ -93,6 +95,30 @@ void GuestWorld::toggleAction(Draw& draw) {
   world().addAction(action_.get());
 }
 
+void GuestWorld::toggleSpring(Draw& draw) {
+  constexpr double kPace = 20.0;  // [rad/s]
+  const GuestBody& body = drawDynamicBody(draw);
+  const double stiffness = body.plan.mass * kPace * kPace;
+  const auto own = std::find_if(springs_.begin(), springs_.end(),
+                                [&](const Spring& spring) { return spring.body == &body; });
+  if (own != springs_.end()) {
+    springs_.erase(own);
+  } else {
+    springs_.push_back({&body, toBullet(Vec3(body.plan.p_W + Vec3(0.0, 0.0, 0.05))),
+                        static_cast<btScalar>(stiffness)});
+  }
+}
+
+void GuestWorld::pullBySprings() {
+  for (const Spring& spring : springs_) {
+    btRigidBody& rigid = *spring.body->rigid;
+    if (!spring.body->is_in_world || rigid.isStaticOrKinematicObject()) continue;
+    rigid.activate();
+    const btVector3 way = spring.at - rigid.getWorldTransform().getOrigin();
+    rigid.applyCentralForce(spring.stiffness * way);
+  }
+}
+
 void GuestWorld::replaceSolver() {
   old_solvers_.push_back(makeSolver());
   world().setConstraintSolver(old_solvers_.back().get());
@@ -119,10 +145,9 @@ void GuestWorld::reset() {
   world().clearForces();
 }
 
-void GuestWorld::putAsIn(const GuestWorld& other, std::size_t body) {
-  const btRigidBody& rigid = *other.bodies_[body]->rigid;
-  place(*bodies_[body],
-        {rigid.getWorldTransform(), rigid.getLinearVelocity(), rigid.getAngularVelocity()});
+GuestWorld::Saved GuestWorld::motionOf(std::size_t body) const {
+  const btRigidBody& rigid = *bodies_[body]->rigid;
+  return {rigid.getWorldTransform(), rigid.getLinearVelocity(), rigid.getAngularVelocity()};
 }
 
 /// Puts a body elsewhere, as hosts do that restore a state.

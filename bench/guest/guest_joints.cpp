@@ -56,6 +56,19 @@ void GuestWorld::addJoint(Draw& draw) {
   world().addConstraint(joints_.back().get(), disables_contact);
 }
 
+void GuestWorld::removeJointsOf(const GuestBody& body) {
+  for (std::size_t j = joints_.size(); j-- > 0;)
+    if (&joints_[j]->getRigidBodyA() == body.rigid || &joints_[j]->getRigidBodyB() == body.rigid)
+      removeJoint(j);
+}
+
+void GuestWorld::removeBeforeJoints(GuestBody& body) {
+  removeTiesOf(body);
+  world().removeRigidBody(body.rigid);
+  body.is_in_world = false;
+  removeJointsOf(body);
+}
+
 void GuestWorld::removeJoint(std::size_t index) {
   world().removeConstraint(joints_[index].get());
   joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(index));

@@ -6,6 +6,7 @@
 
 #include "bench/guest/guest_acts.h"
 #include "bench/guest/guest_energy.h"
+#include "bench/guest/guest_tears.h"
 
 namespace tandem::demos::bench {
 namespace {
@@ -19,6 +20,13 @@ std::pair<int, int> countArmParts(const btDiscreteDynamicsWorld& world) {
   const auto* multi = dynamic_cast<const btMultiBodyDynamicsWorld*>(&world);
   if (!multi) return {0, 0};
   return {multi->getNumMultibodies(), multi->getNumMultiBodyConstraints()};
+}
+
+GuestFrame::Deed makeDeed(const GuestActPlan& plan) {
+  return [plan](GuestWorld& world) {
+    Draw draw(plan.seed, 0);
+    guestActs()[static_cast<std::size_t>(plan.act)].apply(world, draw);
+  };
 }
 
 PeerId peerOf(int site) { return PeerId{static_cast<std::uint32_t>(site) + 1}; }
@@ -73,10 +81,16 @@ void GuestSite::connect(int other, Link& link) {
 void GuestSite::doAct(const GuestActPlan& plan) {
   if (plan.in_callback) return pending_.push_back(plan);
   const GuestAct& act = guestActs()[static_cast<std::size_t>(plan.act)];
-  Draw draw(plan.seed, 0), twin_draw(plan.seed, 0);
+  Draw draw(plan.seed, 0);
   if (act.apply_to_site) return act.apply_to_site(*this, draw);
   act.apply(world_, draw);
-  act.apply(twin_, twin_draw);
+  doToTwin(makeDeed(plan));
+}
+
+/// Between two steps.
+void GuestSite::doToTwin(const GuestFrame::Deed& deed) {
+  deed(twin_);
+  frame_.before.push_back(deed);
 }
 
 void GuestSite::step(double time) {
@@ -88,21 +102,27 @@ void GuestSite::step(double time) {
   if (case_.is_caller)
     for (; static_cast<double>(ticks_) * kTick < simulated_ - 1e-9; ++ticks_)
       if (site_) site_->tick(static_cast<double>(ticks_) * kTick);
+  frame_.time = time;
+  for (const GuestActPlan& plan : pending_) frame_.within.push_back(makeDeed(plan));
+  pending_.clear();
   const auto doPending = [&](GuestWorld& world) {
     return [&] {
-      const double before = energyOf(world);
-      for (const GuestActPlan& plan : pending_) {
-        Draw draw(plan.seed, 0);
-        guestActs()[static_cast<std::size_t>(plan.act)].apply(world, draw);
-      }
-      given_ += std::max(0.0, energyOf(world) - before);
+      if (frame_.within.empty()) return;
+      const double before = energyOf(world) + tearsOf(world);
+      for (const GuestFrame::Deed& deed : frame_.within) deed(world);
+      given_ += std::max(0.0, energyOf(world) + tearsOf(world) - before);
     };
   };
   findPlaces();
+  const std::uint64_t resets = site_ ? site_->counters().resets_followed : 0;
+  const double tears = case_.sites > 1 ? tearsOf(world_) : 0.0;
   world_.step(time, doPending(world_));
   twin_.step(time, doPending(twin_));
+  // A peer's reset tears the joints of our copy.
+  if (site_ && site_->counters().resets_followed > resets)
+    given_ += std::max(0.0, tearsOf(world_) - tears);
   followResets();
-  pending_.clear();
+  journal_.push_back(std::exchange(frame_, {}));
 }
 
 void GuestSite::findPlaces() {
@@ -117,7 +137,10 @@ void GuestSite::followResets() {
     const GuestBody& body = *world_.bodies()[b];
     const double way = (placeOf(body) - places_[b]).norm();
     const double speed = fromBullet(body.rigid->getLinearVelocity()).norm();
-    if (body.was_shared && way > kReset + speed * case_.frame) twin_.putAsIn(world_, b);
+    if (!body.was_shared || !(way > kReset + speed * case_.frame)) continue;
+    const auto put = [b, motion = world_.motionOf(b)](GuestWorld& world) { world.put(b, motion); };
+    put(twin_);
+    frame_.after.emplace_back(put);
   }
 }
 
@@ -141,7 +164,7 @@ void GuestSite::shareAgain(Draw& draw) {
 /// A site cannot restore what is not in its world.
 void GuestSite::beginAnother() {
   world_.putBack();
-  twin_.putBack();
+  doToTwin([](GuestWorld& world) { world.putBack(); });
   end();
   if (left_over_.empty()) left_over_ = findLeftOver();
   begin();

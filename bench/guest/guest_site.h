@@ -8,6 +8,7 @@
 #include "tandem/plugin/site.h"
 
 #include "bench/guest/guest_hand.h"
+#include "bench/guest/guest_journal.h"
 #include "bench/guest/guest_world.h"
 
 namespace tandem::demos::bench {
@@ -26,7 +27,9 @@ class GuestSite {
   void connect(int other, Link& link);
 
   void doAct(const GuestActPlan& plan);
-  /// Energy that acts in callbacks gave since the last call [J].
+  /// Lists all that was done to the twin, in all frames that have ended.
+  [[nodiscard]] const GuestJournal& journal() const { return journal_; }
+  /// Energy that acts in callbacks, and resets of peers, gave since the last call [J].
   [[nodiscard]] double takeGiven() { return std::exchange(given_, 0.0); }
   /// One frame of both worlds that begins at `time`, with the ticks of its caller.
   void step(double time);
@@ -49,6 +52,7 @@ class GuestSite {
   void begin();
   void noteHooks();
   [[nodiscard]] std::string findHookLeft();
+  void doToTwin(const GuestFrame::Deed& deed);
   void findPlaces();
   void followResets();
 
@@ -59,6 +63,8 @@ class GuestSite {
   std::vector<std::pair<int, Link*>> links_;
   std::unique_ptr<Site> site_;
   std::vector<GuestActPlan> pending_;
+  GuestJournal journal_;
+  GuestFrame frame_;          ///< that has not ended
   std::vector<Vec3> places_;  ///< of bodies before the step
   std::string left_over_;
   std::uint64_t ticks_ = 0;

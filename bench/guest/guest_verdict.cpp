@@ -9,11 +9,11 @@
 #include "tandem/bullet_bridge/convert.h"
 
 #include "bench/guest/guest_energy.h"
+#include "bench/guest/guest_tears.h"
 
 namespace tandem::demos::bench {
 namespace {
 
-constexpr double kFallen = -0.03;     // no centre that can stand is lower [m]
 constexpr double kMeets = 0.3;        // a body nearer than this may touch a far one [m]
 constexpr double kReach = 8.0;        // steps over which a site foresees motion
 constexpr double kLeastEnergy = 1.0;  // of what penetration and rounding give [J]
@@ -76,12 +76,31 @@ bool isOblique(const btRigidBody& rigid) {
   return false;
 }
 
-/// True if its host moves a kinematic body: what is joined to it gets any energy, in Bullet alone,
-/// too.
+/// True if its host moves a kinematic body, or any body along axes that its factors lock: what is
+/// joined to it gets any energy, in Bullet alone, too.
 bool isDriven(const btRigidBody& rigid) {
   constexpr btScalar kSlow = btScalar(0.1), kSlowTurn = 1;  // [m/s], [rad/s]
-  return rigid.isKinematicObject() && (rigid.getLinearVelocity().length() > kSlow ||
-                                       rigid.getAngularVelocity().length() > kSlowTurn);
+  const auto alongLocked = [&](const btVector3& speed, const btVector3& factor) {
+    btVector3 along(0, 0, 0);
+    for (int i = 0; i < 3; ++i)
+      if (rigid.isKinematicObject() || factor[i] == 0) along[i] = speed[i];
+    return along.length();
+  };
+  return alongLocked(rigid.getLinearVelocity(), rigid.getLinearFactor()) > kSlow ||
+         alongLocked(rigid.getAngularVelocity(), rigid.getAngularFactor()) > kSlowTurn;
+}
+
+/// How far a body is in another, in Bullet's eyes [m].
+btScalar depthOf(GuestWorld& world, const btRigidBody& rigid) {
+  btScalar depth = 0;
+  btDispatcher& dispatcher = *world.world().getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getBody0() != &rigid && manifold.getBody1() != &rigid) continue;
+    for (int c = 0; c < manifold.getNumContacts(); ++c)
+      depth = std::max(depth, -manifold.getContactPoint(c).getDistance());
+  }
+  return depth;
 }
 
 std::string tell(const GuestBody& body) {
@@ -93,7 +112,7 @@ std::string tell(const GuestBody& body) {
 }  // namespace
 
 GuestVerdict::GuestVerdict(const GuestCase& one, std::vector<std::unique_ptr<GuestSite>>& sites)
-    : case_(one), sites_(sites) {
+    : case_(one), sites_(sites), shaken_(one) {
   allowed_ = kLeastEnergy;
   double mass = 0.0;
   bool has_mover = false;
@@ -112,19 +131,35 @@ GuestVerdict::GuestVerdict(const GuestCase& one, std::vector<std::unique_ptr<Gue
 
 void GuestVerdict::beforeActs() {
   before_ = 0.0;
-  for (const auto& site : sites_) before_ += energyOf(site->world());
+  for (const auto& site : sites_) before_ += energyOf(site->world()) + tearsOf(site->world());
 }
 
 void GuestVerdict::afterActs() {
   double after = 0.0, twins = 0.0;
   for (const auto& site : sites_) {
-    after += energyOf(site->world());
+    after += energyOf(site->world()) + tearsOf(site->world());
     twins += energyOf(site->twin());
   }
-  allowed_ += std::max(0.0, after - before_) + std::max(0.0, twins - twins_);
-  twins_ = twins;
+  allowed_ += std::max(0.0, after - before_);
+  allowTwins(twins);
   motors_ = 0.0;
   for (const auto& site : sites_) motors_ += armWorkOf(site->world());
+}
+
+/// Adds what the twins gained up to their present energy [J].
+void GuestVerdict::allowTwins(double energy) {
+  const double more = std::max(0.0, energy - twins_);
+  allowed_ += more;
+  gained_ += more;
+  twins_ = energy;
+}
+
+/// The shaken twins, as far as the sites are.
+const ShakenTwins& GuestVerdict::askShaken() {
+  std::vector<const GuestJournal*> journals;
+  for (const auto& site : sites_) journals.push_back(&site->journal());
+  shaken_.advance(journals);
+  return shaken_;
 }
 
 void GuestVerdict::allowArms() {
@@ -149,7 +184,7 @@ std::optional<GuestFinding> GuestVerdict::look() {
       for (const btRigidBody* end : {&joint->getRigidBodyA(), &joint->getRigidBodyB()})
         diverges_ |= isOblique(*end) || isDriven(*end);
     if (!case_.has_large_margins)
-      if (auto found = findFallen(site)) return found;
+      if (auto found = findFallen(i)) return found;
     if (auto found = findDifferent(i)) return found;
     if (!site.leftOver().empty()) return GuestFinding{GuestFailure::kRestored, site.leftOver()};
   }
@@ -188,21 +223,25 @@ void GuestVerdict::excuse(GuestWorld& world) const {
 }
 
 /// The shortest way out of a floor without thickness may be down, or along it to a seam. And what
-/// draws a body into another floor, such as a joint, may draw it through.
+/// draws or pushes a body into another floor, such as a joint or a wedge, may move it through.
 void GuestVerdict::excuseSunk(GuestWorld& twin) const {
   for (const auto& body : twin.bodies()) {
     btVector3 low, high;
     body->rigid->getAabb(low, high);
     const btVector3 size = high - low;
-    body->may_fall |= twin.floorTop() - low.z() > size[size.minAxis()] / 2;
+    body->may_fall |= twin.floorTop() - low.z() > size[size.minAxis()] / 2 ||
+                      depthOf(twin, *body->rigid) > static_cast<btScalar>(body->plan.size) / 2;
   }
 }
 
-std::optional<GuestFinding> GuestVerdict::findFallen(GuestSite& site) const {
+std::optional<GuestFinding> GuestVerdict::findFallen(std::size_t index) {
+  GuestSite& site = *sites_[index];
   for (std::size_t b = 0; b < site.world().bodies().size(); ++b) {
-    const GuestBody &own = *site.world().bodies()[b], &twin = *site.twin().bodies()[b];
+    GuestBody &own = *site.world().bodies()[b], &twin = *site.twin().bodies()[b];
     if (own.may_fall || twin.may_fall || !isMoving(own) || !isInArena(own)) continue;
-    if (placeOf(own).z() > kFallen || placeOf(twin).z() < kFallen) continue;
+    if (!isBelowAll(site.world(), own) || isBelowAll(site.twin(), twin)) continue;
+    own.may_fall = askShaken().hasFallen(index, b);
+    if (own.may_fall) continue;
     return GuestFinding{GuestFailure::kFell,
                         fmt::format("body {} fell: {}; its twin: {}", b, tell(own), tell(twin))};
   }
@@ -267,10 +306,10 @@ std::optional<GuestFinding> GuestVerdict::findEnergy() {
     twins += energyOf(site->twin());
     hands += site->device().work();
   }
-  allowed_ += std::max(0.0, twins - twins_);
+  allowTwins(twins);
   for (const auto& site : sites_) allowed_ += site->takeGiven();
-  twins_ = twins;
-  const double allowed = kMostGrowth * (allowed_ + hands);
+  double allowed = kMostGrowth * (allowed_ + hands);
+  if (own > allowed) allowed += kMostGrowth * std::max(0.0, askShaken().mostGained() - gained_);
   share_ = std::max(share_, own / allowed);
   if (own <= allowed) return std::nullopt;
   std::string text = fmt::format("{:.3f} J, of {:.3f} J allowed", own, allowed);

@@ -17,7 +17,7 @@ constexpr int kStepsOfAStride = 5;     // steps between two of a character's com
 }  // namespace
 
 GuestWorld::GuestWorld(const GuestCase& one)
-    : case_(one), physics_(std::make_unique<Physics>(!one.arms.empty())) {
+    : case_(one), physics_(std::make_unique<Physics>(one)) {
   world().setGravity(toBullet(Vec3(0.0, 0.0, -kGravity)));
   world().setInternalTickCallback(inPreTick, this, true);
   world().setWorldUserInfo(this);
@@ -93,9 +93,7 @@ void GuestWorld::add(GuestBody& body) {
 /// Joints and ties of a body go before it, as Bullet asks of its hosts.
 void GuestWorld::remove(GuestBody& body) {
   if (!body.is_in_world) return;
-  for (std::size_t j = joints_.size(); j-- > 0;)
-    if (&joints_[j]->getRigidBodyA() == body.rigid || &joints_[j]->getRigidBodyB() == body.rigid)
-      removeJoint(j);
+  removeJointsOf(body);
   removeTiesOf(body);
   world().removeRigidBody(body.rigid);
   body.is_in_world = false;
@@ -147,6 +145,7 @@ void GuestWorld::step(double time, const std::function<void()>& pending) {
       body->rigid->setLinearVelocity(v);
     }
   }
+  pullBySprings();
   pending_ = &pending;
   world().stepSimulation(static_cast<btScalar>(case_.frame), case_.max_substeps,
                          static_cast<btScalar>(case_.fixed_step));
@@ -187,7 +186,7 @@ void GuestWorld::beginNewWorld() {
     }
     endWorld();
   }
-  physics_ = std::make_unique<Physics>(!case_.arms.empty());
+  physics_ = std::make_unique<Physics>(case_);
   world().getSolverInfo() = info;
   world().addRigidBody(floor_.get());
   has_floor_ = true;

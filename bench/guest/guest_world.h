@@ -28,8 +28,9 @@ struct GuestBody {
   bool has_filter = false;  ///< added with group and mask
   bool is_in_world = false;
   bool was_shared = false;
-  bool missed_gravity = false;  ///< it slept when the world's gravity changed last
-  bool may_fall = false;        ///< what was done to it may let it fall through what stands
+  bool missed_gravity = false;    ///< it slept when the world's gravity changed last
+  bool was_put_to_sleep = false;  ///< by its host, for ever or until something touches it
+  bool may_fall = false;          ///< what was done to it may let it fall through what stands
 };
 
 /// A host's world of a case, and what the host does to it. Its twin is another of the same case.
@@ -73,6 +74,11 @@ class GuestWorld {
 
   void addJoint(Draw& draw);
   void removeJoint(std::size_t index);
+  /// Takes a body out first, and its joints then.
+  void removeBeforeJoints(GuestBody& body);
+
+  /// Sets up or removes a spring of the host's: a force by a body's place before each step.
+  void toggleSpring(Draw& draw);
 
   /// Ties a link to a body, to another link or to the world.
   void addTie(Draw& draw);
@@ -88,8 +94,14 @@ class GuestWorld {
   void save();
   void restore();
   void reset();
-  /// Puts a body where another world has it.
-  void putAsIn(const GuestWorld& other, std::size_t body);
+  /// Motion of a body.
+  struct Saved {
+    btTransform pose;
+    btVector3 v, w;
+  };
+  [[nodiscard]] Saved motionOf(std::size_t body) const;
+  /// Puts a body elsewhere, as hosts do that restore a state.
+  void put(std::size_t body, const Saved& motion) { place(*bodies_[body], motion); }
 
   /// Ends the world, with its bodies in it or not; they live on.
   void endWorld();
@@ -98,20 +110,18 @@ class GuestWorld {
 
  private:
   struct Physics {
-    explicit Physics(bool has_arms);
+    explicit Physics(const GuestCase& one);
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
-    btDbvtBroadphase broadphase;
+    btGhostPairCallback ghost_pairs;
+    std::unique_ptr<btBroadphaseInterface> broadphase;
     std::unique_ptr<btConstraintSolver> solver;
     std::unique_ptr<btDiscreteDynamicsWorld> world;
     const GuestWatch* watch = nullptr;  ///< the world
   };
-  struct Saved {
-    btTransform pose;
-    btVector3 v, w;
-  };
 
   void makeFloor();
+  void removeJointsOf(const GuestBody& body);
   [[nodiscard]] btCollisionShape& makeOwnShape(GuestShape kind, double size, std::uint64_t seed);
   [[nodiscard]] btCollisionShape& makeCompound(Draw& draw, double size);
   void place(GuestBody& body, const Saved& state);
@@ -134,6 +144,14 @@ class GuestWorld {
   std::unique_ptr<btActionInterface> action_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   std::vector<std::unique_ptr<GuestArm>> arms_;
+  struct Spring {
+    const GuestBody* body;
+    btVector3 at;
+    btScalar stiffness;  ///< [N/m]
+  };
+  void pullBySprings();
+
+  std::vector<Spring> springs_;
   std::vector<std::unique_ptr<btConstraintSolver>> old_solvers_;
   std::vector<Saved> saved_;
   const std::function<void()>* pending_ = nullptr;

@@ -20,18 +20,36 @@ std::unique_ptr<btDiscreteDynamicsWorld> makeWatched(btDispatcher& dispatcher,
   return world;
 }
 
+std::unique_ptr<btBroadphaseInterface> makeBroadphase(GuestBroadphase kind) {
+  const btVector3 half(100, 100, 100);  // of the space in which sweeps tell bodies apart [m]
+  constexpr int kMostBodies = 1000;
+  switch (kind) {
+    case GuestBroadphase::kAxisSweep:
+      return std::make_unique<btAxisSweep3>(-half, half, kMostBodies);
+    case GuestBroadphase::kAxisSweep32:
+      return std::make_unique<bt32BitAxisSweep3>(-half, half, kMostBodies);
+    case GuestBroadphase::kPairs:
+      return std::make_unique<btSimpleBroadphase>(kMostBodies);
+    case GuestBroadphase::kTrees:
+      break;
+  }
+  return std::make_unique<btDbvtBroadphase>();
+}
+
 }  // namespace
 
-GuestWorld::Physics::Physics(bool has_arms) {
-  if (has_arms) {
+GuestWorld::Physics::Physics(const GuestCase& one) : broadphase(makeBroadphase(one.broadphase)) {
+  if (one.broadphase != GuestBroadphase::kTrees)
+    broadphase->getOverlappingPairCache()->setInternalGhostPairCallback(&ghost_pairs);
+  if (!one.arms.empty()) {
     auto own = std::make_unique<btMultiBodyConstraintSolver>();
     world =
-        makeWatched<btMultiBodyDynamicsWorld>(dispatcher, broadphase, *own, configuration, watch);
+        makeWatched<btMultiBodyDynamicsWorld>(dispatcher, *broadphase, *own, configuration, watch);
     solver = std::move(own);
   } else {
     solver = std::make_unique<btSequentialImpulseConstraintSolver>();
-    world =
-        makeWatched<btDiscreteDynamicsWorld>(dispatcher, broadphase, *solver, configuration, watch);
+    world = makeWatched<btDiscreteDynamicsWorld>(dispatcher, *broadphase, *solver, configuration,
+                                                 watch);
   }
 }
 

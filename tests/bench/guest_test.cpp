@@ -35,8 +35,25 @@ TEST(GuestBench, HardlyAnythingBreaks) {
   };
   EXPECT_EQ(std::count_if(result.outcomes.begin(), result.outcomes.end(), is_bad), 0)
       << makeGuestTable(result);
-  // The aim is none. Up to 0.7 % are known to break: docs/benchmarks.md.
-  EXPECT_LE(result.countFailed(), options.cases / 100) << makeGuestTable(result);
+  // The aim is none. One of thousands is known to break: docs/benchmarks.md.
+  EXPECT_LE(result.countFailed(), options.cases / 500) << makeGuestTable(result);
+}
+
+TEST(GuestBench, WorldsThatBrokeAreGood) {
+  constexpr std::uint64_t kBroke[][2] = {
+      {31337, 1177},    // a pinned body got a velocity, and pulled its peer's copy
+      {777001, 13360},  // the same
+      {8001, 134},      // a body moves along locked axes, and is the motor of a joint
+      {6000, 1948},     // the same
+      {777001, 15235},  // the same
+      {7771, 6734},     // Bullet lets a box through triangles, or not, by the phase of its steps
+      {20261129, 3103}  // Bullet pushes a capsule out of a wedge in any direction
+  };
+  for (const auto& [seed, index] : kBroke) {
+    const GuestOutcome outcome = runGuestCase(drawGuestCase(seed, index));
+    EXPECT_EQ(outcome.failure, GuestFailure::kNone)
+        << seed << " case " << index << ": " << outcome.text;
+  }
 }
 
 TEST(GuestBench, EqualSeedsGiveEqualCases) {
