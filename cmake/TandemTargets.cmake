@@ -24,6 +24,14 @@ target_compile_options(tandem_compile_options INTERFACE $<$<BOOL:$<TARGET_PROPER
   -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>>)
 # Clang's -Wconversion includes the sign of indices, GCC's does not.
 target_compile_options(tandem_compile_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
+# Links what sanitizers make of a program in a fifth of the time.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  find_program(TANDEM_LLD ld.lld)
+  mark_as_advanced(TANDEM_LLD)
+  if(TANDEM_LLD)
+    target_link_options(tandem_compile_options INTERFACE -fuse-ld=lld)
+  endif()
+endif()
 if(TANDEM_SANITIZE)
   target_compile_options(tandem_compile_options INTERFACE
     -fsanitize=${TANDEM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -35,6 +43,13 @@ endif()
 add_library(tandem_reference_options INTERFACE)
 if(TANDEM_SANITIZE)
   target_compile_options(tandem_reference_options INTERFACE -fno-sanitize=all -O2)
+endif()
+
+# For tests: link it after tandem_compile_options. UBSan watches the libraries and programs, not the tests' own code:
+# with its checks a batch of tests compiles twice as long.
+add_library(tandem_test_options INTERFACE)
+if(TANDEM_SANITIZE)
+  target_compile_options(tandem_test_options INTERFACE $<$<CONFIG:Debug>:-fno-sanitize=undefined>)
 endif()
 
 # tandem_precompile(TARGET headers...): compiles headers once that nearly every source of a target reads. Our headers
@@ -87,6 +102,11 @@ function(tandem_add_library name)
       set(headers <Eigen/Core> <Eigen/Geometry>)
     endif()
     tandem_precompile(tandem_${name} ${headers})
+  endif()
+  # The linker takes the first copy of an inline function for the whole program. Only that of a library is optimised.
+  if(TANDEM_SANITIZE AND CMAKE_BUILD_TYPE STREQUAL "Debug")
+    target_link_options(tandem_${name} INTERFACE
+      "LINKER:--whole-archive,$<TARGET_FILE:tandem_${name}>,--no-whole-archive")
   endif()
   if(TANDEM_INSTALL)
     tandem_install_library(${name})

@@ -1,5 +1,5 @@
 # Compiles several sources as one. Sources are short and their includes long: most of a full build's time goes into
-# headers. The preset dev compiles each source of the libraries alone, which proves its own includes.
+# headers. The preset alone compiles each source of the libraries alone, which proves its own includes.
 option(TANDEM_UNITY "Compile several sources at once, for faster full builds" ON)
 option(TANDEM_LIBRARIES_ALONE "Compile each source of the libraries alone, without precompiled headers" OFF)
 

@@ -26,7 +26,7 @@ packages_of() {
     live)  echo rt-tests ;;
     hosts) echo libignition-physics-sdf-dev libignition-plugin-dev libignition-physics5-bullet-plugin5 ;;
     package) echo dpkg-dev binutils ;;
-    ci)    echo clang libclang-rt-14-dev llvm clang-format clang-tidy ;;
+    ci)    echo clang libclang-rt-14-dev lld llvm clang-format clang-tidy ;;
     *)     echo "packages.sh: $1: there is no such group; allowed: build, demo, view, import, test, bench, dds, live, hosts, package, ci" >&2; return 2 ;;
   esac
 }

@@ -13,8 +13,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 # Minutes of one motion under a sanitizer, whose code shorter tests run too. Release runs them in both widths.
 long_simulations='NotWithAHandAloneInTheHeap|BulletsExample.GetsNoEnergy|PegInHole|PlanarReferenceInBullet'
 long_simulations+='|GuestBench.HardlyAnything|Model.AgreesForParameters|JointsForAMinute|ArmsAtRates.AFreeArm|BenchSpeed'
-long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory|AveragePosition'
-long_simulations+='|AveragedUsers|DrawnRow|DrawnPoint|UnlikeUsersInRuns'
+long_simulations+='|GodObject.RandomPath|GuardsOfTheExperiments|EachWorld.TellsItsStory|AveragePosition|SpringOfAHost'
 long_simulations+='|Room.ManyAtRest|Room.ABudget|PlanarReferenceConverges/(row16|tower9)|BenchStress|BenchLimits'
 long_simulations+='|BenchAccuracy.BodiesInJoints|FrozenContact.Agrees|LoneHandAtAWall.*Whatever|BulletsPile'
 long_simulations+='|Analyse.(AnyPacketRate|TakesUsers|TellsModes|SaysInWords)|AnalyseFigures|SafeCoordination|Advice.IsWhat'
@@ -22,10 +21,12 @@ long_simulations+='|Analyse.(AnyPacketRate|TakesUsers|TellsModes|SaysInWords)|An
 preset=${1:-release}
 groups=(build demo view import dds test)
 targets=()
+options=(-DTANDEM_BUILD_TESTS=ON)
 selection=()
 case "$preset" in
   release) groups+=(hosts) ;;
-  dev) groups+=(ci); selection=(--exclude-regex "$long_simulations"); export TANDEM_GUEST_WORLDS=10 ;;  # of 30
+  dev) groups+=(ci); options+=("-DTANDEM_LEAVE_OUT=$long_simulations")
+       export TANDEM_GUEST_WORLDS=10 TANDEM_DOOR_WORLDS=20 TANDEM_PYBULLET_WORLDS=20 ;;  # of 30, 100, 100
   tsan)  groups+=(ci); targets=(tandem_thread_tests tandem_device_tests tandem_hid_tests)
          selection=(--tests-regex '^tandem_(thread|device|hid)_tests\.') ;;
   fuzz)  groups+=(ci); targets=(tandem_fuzzers); selection=(--label-regex '^fuzz$') ;;
@@ -47,7 +48,7 @@ build() {
 }
 
 if [[ "$preset" == install ]]; then
-  build release -DTANDEM_BUILD_TESTS=ON
+  build release "${options[@]}"
   targets=()
   build install
   step "Testing"
@@ -55,7 +56,7 @@ if [[ "$preset" == install ]]; then
     "-DTANDEM_STATIC=$checkout/build/release" "-DTANDEM_SHARED=$checkout/build/install"
   ctest --test-dir "$checkout/build/install_tests" --output-on-failure --parallel "$(nproc)"
 else
-  build "$preset" -DTANDEM_BUILD_TESTS=ON
+  build "$preset" "${options[@]}"
   step "Testing"
   cd "$checkout"
   ctest --preset "$preset" --parallel "$(nproc)" ${selection[@]+"${selection[@]}"}
