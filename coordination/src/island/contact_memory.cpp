@@ -141,6 +141,13 @@ void ContactMemory::letGo() noexcept {
   }
 }
 
+void ContactMemory::forgetForces() noexcept {
+  for (Known& known : trial_) {
+    known.last.f_W = known.last.t_W = Vec3::Zero();
+    known.is_learned = false;
+  }
+}
+
 /// The nearest point of the same two bodies or surfaces that is free. Points come pair by pair, and
 /// in much the same order as before.
 ContactMemory::Known* ContactMemory::findNearest(const ContactPoint& point, double h) noexcept {

@@ -48,6 +48,8 @@ class ContactMemory {
   /// Holds nothing in the coming step: none of it could be corrected. Forces are first guesses
   /// then.
   void letGo() noexcept;
+  /// Guesses nothing in this try, either.
+  void forgetForces() noexcept;
   /// True if a point had a force in the last step, or has learned one.
   [[nodiscard]] bool hasForce(const ContactPoint& point) const noexcept {
     if (point.known < 0) return false;

@@ -22,6 +22,9 @@ constexpr double kSmallResidual = 1e-10;
 /// Change of a velocity with which iteration is lost [m/s]. Should it come back, speeds would be
 /// off by its rounding.
 constexpr double kLost = 1e4;
+/// Bodies that were slower than v, and points too, are thrown if they get faster than
+/// `kMostFromRest` + `kMostGain` v. [m/s]
+constexpr double kMostFromRest = 1.0, kMostGain = 3.0;
 /// A new point that opens slower is taken as closed at first [m/s].
 constexpr double kTogether = 1e-3;
 constexpr int kMaxFactorisations = 20, kMaxSteps = 40;
@@ -74,6 +77,7 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
     soften();
     if (!settle()) return false;
   }
+  if (isThrow()) return false;
   finish();
   return true;
 }
@@ -81,6 +85,7 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
 /// Begins with the impulses and modes of the rows, and their velocities.
 void ContactSolver::setUp() noexcept {
   points_.assign(rows_.size(), PointLaw());
+  fastest_slip_ = 0.0;
   J_.resize(rows_.size());
   point_of_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -223,7 +228,10 @@ void ContactSolver::setUpPoint(std::size_t index) noexcept {
   PointLaw& law = points_[index];
   law.setStiffness(J, kStiffness);
   law.friction = row.friction;
-  law.u = {row.velocityAlong(0) - row.wanted, row.velocityAlong(1), row.velocityAlong(2)};
+  law.u = {row.velocityAlong(0), row.velocityAlong(1), row.velocityAlong(2)};
+  fastest_slip_ =
+      std::max({fastest_slip_, std::abs(law.u.n), std::abs(law.u.s), std::abs(law.u.t)});
+  law.u.n -= row.wanted;
   law.held = row.held;
   law.P0 = row.impulse;
   law.mode = row.mode == RigidRow::Mode::kUnknown ? law.findMode() : row.mode;
@@ -413,6 +421,23 @@ double ContactSolver::measureHoldSlip() const noexcept {
   double most = 0.0;
   for (const HoldLaw& law : hold_laws_) most = std::max(most, law.slip());
   return most;
+}
+
+/// True if bodies get much faster than anything was. A jam that gives way by a small angle has such
+/// an answer, with forces of any size: it is exact, and no body is that rigid.
+bool ContactSolver::isThrow() const noexcept {
+  const auto squareOf = [](const RigidMover& mover, const PlainVec& v, const PlainVec& w) {
+    return std::max(dot(v, v), mover.radius_squared * dot(w, w));
+  };
+  double before = fastest_slip_ * fastest_slip_, after = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const RigidMover& mover = *bodies_[i];
+    before = std::max(before, squareOf(mover, mover.v, mover.w));
+    after = std::max(after, squareOf(mover, mover.v + mover.roots.linear(x_[i]),
+                                     mover.w + mover.roots.angular(x_[i])));
+  }
+  const double most = kMostFromRest + kMostGain * std::sqrt(before);
+  return after > most * most;
 }
 
 void ContactSolver::keepAnswer() noexcept {

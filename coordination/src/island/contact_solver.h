@@ -36,8 +36,8 @@ class ContactSolver {
   void beginImpacts() noexcept { next_factor_ = factors_.size() - 1; }
 
   /// Solves the rows from their impulses, of which the movers have `held` already. Writes impulses
-  /// and modes, and moves on the movers' velocities. False: modes have not settled, or there are
-  /// too many bodies. Then the rows are unchanged.
+  /// and modes, and moves on the movers' velocities. False: modes have not settled, there are too
+  /// many bodies, or the answer throws them. Then the rows are unchanged.
   [[nodiscard]] bool solve(RigidRow* const* rows, std::size_t row_count, RigidMover* const* movers,
                            std::size_t mover_count, JointHold* const* holds = nullptr,
                            std::size_t hold_count = 0) noexcept;
@@ -83,6 +83,7 @@ class ContactSolver {
   [[nodiscard]] double measureSlip() const noexcept;
   [[nodiscard]] double measureHoldSlip() const noexcept;
   void addMotions() noexcept;
+  [[nodiscard]] bool isThrow() const noexcept;
   void keepAnswer() noexcept;
   void takeAnswer() noexcept;
   void finish() noexcept;
@@ -95,6 +96,7 @@ class ContactSolver {
   std::vector<TwistLaw> twists_;       ///< by twist
   std::vector<JointHold*> holds_;
   std::vector<HoldLaw> hold_laws_;
+  double fastest_slip_ = 0.0;  ///< of a point before the solution [m/s]
   bool has_answer_ = false;
   std::vector<PointLaw> answer_;  ///< nearly settled
   std::vector<TwistLaw> twist_answer_;

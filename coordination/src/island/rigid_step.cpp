@@ -33,6 +33,9 @@ constexpr int kMaxImpactTries = 8;
 constexpr int kMaxTimesLearned = 2;
 /// Error of position that a change of force may make in a step [m].
 constexpr double kAllowedError = 3e-8;
+/// Change of velocity by held forces, and of contacts against it, that is no error of foresight
+/// [m/s].
+constexpr double kThrown = 5.0;
 /// Rows of a joint, on average.
 constexpr std::size_t kMostHolds = 8;
 
@@ -67,11 +70,13 @@ void RigidStep::begin() noexcept {
   times_learned_ = 0;
   impact_tries_ = 0;
   latest_ = HUGE_VAL;
+  is_let_go_ = false;
 }
 
 void RigidStep::holdForces(const States& before, double h, bool may_repeat) noexcept {
   for (HeldWrench& held : held_) held = {};
-  if (!may_repeat) return memory_.letGo();
+  if (is_let_go_) memory_.forgetForces();
+  if (is_let_go_ || !may_repeat) return memory_.letGo();
   memory_.hold(before, h, held_);
 }
 
@@ -100,7 +105,13 @@ double RigidStep::correct(const IslandModel& model, const States& before, double
   aim(h);
   takeBackGone(after, h);
   solveSteady(h);
-  if (may_repeat && h * measureChange(after) > kAllowedError) {
+  const bool may_learn = may_repeat && !is_let_go_;
+  if (may_learn && hasThrown(after, h)) {
+    startAgain();
+    is_let_go_ = true;
+    return repeat(h);
+  }
+  if (may_learn && h * measureChange(after) > kAllowedError) {
     // Joints are never held: without contact only their modes are to learn.
     const bool has_contact = !points_.empty() || memory_.hasGone();
     // No even force is that of a step with a kink.
@@ -338,6 +349,28 @@ double RigidStep::measureChange(const States& after) const noexcept {
     most = std::max({most, dot(dv, dv), moved.radius_squared * dot(dw, dw)});
   }
   return std::sqrt(most);
+}
+
+/// True if what was held moved a body, and contacts took it back: the forces of a jam are large,
+/// and of no use once its contacts are a little different.
+bool RigidStep::hasThrown(const States& after, double h) const noexcept {
+  const auto isTakenBack = [](const PlainVec& given, const PlainVec& change, double scale) {
+    const double least = kThrown * kThrown;
+    return dot(given, change) < 0.0 && scale * dot(given, given) > least &&
+           scale * dot(change, change) > least;
+  };
+  for (std::size_t b = 0; b < movers_.size(); ++b) {
+    const RigidMover& moved = movers_[b];
+    if (!moved.ready) continue;
+    const HeldWrench& held = held_[b];
+    const PlainVec push(Vec3(h * (held.start.f_W + 0.5 * h * held.rate.f_W)));
+    const PlainVec twist(Vec3(h * (held.start.t_W + 0.5 * h * held.rate.t_W)));
+    const PlainVec dv = moved.v - PlainVec(after[b].v_W), dw = moved.w - PlainVec(after[b].w_W);
+    if (isTakenBack(multiplyEach(moved.inverse_mass_W, push), dv, 1.0) ||
+        isTakenBack(moved.turnBy(twist), dw, moved.radius_squared))
+      return true;
+  }
+  return false;
 }
 
 /// True if a point pushes of which no force was known.

@@ -49,7 +49,8 @@ class RigidStep {
   /// Begins a step, or repeats it with another length of `h` [s].
   void begin() noexcept;
   /// Turns the expected contact forces into forces on the bodies. A step that may not be repeated
-  /// gets none: in a jam they may be wrong by any factor, and nothing would take that out.
+  /// gets none: in a jam they may be wrong by any factor, and nothing would take that out. Nor does
+  /// one in which they threw a body.
   void holdForces(const States& before, double h, bool may_repeat) noexcept;
   /// Forces held during this step, by body, in W.
   [[nodiscard]] const std::vector<HeldWrench>& heldForces() const noexcept { return held_; }
@@ -107,6 +108,7 @@ class RigidStep {
   void takeBackGone(const States& after, double h) noexcept;
   void solveSteady(double h) noexcept;
   [[nodiscard]] double measureChange(const States& after) const noexcept;
+  [[nodiscard]] bool hasThrown(const States& after, double h) const noexcept;
   [[nodiscard]] bool hasUnknownForce() const noexcept;
   [[nodiscard]] double measureEvents() const noexcept;
   void closeGaps(const ContactGroups::Group& group, double h) noexcept;
@@ -130,9 +132,10 @@ class RigidStep {
   ContactSolver solver_;
   OverlapAllowance allowance_, allowance_before_;
   bool is_done_ = true;
-  int times_learned_ = 0;  ///< tries of this step with forces of its own
-  int impact_tries_ = 0;   ///< tries that looked for the moment of an impact
-  double latest_ = 0.0;    ///< shortest length found too long for an impact [s]
+  bool is_let_go_ = false;  ///< what was held threw a body: this step holds nothing
+  int times_learned_ = 0;   ///< tries of this step with forces of its own
+  int impact_tries_ = 0;    ///< tries that looked for the moment of an impact
+  double latest_ = 0.0;     ///< shortest length found too long for an impact [s]
   std::uint64_t point_count_ = 0, relaxation_count_ = 0;
 };
 
