@@ -83,14 +83,19 @@ TEST(DdsPublish, AReaderSeesWhatTheSitesRecord) {
   const std::vector<Row> rows = readRows(reader.finish(SIGTERM).out);
   for (const int site : {1, 2}) {
     const Columns record = lab.recordOf(site);
+    const std::vector<double>& t = record.at("t");
+    // A tick that comes late first makes up for those that were skipped.
+    const auto goesOn = [&](std::size_t tick) {
+      return tick > 0 && tick < t.size() && t[tick] - t[tick - 1] < 1.5e-3;
+    };
     std::size_t hands = 0, objects = 0;
     for (const Row& row : rows) {
       // Forces belong to the start of the latest tick, places to its end: the next one's start.
-      if (row.isOf("hand", site) && row.tick() - 1 < record.at("t").size()) {
+      if (row.isOf("hand", site) && row.tick() - 1 < t.size()) {
         EXPECT_EQ(row.values.at(6), record.at("force_x")[row.tick() - 1]);
         ++hands;
       }
-      if (row.isOf("object 0", site) && row.tick() < record.at("t").size()) {
+      if (row.isOf("object 0", site) && goesOn(row.tick())) {
         EXPECT_NEAR(row.values.at(3), record.at("object_x")[row.tick()], 1e-12);
         EXPECT_EQ(row.values.at(6), record.at("object_qw")[row.tick()]);
         ++objects;

@@ -54,8 +54,11 @@ TEST(Device, HomeGivesThreeLines) {
   EXPECT_NE(simulated.out.find("nothing to home"), std::string::npos) << simulated.out;
 }
 
+// A busy machine may have no time for the driver. The program says so then, and the user repeats.
 TEST(Device, CheckMeasuresDirectionAndSize) {
-  const Outcome outcome = runEmulated("check", {"--json"});
+  Outcome outcome = runEmulated("check", {"--json"});
+  for (int i = 0; i < 2 && outcome.out.find("readings were missing") != std::string::npos; ++i)
+    outcome = runEmulated("check", {"--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   const json pushes = json::parse(outcome.out)["pushes"];
   ASSERT_EQ(pushes.size(), 6U);
