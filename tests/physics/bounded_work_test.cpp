@@ -1,4 +1,4 @@
-// What a host does, and what it leaves out, costs a bounded amount of work.
+// Each act of a host, and each that it leaves out, costs a bounded amount of work.
 
 #include <algorithm>
 #include <cmath>

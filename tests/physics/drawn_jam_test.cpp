@@ -109,8 +109,8 @@ class DrawnJam {
 /// Host's rate [Hz]; whether bodies keep a plane.
 class DrawnJams : public ::testing::TestWithParam<std::tuple<double, bool>> {};
 
-// Of 250 seeds the worst. Exact answers threw them at up to 300 m/s, and forces held from such
-// answers faster. Bare Bullet throws bodies of such jams at up to 42 m/s at 1 kHz.
+// These are the worst of 250 seeds. Exact answers threw them at up to 300 m/s, and forces held from
+// such answers faster. Bare Bullet throws bodies of such jams at up to 42 m/s at 1 kHz.
 TEST_P(DrawnJams, ThrowNothingHarderThanBullet) {
   const auto [rate, is_planar] = GetParam();
   for (const std::uint64_t seed : {4, 13, 18, 48, 51, 54, 58, 136})
