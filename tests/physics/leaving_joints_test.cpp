@@ -53,7 +53,7 @@ struct ThreeLinks : FloatingHost {
   void destroy(std::size_t leaving) {
     std::erase_if(rig.bodies, [&](const auto& body) { return body.get() == links[leaving]; });
   }
-  /// Those that stay move freely, and what holds them together stays closed.
+  /// Bodies that stay move freely, and joints between them stay closed.
   void expectTheRestIsFree(std::size_t leaving) {
     run(30);
     const Vec3 before = sumSpeeds(leaving);

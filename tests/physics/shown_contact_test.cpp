@@ -372,7 +372,7 @@ TEST(ShownContact, QueriesSeeASharedBodyAsBulletDoes) {
   }
 }
 
-// What the host itself filters, its queries do not find on a plane: as without a site.
+// A host's queries do not find on a plane what it filters itself: as without a site.
 TEST(ShownContact, QueriesDoNotSeeAPairThatTheHostIgnores) {
   Asked shared(0, true);
   test::FakeDevice device(Vec3(-1.0, 0.0, 0.5));

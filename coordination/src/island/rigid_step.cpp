@@ -105,13 +105,13 @@ double RigidStep::correct(const IslandModel& model, const States& before, double
   aim(h);
   takeBackGone(after, h);
   solveSteady(h);
-  const bool may_learn = may_repeat && !is_let_go_;
-  if (may_learn && hasThrown(after, h)) {
+  const double change = may_repeat && !is_let_go_ ? measureChange(after) : 0.0;
+  if (change > kThrown && hasThrown(after, h)) {
     startAgain();
     is_let_go_ = true;
     return repeat(h);
   }
-  if (may_learn && h * measureChange(after) > kAllowedError) {
+  if (h * change > kAllowedError) {
     // Joints are never held: without contact only their modes are to learn.
     const bool has_contact = !points_.empty() || memory_.hasGone();
     // No even force is that of a step with a kink.
