@@ -81,18 +81,24 @@ void drawBodies(Draw& draw, GuestCase& one) {
   one.joints = draw.chance(0.4) ? draw.count(1, 2) : 0;
 }
 
+/// An act by a single host, or by all hosts now and then, if it `may_be_of_all`.
+GuestActPlan drawAct(Draw& draw, const GuestCase& one, const GuestActRange& range, double time,
+                     bool may_be_of_all, bool may_be_in_callback) {
+  GuestActPlan plan;
+  plan.time = time;
+  plan.act = draw.count(range.first, range.last);
+  plan.site =
+      may_be_of_all && one.sites > 1 && draw.chance(0.2) ? -1 : draw.count(0, one.sites - 1);
+  plan.in_callback = may_be_in_callback && draw.chance(0.1) &&
+                     guestActs()[static_cast<std::size_t>(plan.act)].in_step;
+  plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
+  return plan;
+}
+
 void drawActs(Draw& draw, GuestCase& one) {
-  const std::vector<GuestAct>& acts = guestActs();
-  const auto [first, last] = worldActs();
   double time = draw.even(0.0, 0.05);
   while (time < one.duration - 0.03) {
-    GuestActPlan plan;
-    plan.time = time;
-    plan.act = draw.count(first, last);
-    plan.site = one.sites > 1 && draw.chance(0.2) ? -1 : draw.count(0, one.sites - 1);
-    plan.in_callback = draw.chance(0.1) && acts[static_cast<std::size_t>(plan.act)].in_step;
-    plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
-    one.acts.push_back(plan);
+    one.acts.push_back(drawAct(draw, one, worldActs(), time, true, true));
     time += draw.chance(0.2) ? 0.0 : draw.even(0.0, 0.05);
   }
 }
@@ -119,18 +125,9 @@ constexpr const char* kHandNames[] = {"following", "resting", "pressing", "jumpi
 
 void drawActsAmong(Draw& draw, GuestCase& one, const GuestActRange& range, double apart,
                    bool in_callbacks) {
-  const std::vector<GuestAct>& acts = guestActs();
   for (double time = draw.even(0.0, 0.05); time < one.duration - 0.03;
-       time += draw.even(0.0, apart)) {
-    GuestActPlan plan;
-    plan.time = time;
-    plan.act = draw.count(range.first, range.last);
-    plan.site = draw.count(0, one.sites - 1);
-    plan.in_callback =
-        in_callbacks && draw.chance(0.1) && acts[static_cast<std::size_t>(plan.act)].in_step;
-    plan.seed = static_cast<std::uint64_t>(draw.count(0, 1 << 30));
-    one.acts.push_back(plan);
-  }
+       time += draw.even(0.0, apart))
+    one.acts.push_back(drawAct(draw, one, range, time, false, in_callbacks));
   std::stable_sort(one.acts.begin(), one.acts.end(),
                    [](const GuestActPlan& a, const GuestActPlan& b) { return a.time < b.time; });
 }
