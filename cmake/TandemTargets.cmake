@@ -50,9 +50,9 @@ endif()
 add_library(tandem_test_options INTERFACE)
 if(TANDEM_SANITIZE)
   target_compile_options(tandem_test_options INTERFACE $<$<CONFIG:Debug>:-fno-sanitize=undefined>)
-  # Expectations name their file. Without the checkout's folder in it, clones share compiled tests by ccache.
-  target_compile_options(tandem_test_options INTERFACE "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
 endif()
+# Expectations name their file. Without the checkout's folder in it, clones share compiled tests by ccache.
+target_compile_options(tandem_test_options INTERFACE "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
 
 # tandem_precompile(TARGET headers...): compiles headers once that nearly every source of a target reads. Our headers
 # must still include all they need: tests/house compiles each alone. tandem_precompile(TARGET LIKE other): uses those of

@@ -16,6 +16,7 @@
 #include "bench/speed/speed_site.h"
 #include "demos/program/scenario/scenario.h"
 #include "demos/program/world/scene.h"
+#include "support/checkout.h"
 
 using namespace tandem::demos;
 
@@ -74,7 +75,8 @@ void runHost(const bench::SpeedScene& scene, bool has_site, int steps) {
 
 /// Site 1 of Experiment II, in its slot.
 void runExperiment2(int ticks) {
-  const Scenario scenario = loadScenario(TANDEM_SCENARIOS "/experiment2.toml", {});
+  const Scenario scenario =
+      loadScenario(tandem::test::inCheckout("demos/scenarios/experiment2.toml"), {});
   auto [end1, end2] = tandem::makeSimulatedLinks(scenario.network);
   SiteWorld world1(scenario, 0, *end1), world2(scenario, 1, *end2);
   for (int i = 0; i < kWarmUp + ticks; ++i) {

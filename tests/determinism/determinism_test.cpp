@@ -7,6 +7,7 @@
 
 #include "demos/program/run/virtual_run.h"
 #include "plugin/src/record/replay.h"
+#include "support/checkout.h"
 
 namespace tandem::demos {
 namespace {
@@ -19,7 +20,9 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
 
-Scenario load(const Case& c) { return loadScenario(TANDEM_SCENARIOS "/" + c.file, c.overrides); }
+Scenario load(const Case& c) {
+  return loadScenario(test::inCheckout("demos/scenarios/" + c.file), c.overrides);
+}
 
 std::uint64_t computeHash(const Scenario& scenario) {
   VirtualRun run(scenario);

@@ -6,12 +6,13 @@
 
 #include "demos/program/run/virtual_run.h"
 #include "demos/program/scenario/scenario.h"
+#include "support/checkout.h"
 
 namespace tandem::demos {
 namespace {
 
 TEST(Carry, TwoUsersLiftAndCarryABlock) {
-  const Scenario scenario = loadScenario(std::string(TANDEM_SCENARIOS "/carry.toml"), {});
+  const Scenario scenario = loadScenario(test::inCheckout("demos/scenarios/carry.toml"), {});
   VirtualRun run(scenario);
   run.run();
   constexpr std::size_t kCarried = 4500;  // [ms]
@@ -28,7 +29,7 @@ TEST(Carry, TwoUsersLiftAndCarryABlock) {
 // One hand cannot.
 TEST(Carry, OneUserDoesNot) {
   const Scenario scenario =
-      loadScenario(std::string(TANDEM_SCENARIOS "/carry.toml"), {"site2.grips=[]"});
+      loadScenario(test::inCheckout("demos/scenarios/carry.toml"), {"site2.grips=[]"});
   VirtualRun run(scenario);
   run.run();
   const Recording& recording = run.recording(0);

@@ -7,6 +7,7 @@
 #include "bridge/bullet_rig.h"
 #include "demos/program/run/virtual_run.h"
 #include "demos/program/scenario/scenario.h"
+#include "support/checkout.h"
 #include "support/fakes.h"
 
 namespace tandem {
@@ -126,7 +127,7 @@ TEST(NativeModel, RefusesWhatHasNoMeaning) {
 // Whole experiments.
 
 demos::Scenario load(const std::string& file, std::vector<std::string> overrides) {
-  return demos::loadScenario(std::string(TANDEM_SCENARIOS "/") + file, overrides);
+  return demos::loadScenario(test::inCheckout("demos/scenarios/") + file, overrides);
 }
 
 demos::RunSummary run(const std::string& file, std::vector<std::string> overrides) {

@@ -4,6 +4,7 @@
 
 #include "demos/program/run/virtual_run.h"
 #include "demos/program/scenario/scenario.h"
+#include "support/checkout.h"
 
 namespace tandem::demos {
 namespace {
@@ -12,7 +13,7 @@ RunSummary runScenario(const char* file, std::vector<std::string> overrides,
                        const std::string& injection) {
   overrides.push_back("bridge.injection=" + injection);
   if (injection == "impulse") overrides.push_back("rates.host=1000");
-  VirtualRun run(loadScenario(std::string(TANDEM_SCENARIOS "/") + file, overrides));
+  VirtualRun run(loadScenario(test::inCheckout("demos/scenarios/") + file, overrides));
   run.run();
   return run.summary();
 }

@@ -10,6 +10,7 @@
 #include "bridge/bullet_rig.h"
 #include "demos/program/run/virtual_run.h"
 #include "demos/program/scenario/scenario.h"
+#include "support/checkout.h"
 #include "support/fakes.h"
 
 namespace tandem {
@@ -39,7 +40,7 @@ TEST_P(GuardsOfTheExperiments, InterveneNowhereInAMinute) {
   overrides.push_back(std::string("experiment.scheme=") + GetParam().scheme);
   overrides.push_back("experiment.duration=60");
   demos::VirtualRun run(
-      demos::loadScenario(std::string(TANDEM_SCENARIOS "/") + GetParam().file, overrides));
+      demos::loadScenario(test::inCheckout("demos/scenarios/") + GetParam().file, overrides));
   run.run();
   for (const demos::SiteSummary& site : run.summary().sites) {
     EXPECT_EQ(site.counters.force_clamped, 0u);

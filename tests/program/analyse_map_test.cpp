@@ -11,6 +11,7 @@
 #include "tandem/coordination/stability_advice.h"
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {

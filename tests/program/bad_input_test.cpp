@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {
@@ -227,10 +228,11 @@ TEST(BadInput, CommandLine) {
   expectOneLine(runTandem({"plot"}), 2, {"folders", "--help"});
 }
 
-#ifdef TANDEM_FLOAT_PROGRAM
+#ifdef TANDEM_WITH_FLOAT
 TEST(BadInput, FloatProgramRefusesTheSame) {
-  expectOneLine(runProgram(TANDEM_FLOAT_PROGRAM, {"run", kExperiment1, "--set", "object.mass=-1"}),
-                2, {"object.mass", "-1"});
+  expectOneLine(
+      runProgram(test::tandemFloatProgram(), {"run", kExperiment1, "--set", "object.mass=-1"}), 2,
+      {"object.mass", "-1"});
 }
 #endif
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "dds/loopback_domain.h"
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {

@@ -15,6 +15,7 @@
 #include "program/background.h"
 #include "program/process.h"
 #include "program/relay_rig.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {
@@ -70,7 +71,7 @@ struct Laboratory {
 
 TEST(DdsPublish, AReaderSeesWhatTheSitesRecord) {
   const Laboratory lab;
-  test::Background reader(TANDEM_STATES_READER, {lab.domain});
+  test::Background reader(test::statesReader(), {lab.domain});
   auto other = std::async(std::launch::async, [&] { return lab.runSite(2); });
   const Outcome first = lab.runSite(1), second = other.get();
   ASSERT_EQ(first.status, 0) << first.err;
@@ -112,7 +113,7 @@ TEST(DdsPublish, AReaderSeesWhatASpectatorSees) {
   const std::string domain = std::to_string(test::openLoopbackDomain());
   const std::string key = rig.folder / "relay", watch = rig.folder / "watch";
   ASSERT_EQ(runTandem({"key", "new", watch}).status, 0);
-  test::Background reader(TANDEM_STATES_READER, {domain});
+  test::Background reader(test::statesReader(), {domain});
   auto spectator = std::async(std::launch::async, [&] {
     return runTandem({"peer", "--watch", "--relay", rig.address, "--relay-key", key, "--watch-key",
                       watch, "--wait", "4", "--out", rig.folder / "seen", "--publish",

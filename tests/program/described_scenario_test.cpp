@@ -10,6 +10,7 @@
 
 #include "demos/program/scenario/scenario.h"
 #include "demos/program/terminal/usage_error.h"
+#include "support/checkout.h"
 
 namespace tandem::demos {
 namespace {
@@ -25,8 +26,8 @@ std::string messageOf(const nlohmann::json& described) {
 
 TEST(DescribedScenario, IsReadBackAsItWas) {
   int count = 0;
-  for (const char* folder : {TANDEM_SCENARIOS, TANDEM_SCENARIOS "/../worlds"}) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const char* folder : {"demos/scenarios", "demos/worlds"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::inCheckout(folder))) {
       if (entry.path().extension() != ".toml") continue;
       const nlohmann::json described = describeScenario(loadScenario(entry.path(), {}));
       EXPECT_EQ(describeScenario(readScenario(described, "summary.json")), described)

@@ -15,6 +15,7 @@
 #include "falcon/src/novint/falcon_emulator.h"
 #include "program/background.h"
 #include "program/device_runs.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {
@@ -57,7 +58,7 @@ class DeviceOfAnotherProcess : public ::testing::TestWithParam<int> {
 // removes the force.
 TEST_P(DeviceOfAnotherProcess, FeelsTheCubeAndIsLeftWithoutForce) {
   hold(Vec3(0.0, 0.0, 0.125));
-  test::Background feel(TANDEM_PROGRAM, {"device", "--device", "falcon@" + port.path()});
+  test::Background feel(test::tandemProgram(), {"device", "--device", "falcon@" + port.path()});
   while (feel.readLine().find("end with Ctrl-C") == std::string::npos) {
   }
   hold(Vec3(0.0, -0.018, 0.125));

@@ -12,6 +12,7 @@
 #include "program/background.h"
 #include "program/device_runs.h"
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {
@@ -101,7 +102,7 @@ TEST(Device, RecordWritesRows) {
 
 TEST(Device, RecordEndsWholeAtASignal) {
   const TempFolder folder;
-  test::Background recording(TANDEM_PROGRAM,
+  test::Background recording(test::tandemProgram(),
                              {"device", "record", folder / "r.csv", "--device", "simulated"});
   while (recording.readLine().find("s recorded") == std::string::npos) {
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "program/device_runs.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {

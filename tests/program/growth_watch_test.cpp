@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::demos {
 namespace {

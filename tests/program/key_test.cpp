@@ -8,6 +8,7 @@
 #include "tandem/plugin/key_file.h"
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {

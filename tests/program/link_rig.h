@@ -11,6 +11,7 @@
 #include "tandem/plugin/udp_socket.h"
 
 #include "program/background.h"
+#include "program/tandem_program.h"
 
 /// \file
 /// `tandem link` between two sockets of the test, on loopback.
@@ -67,7 +68,7 @@ inline constexpr double kPatience = 60.0;
 /// Client and server with the link between them.
 struct LinkRig {
   explicit LinkRig(std::vector<std::string> arguments = {})
-      : link(TANDEM_PROGRAM, [&] {
+      : link(tandemProgram(), [&] {
           arguments.insert(arguments.begin(), {"link", "--listen", "127.0.0.1:0", "--forward",
                                                toString(server.address())});
           return arguments;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program/link_rig.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {

@@ -13,6 +13,7 @@
 #include "demos/program/run/run_output.h"
 #include "demos/program/scenario/scenario.h"
 #include "demos/program/world/received_object.h"
+#include "program/tandem_program.h"
 #include "support/temp_folder.h"
 
 namespace tandem::demos {
@@ -21,7 +22,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 Scenario load(const std::string& file, const Words& overrides) {
-  return loadScenario(TANDEM_SCENARIOS "/" + file, overrides);
+  return loadScenario(test::scenarioPath(file), overrides);
 }
 
 /// A finished run with its summary.

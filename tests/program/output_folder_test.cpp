@@ -15,6 +15,7 @@
 
 #include "demos/program/terminal/usage_error.h"
 #include "program/background.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {
@@ -89,7 +90,7 @@ TEST(OutputFolder, KilledProgramLeavesTheEarlierResultAndNoLock) {
   ASSERT_EQ(runTandem(runInto(out, "0.05")).status, 0);
   const Words names = listFolder(out);
   const std::string before = readFile(out + "/summary.json"), csv = readFile(out + "/site1.csv");
-  Background killed(TANDEM_PROGRAM, runInto(out, "300"));
+  Background killed(tandemProgram(), runInto(out, "300"));
   awaitFile(out + "/.tandem-unfinished");
   (void)killed.finish(SIGKILL);
   EXPECT_EQ(readFile(out + "/summary.json"), before);

@@ -14,6 +14,7 @@
 
 #include "program/background.h"
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {
@@ -141,7 +142,7 @@ TEST(Peer, PortInUse) {
 
 TEST(Peer, EndsAtASignal) {
   const TempFolder folder;
-  test::Background waiting(TANDEM_PROGRAM, peer(1, 17360, makeKey(folder, "k")));
+  test::Background waiting(test::tandemProgram(), peer(1, 17360, makeKey(folder, "k")));
   while (waiting.readLine().find("waiting") == std::string::npos) {
   }
   const Outcome outcome = waiting.finish(SIGINT);

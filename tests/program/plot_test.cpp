@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {
@@ -30,7 +31,7 @@ TEST_F(Plot, WritesAReportAndPicturesAndPrintsWhere) {
   EXPECT_EQ(outcome.err, "");  // progress is for terminals
   std::vector<std::string> figures = listFolder(folder / "run/figures");
   // The film is there where the program is that draws it.
-  const std::string view = std::filesystem::path(TANDEM_PROGRAM).parent_path() / "tandem-view";
+  const std::string view = std::filesystem::path(tandemProgram()).parent_path() / "tandem-view";
   EXPECT_EQ(std::erase(figures, "cooperation-film.gif"), std::filesystem::exists(view) ? 1u : 0u);
   EXPECT_EQ(figures,
             (std::vector<std::string>{"cooperation-coherency-over-time.png",

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <future>
 #include <sstream>
 #include <stdexcept>
 
@@ -61,26 +60,9 @@ Outcome runProgram(const std::string& program, const std::vector<std::string>& a
   return outcome;
 }
 
-Outcome runTandem(const std::vector<std::string>& arguments, const Start& start) {
-  return runProgram(TANDEM_PROGRAM, arguments, start);
-}
-
-std::vector<Outcome> runAtOnce(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::future<Outcome>> running;
-  for (const auto& line : lines)
-    running.push_back(std::async(std::launch::async, [&line] { return runTandem(line); }));
-  std::vector<Outcome> outcomes;
-  for (auto& one : running) outcomes.push_back(one.get());
-  return outcomes;
-}
-
 void expectLine(const Outcome& outcome, int status, const std::string& words) {
   EXPECT_EQ(outcome.status, status) << outcome.err;
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-}
-
-std::string scenarioPath(std::string_view name) {
-  return std::string(TANDEM_SCENARIOS "/") + std::string(name);
 }
 
 std::string ownLoopback() {

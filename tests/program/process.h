@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "support/temp_folder.h"
@@ -28,17 +27,8 @@ struct Start {
                                  const std::vector<std::string>& arguments,
                                  const Start& start = {});
 
-/// The program on float64 Bullet.
-[[nodiscard]] Outcome runTandem(const std::vector<std::string>& arguments, const Start& start = {});
-
-/// Runs them at the same time; outcomes in the order of the lines.
-[[nodiscard]] std::vector<Outcome> runAtOnce(const std::vector<std::vector<std::string>>& lines);
-
 /// Expects this status and these words on stderr.
 void expectLine(const Outcome& outcome, int status, const std::string& words);
-
-/// Path of a scenario that ships with the program.
-[[nodiscard]] std::string scenarioPath(std::string_view name);
 
 /// A loopback address that no other process uses: tests may run twice at a time, with the same
 /// ports.

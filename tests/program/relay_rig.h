@@ -8,6 +8,7 @@
 
 #include "program/background.h"
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 
@@ -19,7 +20,7 @@ struct RelayRig {
     std::vector<std::string> line = {"relay", "--bind", ownLoopback() + ":0", "--key",
                                      folder / "relay"};
     line.insert(line.end(), more.begin(), more.end());
-    relay = std::make_unique<Background>(TANDEM_PROGRAM, line);
+    relay = std::make_unique<Background>(tandemProgram(), line);
     const std::string first = relay->readLine();
     address = first.substr(first.rfind(' ') + 1);
   }

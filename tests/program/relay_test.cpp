@@ -11,6 +11,7 @@
 
 #include "program/process.h"
 #include "program/relay_rig.h"
+#include "program/tandem_program.h"
 
 namespace tandem {
 namespace {

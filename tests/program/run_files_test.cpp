@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {
@@ -22,7 +23,7 @@ struct FinishedRun {
   Columns site[2];
 
   FinishedRun(std::string_view scenario, std::vector<std::string> overrides,
-              const std::string& program = TANDEM_PROGRAM) {
+              const std::string& program = tandemProgram()) {
     std::vector<std::string> arguments = {"run", scenarioPath(scenario), "--json", "--out",
                                           folder / "out"};
     for (const std::string& text : overrides) arguments.insert(arguments.end(), {"--set", text});
@@ -95,7 +96,7 @@ struct Case {
   const char* name;
   const char* scenario;
   std::vector<std::string> overrides;
-  const char* program = TANDEM_PROGRAM;
+  std::string program = tandemProgram();
 };
 
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
@@ -190,9 +191,9 @@ const std::vector<Case> kCases = {
     {"CooperationByImpulse", "experiment1.toml", {"bridge.injection=impulse", "rates.host=1000"}},
     {"UsersByRdp", "experiment2.toml", {}},
     {"UsersByKinematicProxy", "experiment2.toml", {"experiment.scheme=kinematic_proxy"}},
-#ifdef TANDEM_FLOAT_PROGRAM
-    {"CooperationOnFloat", "experiment1.toml", {}, TANDEM_FLOAT_PROGRAM},
-    {"UsersOnFloat", "experiment2.toml", {}, TANDEM_FLOAT_PROGRAM},
+#ifdef TANDEM_WITH_FLOAT
+    {"CooperationOnFloat", "experiment1.toml", {}, tandemFloatProgram()},
+    {"UsersOnFloat", "experiment2.toml", {}, tandemFloatProgram()},
 #endif
 };
 INSTANTIATE_TEST_SUITE_P(Contract, RunTables, ::testing::ValuesIn(kCases),

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {
@@ -121,10 +122,10 @@ TEST(Run, EveryKeyOfTheModelChangesTheMotion) {
   }
 }
 
-#ifdef TANDEM_FLOAT_PROGRAM
+#ifdef TANDEM_WITH_FLOAT
 TEST(Run, FloatProgramSaysSoAndAgrees) {
   const Json wide = runJson({kExperiment1});
-  const Outcome outcome = runProgram(TANDEM_FLOAT_PROGRAM, {"run", kExperiment1, "--json"});
+  const Outcome outcome = runProgram(test::tandemFloatProgram(), {"run", kExperiment1, "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json narrow = Json::parse(outcome.out);
   EXPECT_EQ(wide["scalar"], "float64");

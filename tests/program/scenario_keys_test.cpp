@@ -6,13 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "demos/program/scenario/scenario.h"
+#include "support/checkout.h"
 #include "support/document.h"
 
 namespace tandem::demos {
 namespace {
 
 TEST(ScenarioKeys, StandInTheDocument) {
-  const test::Document document(TANDEM_SCENARIOS "/../../docs/scenarios.md");
+  const test::Document document(test::inCheckout("docs/scenarios.md"));
   EXPECT_EQ(document.text(), document.replaceTables(describeKeys()))
       << "run this test with TANDEM_WRITE_DOCS=1";
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "program/process.h"
+#include "program/tandem_program.h"
 
 namespace tandem::test {
 namespace {

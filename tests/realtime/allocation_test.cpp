@@ -13,6 +13,7 @@
 #include "demos/program/scenario/scenario.h"
 #include "demos/program/world/scene.h"
 #include "realtime/allocation_count.h"
+#include "support/checkout.h"
 
 namespace tandem::demos {
 namespace {
@@ -78,8 +79,8 @@ class Tick : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Tick, DoesNotAllocateAfterWarmUp) {
   constexpr std::uint64_t kWarmUp = 200, kTicks = 10'000;
-  const Scenario scenario =
-      loadScenario(std::string(TANDEM_SCENARIOS "/") + GetParam().scenario, GetParam().overrides);
+  const Scenario scenario = loadScenario(test::inCheckout("demos/scenarios/") + GetParam().scenario,
+                                         GetParam().overrides);
   auto [end1, end2] = makeSimulatedLinks(scenario.network);
   SiteWorld world1(scenario, 0, *end1), world2(scenario, 1, *end2);
   SiteWorld* const worlds[] = {&world1, &world2};

@@ -10,6 +10,7 @@
 
 #include "bridge/bullet_rig.h"
 #include "demos/program/run/virtual_run.h"
+#include "support/checkout.h"
 #include "support/fakes.h"
 
 namespace tandem {
@@ -294,7 +295,7 @@ TEST(TickStatus, StateThatIsNotFiniteEndsWithoutForce) {
 TEST(VirtualRun, RefusesToGoOnWithoutABody) {
   using demos::loadScenario;
   for (const char* file : {"experiment1.toml", "experiment2.toml"}) {
-    demos::VirtualRun run(loadScenario(std::string(TANDEM_SCENARIOS "/") + file, {}));
+    demos::VirtualRun run(loadScenario(test::inCheckout("demos/scenarios/") + file, {}));
     run.world(1).world().removeRigidBody(run.world(1).site().proxyBody(0));
     try {
       run.run();
@@ -307,7 +308,8 @@ TEST(VirtualRun, RefusesToGoOnWithoutABody) {
 }
 
 TEST(VirtualRun, RefusesToGoOnWithoutTheObject) {
-  demos::VirtualRun run(demos::loadScenario(TANDEM_SCENARIOS "/experiment1.toml", {}));
+  demos::VirtualRun run(
+      demos::loadScenario(test::inCheckout("demos/scenarios/experiment1.toml"), {}));
   run.world(0).world().removeRigidBody(&run.world(0).site().objectBody(0));
   EXPECT_THROW(run.run(), Error);
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "relay/relay_rig.h"
+#include "support/checkout.h"
 #include "support/document.h"
 
 namespace tandem {
@@ -133,7 +134,7 @@ std::string makeRelayTable() {
 }
 
 TEST(Scale, StandsInTheDocument) {
-  const test::Document document(TANDEM_DOCS "/scale.md");
+  const test::Document document(test::inCheckout("docs/scale.md"));
   EXPECT_EQ(document.text(), document.replaceTables(std::array{makeRoomTable(), makeRelayTable()}))
       << "run this test with TANDEM_WRITE_DOCS=1";
 }

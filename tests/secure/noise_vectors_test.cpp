@@ -7,12 +7,14 @@
 
 #include "secure/seal.h"
 #include "secure/secure_support.h"
+#include "support/checkout.h"
 
 namespace tandem::test {
 namespace {
 
 struct Vectors {
-  nlohmann::json all = nlohmann::json::parse(std::ifstream(TANDEM_NOISE_VECTORS));
+  nlohmann::json all =
+      nlohmann::json::parse(std::ifstream(test::inCheckout("tests/secure/noise_vectors.json")));
 
   [[nodiscard]] ByteVector bytes(const char* name) const {
     return fromHex(all.at(name).get<std::string>());

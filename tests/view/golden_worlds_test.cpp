@@ -13,6 +13,7 @@
 #include "run/virtual_run.h"
 #include "scene/draw_text.h"
 #include "session/scene_look.h"
+#include "support/checkout.h"
 #include "view/own_world.h"
 
 namespace tandem::view {
@@ -20,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kGolden = fs::path(TANDEM_WORLDS) / "../../tests/view/golden";
+const fs::path kGolden = tandem::test::inCheckout("tests/view/golden");
 constexpr double kTolerance = 2e-4;  // of places [m] and turns
 
 std::vector<std::string> listWorlds() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(TANDEM_WORLDS))
+  for (const auto& entry : fs::directory_iterator(tandem::test::inCheckout("demos/worlds")))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
   return names;
 }

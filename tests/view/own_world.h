@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "scenario/scenario.h"
+#include "support/checkout.h"
 
 namespace tandem::test {
 
 /// Loads a world of demos/worlds by its name.
 inline demos::Scenario loadWorld(const std::string& name,
                                  const std::vector<std::string>& overrides = {}) {
-  return demos::loadScenario(std::filesystem::path(TANDEM_WORLDS) / (name + ".toml"), overrides);
+  return demos::loadScenario(tandem::test::inCheckout("demos/worlds/" + name + ".toml"), overrides);
 }
 
 }  // namespace tandem::test

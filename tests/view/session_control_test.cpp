@@ -13,6 +13,7 @@
 
 #include "peer/users_device.h"
 #include "replay/run_replay.h"
+#include "support/checkout.h"
 #include "support/temp_folder.h"
 #include "terminal/usage_error.h"
 #include "view/own_world.h"
@@ -100,7 +101,8 @@ TEST(SessionControl, RefusesWhatBulletCannotDoAndGoesOn) {
 
 // Worlds with joints, meshes, heaps and compounds: Bullet may do worse, but the window goes on.
 TEST(SessionControl, EveryWorldTakesBulletsContactOrRefusesItAndComesBack) {
-  for (const auto& entry : std::filesystem::directory_iterator(TANDEM_WORLDS)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(tandem::test::inCheckout("demos/worlds"))) {
     if (entry.path().extension() != ".toml") continue;
     const std::string world = entry.path().stem();
     SCOPED_TRACE(world);

@@ -14,6 +14,7 @@
 
 #include "run/virtual_run.h"
 #include "session/live_session.h"
+#include "support/checkout.h"
 #include "view/own_world.h"
 
 namespace tandem::demos {
@@ -131,11 +132,12 @@ const std::map<std::string, Story> kStories = {
 
 TEST(Worlds, HaveAStoryEach) {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(TANDEM_WORLDS)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(tandem::test::inCheckout("demos/worlds"))) {
     if (entry.path().extension() != ".toml") continue;
     const std::string name = entry.path().stem();
     EXPECT_TRUE(kStories.contains(name)) << name;
-    const auto page = std::filesystem::path(TANDEM_WORLDS) / "../../docs/worlds" / (name + ".md");
+    const auto page = tandem::test::inCheckout("docs/worlds/" + name + ".md");
     EXPECT_TRUE(std::filesystem::exists(page)) << page;
     ++count;
   }

@@ -12,6 +12,7 @@
 #include "coordination/src/wire/wire_agree.h"
 #include "coordination/src/wire/wire_handshake.h"
 #include "coordination/src/wire/wire_state.h"
+#include "support/checkout.h"
 
 /// \file
 /// The golden files as bytes, and their values from golden/index.txt.
@@ -22,7 +23,7 @@ using Bytes = std::vector<std::uint8_t>;
 inline ByteView viewOf(const Bytes& bytes) { return {bytes.data(), bytes.size()}; }
 
 inline Bytes readGolden(const std::string& file) {
-  std::ifstream in(std::string(TANDEM_WIRE_GOLDEN) + "/" + file, std::ios::binary);
+  std::ifstream in(inCheckout("tests/wire/golden/" + file), std::ios::binary);
   if (!in) throw std::runtime_error("no golden file " + file);
   return {std::istreambuf_iterator<char>(in), {}};
 }

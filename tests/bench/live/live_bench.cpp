@@ -23,6 +23,7 @@
 #include "beside_virtual.h"
 #include "crowd.h"
 #include "live_pair.h"
+#include "support/checkout.h"
 
 using namespace tandem;
 using namespace tandem::bench;
@@ -30,7 +31,7 @@ using namespace tandem::bench;
 namespace {
 
 struct Options {
-  std::string scenario = TANDEM_SCENARIOS "/experiment1.toml";
+  std::string scenario = test::inCheckout("demos/scenarios/experiment1.toml");
   std::string scheme = "remote_dynamic_proxy";
   std::vector<std::string> overrides;
   double seconds = 60.0, host_rate = 60.0;
