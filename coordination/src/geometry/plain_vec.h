@@ -16,6 +16,7 @@ struct PlainVec {
 
   [[nodiscard]] Vec3 toVec3() const noexcept { return {x, y, z}; }
   void store(double* v) const noexcept { v[0] = x, v[1] = y, v[2] = z; }
+  bool operator==(const PlainVec&) const noexcept = default;
 };
 
 inline PlainVec operator+(const PlainVec& a, const PlainVec& b) noexcept {

@@ -20,43 +20,45 @@ constexpr double kSameNormal = 0.7;
 constexpr double kFarthest = 2.5;
 
 /// Rotates a vector by a small angle; right to its third power.
-Vec3 turn(const Vec3& v, const Vec3& angle) noexcept {
-  const Vec3 first = angle.cross(v);
-  return v + first + 0.5 * angle.cross(first);
+PlainVec turn(const PlainVec& v, const PlainVec& angle) noexcept {
+  const PlainVec first = cross(angle, v);
+  return v + first + 0.5 * cross(angle, first);
 }
 
 /// Rotates a vector along with a direction, the shortest way.
-Vec3 turnAlong(const Vec3& v, const Vec3& from, const Vec3& to) noexcept {
+PlainVec turnAlong(const PlainVec& v, const PlainVec& from, const PlainVec& to) noexcept {
   if (from == to) return v;
-  const Vec3 axis = from.cross(to);
-  const double cosine = from.dot(to);
-  if (cosine <= 0.0) return Vec3::Zero();
-  return v + axis.cross(v) + axis.cross(axis.cross(v)) / (1.0 + cosine);
+  const double cosine = dot(from, to);
+  if (cosine <= 0.0) return {};
+  const PlainVec axis = cross(from, to), first = cross(axis, v);
+  return v + first + (1.0 / (1.0 + cosine)) * cross(axis, first);
 }
 
+PlainVec normalize(const PlainVec& v) noexcept { return v / std::sqrt(dot(v, v)); }
+
+double squareOf(const PlainVec& v) noexcept { return dot(v, v); }
+
 struct Velocity {
-  Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();
+  PlainVec v_W, w_W;
 };
 
-/// Velocity of the point of a body, or of a fixed surface, and how it turns.
-Velocity velocityAt(BodyIndex body, const Vec3& p_W, const States& states) noexcept {
-  if (body == kStanding) return {};
-  const RigidState& state = states[static_cast<std::size_t>(body)];
-  return {state.v_W + state.w_W.cross(p_W - state.p_W), state.w_W};
+/// Velocity of the point of a body at `arm_W` from its centre, and how it turns.
+Velocity velocityAt(const RigidState& state, const PlainVec& arm_W) noexcept {
+  const PlainVec w_W(state.w_W);
+  return {PlainVec(state.v_W) + cross(w_W, arm_W), w_W};
 }
 
 /// Velocity of a contact point that went at `seen_W` in the last step; `arm_W` leads to it from the
 /// centre of a. It is a corner of a body, or goes along curved surfaces at most as fast as they
 /// roll and slip. Else the finder has chosen another point.
-Vec3 followPoint(const Vec3& seen_W, const Velocity& of_a, const Velocity& of_b,
-                 const Vec3& arm_W) noexcept {
-  const double off_a = (seen_W - of_a.v_W).squaredNorm();
-  const double off_b = (seen_W - of_b.v_W).squaredNorm();
+PlainVec followPoint(const PlainVec& seen_W, const Velocity& of_a, const Velocity& of_b,
+                     const PlainVec& arm_W) noexcept {
+  const double off_a = squareOf(seen_W - of_a.v_W), off_b = squareOf(seen_W - of_b.v_W);
   const double off = std::min(off_a, off_b);
-  const double slip = (of_a.v_W - of_b.v_W).squaredNorm();
+  const double slip = squareOf(of_a.v_W - of_b.v_W);
   // Most points slip at least as fast, and need no root.
   if (off <= kMargin * kMargin * slip) return seen_W;
-  const double roll = std::sqrt(arm_W.squaredNorm() * (of_a.w_W - of_b.w_W).squaredNorm());
+  const double roll = std::sqrt(squareOf(arm_W) * squareOf(of_a.w_W - of_b.w_W));
   const double most = kMargin * (std::sqrt(slip) + roll);
   if (off <= most * most) return seen_W;
   return off_b < off_a ? of_b.v_W : of_a.v_W;
@@ -64,69 +66,79 @@ Vec3 followPoint(const Vec3& seen_W, const Velocity& of_a, const Velocity& of_b,
 
 /// Turning rate of a normal that went at `seen_W`: with a body, or as fast as curved surfaces roll
 /// and slip at most. Else the finder has chosen another normal.
-Vec3 followNormal(const Vec3& seen_W, const Velocity& of_a, const Velocity& of_b,
-                  const Vec3& arm_W) noexcept {
-  const double seen = seen_W.squaredNorm();
-  const double turn_a = of_a.w_W.squaredNorm(), turn_b = of_b.w_W.squaredNorm();
+PlainVec followNormal(const PlainVec& seen_W, const Velocity& of_a, const Velocity& of_b,
+                      const PlainVec& arm_W) noexcept {
+  const double seen = squareOf(seen_W);
+  const double turn_a = squareOf(of_a.w_W), turn_b = squareOf(of_b.w_W);
   if (seen <= kMargin * kMargin * (turn_a + turn_b)) return seen_W;
-  const double slip = (of_a.v_W - of_b.v_W).norm(), reach = arm_W.norm();
+  const double slip = std::sqrt(squareOf(of_a.v_W - of_b.v_W));
+  const double reach = std::sqrt(squareOf(arm_W));
   const double most =
       kMargin * (std::sqrt(turn_a) + std::sqrt(turn_b) + (reach > 0.0 ? slip / reach : 0.0));
   if (seen <= most * most) return seen_W;
-  const bool is_nearer_a = (seen_W - of_a.w_W).squaredNorm() < (seen_W - of_b.w_W).squaredNorm();
+  const bool is_nearer_a = squareOf(seen_W - of_a.w_W) < squareOf(seen_W - of_b.w_W);
   return is_nearer_a ? of_a.w_W : of_b.w_W;
 }
 
 }  // namespace
 
 ContactMemory::ContactMemory(std::size_t capacity) {
-  known_.reserve(capacity);
-  trial_.reserve(capacity);
-  learned_.reserve(capacity);
+  for (std::vector<Known>* list : {&known_, &learned_, &next_known_}) list->reserve(capacity);
+  held_.reserve(capacity);
 }
 
 void ContactMemory::forget() noexcept {
   known_.clear();
-  trial_.clear();
+  tries_learned_ = false;
+  held_.clear();
 }
 
 void ContactMemory::shiftOrigin(const Vec3& offset_W) noexcept {
-  for (std::vector<Known>* list : {&known_, &trial_})
-    for (Known& known : *list) known.p_W += offset_W;
+  tries_learned_ = false;
+  for (Known& known : known_) known.p_W = known.p_W + PlainVec(offset_W);
 }
 
 /// A force that changes evenly moves a body by h^3 / 12 of its rate less than its mean does, and
 /// what the body leans on by as much.
-void ContactMemory::hold(const States& before, double h, std::vector<HeldWrench>& held) noexcept {
+void ContactMemory::hold(const States& before, double h, std::vector<HeldWrench>& wrenches) noexcept {
   const double half = 0.5 * h;
-  for (Known& known : trial_) {
-    known.is_taken = false;
+  const std::vector<Known>& all = trial();
+  held_.resize(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Known& known = all[i];
+    Held& held = held_[i];
+    held.is_taken = false;
     const double ahead = 0.5 * (known.last.h + h);
-    Vec3 f_W = known.is_learned ? known.f_learned_W : known.last.f_W;
-    Vec3 rate_W = Vec3::Zero();
+    PlainVec f_W = known.is_learned ? known.f_learned_W : known.last.f_W;
+    PlainVec rate_W;
     if (ahead < kFarthest * known.base) {
       rate_W = known.slope_W;
       const double time = known.is_learned ? half : ahead;
-      const double size = time * time * rate_W.squaredNorm(), most = f_W.squaredNorm();
-      if (size > most) rate_W *= std::sqrt(most / size);
-      if (!known.is_learned) f_W += ahead * rate_W;
+      const double size = time * time * squareOf(rate_W), most = squareOf(f_W);
+      if (size > most) rate_W = std::sqrt(most / size) * rate_W;
+      if (!known.is_learned) f_W = f_W + ahead * rate_W;
     }
     // A contact does not pull.
-    const bool pushes = f_W.dot(known.n_W) > 0.0;
-    known.f_held_W = pushes ? turn(f_W, half * known.turn_W) : Vec3(Vec3::Zero());
-    known.t_held_W = known.is_learned ? known.t_learned_W : known.last.t_W;
-    known.p_held_W = known.p_W + half * known.v_W;
-    if (pushes)
-      rate_W += known.turn_W.cross(known.f_held_W);
-    else
-      rate_W.setZero();
+    if (!(dot(f_W, known.n_W) > 0.0)) f_W = rate_W = {};
+    held.f_W = f_W;
+    held.n_W = known.n_W;
+    if (!(known.turn_W == PlainVec())) {
+      held.f_W = turn(f_W, half * known.turn_W);
+      held.n_W = normalize(turn(known.n_W, half * known.turn_W));
+      rate_W = rate_W + cross(known.turn_W, held.f_W);
+    }
+    held.t_W = known.is_learned ? known.t_learned_W : known.last.t_W;
+    held.p_W = known.p_W + half * known.v_W;
+    const PlainVec f_start_W = held.f_W - half * rate_W;
     const auto push = [&](BodyIndex body, double sign) {
       const RigidState& state = before[static_cast<std::size_t>(body)];
-      const Vec3 arm_W = known.p_held_W - (state.p_W + half * state.v_W);
-      const Vec3 t_rate_W = arm_W.cross(rate_W) + Vec3(known.v_W - state.v_W).cross(known.f_held_W);
-      const Vec3 t_W = arm_W.cross(known.f_held_W) + known.t_held_W;
-      held[static_cast<std::size_t>(body)].add(
-          {known.f_held_W - half * rate_W, t_W - half * t_rate_W}, {rate_W, t_rate_W}, sign);
+      const PlainVec v_W(state.v_W);
+      const PlainVec arm_W = held.p_W - (PlainVec(state.p_W) + half * v_W);
+      const PlainVec t_rate_W = cross(arm_W, rate_W) + cross(known.v_W - v_W, held.f_W);
+      const PlainVec t_W = cross(arm_W, held.f_W) + held.t_W;
+      wrenches[static_cast<std::size_t>(body)].add(
+          {f_start_W.toVec3(), (t_W - half * t_rate_W).toVec3()},
+          {rate_W.toVec3(), t_rate_W.toVec3()}, sign);
     };
     push(known.a, 1.0);
     if (known.b != kStanding) push(known.b, -1.0);
@@ -134,172 +146,175 @@ void ContactMemory::hold(const States& before, double h, std::vector<HeldWrench>
 }
 
 void ContactMemory::letGo() noexcept {
-  for (Known& known : trial_) {
-    known.is_taken = false;
-    known.f_held_W = known.t_held_W = Vec3::Zero();
-    known.p_held_W = known.p_W;
-  }
+  held_.clear();
+  for (const Known& known : trial()) held_.push_back({{}, {}, known.p_W, known.n_W, false});
 }
 
 void ContactMemory::forgetForces() noexcept {
-  for (Known& known : trial_) {
-    known.last.f_W = known.last.t_W = Vec3::Zero();
+  for (Known& known : trial()) {
+    known.last.f_W = known.last.t_W = {};
     known.is_learned = false;
   }
 }
 
-/// The nearest point of the same two bodies or surfaces that is free. Points come pair by pair, and
-/// in much the same order as before.
-ContactMemory::Known* ContactMemory::findNearest(const ContactPoint& point, double h) noexcept {
+/// Place of the nearest point of the same two bodies or surfaces that is free; -1: there is none.
+/// Points come pair by pair, and in much the same order as before.
+int ContactMemory::findNearest(const ContactPoint& point, double h) noexcept {
   const RigidContact& contact = point.contact;
-  const std::size_t count = trial_.size();
+  const std::vector<Known>& all = trial();
+  const std::size_t count = all.size();
   if (next_ >= count) next_ = 0;
-  const auto isFree = [&](const Known& known) {
-    return !known.is_taken && known.n_W.dot(contact.n_W) >= kSameNormal;
+  const PlainVec p_W(contact.p_W), n_W(contact.n_W);
+  const auto isFree = [&](std::size_t i) {
+    return !held_[i].is_taken && dot(all[i].n_W, n_W) >= kSameNormal;
   };
   const auto expected = [&](const Known& known) {
-    return (known.p_W + h * known.v_W - contact.p_W).squaredNorm();
+    return squareOf(known.p_W + h * known.v_W - p_W);
   };
+  const auto isOfPair = [&](std::size_t i) { return areOfOnePair(all[i], contact); };
   // Where it is expected no other can be as near.
-  if (count > 0 && areOfOnePair(trial_[next_], contact) && isFree(trial_[next_]) &&
-      expected(trial_[next_]) < kCertain * kCertain)
-    return &trial_[next_++];
+  if (count > 0 && isOfPair(next_) && isFree(next_) && expected(all[next_]) < kCertain * kCertain)
+    return static_cast<int>(next_++);
   std::size_t looked = 0, first = next_;
-  if (first > 0 && areOfOnePair(trial_[first - 1], contact)) --first;
-  while (looked < count && !areOfOnePair(trial_[first], contact))
-    first = (first + 1) % count, ++looked;
-  if (looked == count) return nullptr;
-  while (first > 0 && areOfOnePair(trial_[first - 1], contact)) --first;
-  Known* nearest = nullptr;
+  if (first > 0 && isOfPair(first - 1)) --first;
+  while (looked < count && !isOfPair(first)) first = (first + 1) % count, ++looked;
+  if (looked == count) return -1;
+  while (first > 0 && isOfPair(first - 1)) --first;
+  int nearest = -1;
   double least = kSamePoint * kSamePoint;
-  for (std::size_t i = first; i < count && areOfOnePair(trial_[i], contact); ++i) {
-    Known& known = trial_[i];
-    if (!isFree(known)) continue;
-    const double way = std::min(expected(known), (known.p_W - contact.p_W).squaredNorm());
+  for (std::size_t i = first; i < count && isOfPair(i); ++i) {
+    if (!isFree(i)) continue;
+    const double way = std::min(expected(all[i]), squareOf(all[i].p_W - p_W));
     if (way >= least) continue;
     least = way;
-    nearest = &known;
+    nearest = static_cast<int>(i);
   }
-  if (nearest) next_ = static_cast<std::size_t>(nearest - trial_.data()) + 1;
+  if (nearest >= 0) next_ = static_cast<std::size_t>(nearest) + 1;
   return nearest;
 }
 
 void ContactMemory::match(std::vector<ContactPoint>& points, double h) noexcept {
   next_ = 0;
   for (ContactPoint& point : points) {
-    Known* known = findNearest(point, h);
-    if (!known) continue;
-    known->is_taken = true;
-    point.known = static_cast<int>(known - trial_.data());
-    const Vec3& n_W = point.contact.n_W;
-    const Vec3 n_held_W = turn(known->n_W, 0.5 * h * known->turn_W).normalized();
-    const Vec3 f_W = known->is_learned ? known->f_learned_W : known->last.f_W;
+    point.known = findNearest(point, h);
+    if (point.known < 0) continue;
+    const Known& known = knownOf(point);
+    Held& held = held_[static_cast<std::size_t>(point.known)];
+    held.is_taken = true;
+    const PlainVec n_W(point.contact.n_W);
+    const PlainVec& f_W = known.is_learned ? known.f_learned_W : known.last.f_W;
     RigidRow& row = point.row;
-    row.held = row.toLocal(h * PlainVec(turnAlong(known->f_held_W, n_held_W, n_W)));
-    row.impulse = row.toLocal(h * PlainVec(turnAlong(f_W, known->n_W, n_W)));
+    row.held = row.toLocal(h * turnAlong(held.f_W, held.n_W, n_W));
+    row.impulse = row.toLocal(h * turnAlong(f_W, known.n_W, n_W));
     row.impulse.n = std::max(0.0, row.impulse.n);
-    row.mode = point.mode_before = known->mode;
-    row.slide = row.toLocal(PlainVec(known->slide_W));
-    row.twist_held = row.twist = row.toLocal(h * PlainVec(known->t_held_W));
+    row.mode = point.mode_before = known.mode;
+    row.slide = row.toLocal(known.slide_W);
+    row.twist_held = row.twist = row.toLocal(h * held.t_W);
   }
 }
 
 /// Force that a known point was expected to have [N].
 double ContactMemory::expectedForceOf(const ContactPoint& point) const noexcept {
   if (point.known < 0) return 0.0;
-  const Known& known = trial_[static_cast<std::size_t>(point.known)];
-  return (known.is_learned ? known.f_learned_W : known.last.f_W).norm();
+  const Known& known = knownOf(point);
+  return std::sqrt(squareOf(known.is_learned ? known.f_learned_W : known.last.f_W));
 }
 
 /// Where bodies are jammed, sweeps ask for impulses that do not fall with the step's length: what
 /// is beyond the expected force is not foreseen.
 void ContactMemory::limit(Force& force, double most) noexcept {
-  const double size = force.f_W.norm();
+  const double size = std::sqrt(squareOf(force.f_W));
   if (size <= most) return;
-  force.f_W *= most / size;
-  force.t_W *= most / size;
+  force.f_W = (most / size) * force.f_W;
+  force.t_W = (most / size) * force.t_W;
 }
 
-/// A point as it is known after a step.
-ContactMemory::Known ContactMemory::describe(const ContactPoint& point, const States& after,
-                                             double h) const noexcept {
+/// Sets `known` to the point as it is known after a step.
+void ContactMemory::describe(const ContactPoint& point, const States& after, double h,
+                             Known& known) const noexcept {
   const RigidContact& contact = point.contact;
-  Known known{};
+  const PlainVec p_W(contact.p_W), n_W(contact.n_W);
   known.a = contact.a;
   known.b = contact.b;
   known.surface = contact.surface;
   known.mode = point.row.mode;
-  known.slide_W = point.row.toWorld(point.row.slide).toVec3();
-  known.p_W = contact.p_W;
-  known.n_W = contact.n_W;
-  known.slope_W.setZero();
-  known.base = 0.0;
-  const Velocity of_a = velocityAt(contact.a, contact.p_W, after);
-  const Velocity of_b = velocityAt(contact.b, contact.p_W, after);
-  // The arm of a new point stays.
-  known.v_W = after[static_cast<std::size_t>(contact.a)].v_W;
-  known.turn_W = of_b.w_W;
-  known.last = {point.row.toWorld(point.steady).toVec3() / h,
-                point.row.toWorld(point.steady_twist).toVec3() / h, contact.n_W, h, 1};
+  known.slide_W = point.row.toWorld(point.row.slide);
+  known.p_W = p_W;
+  known.n_W = n_W;
+  const RigidState& state_a = after[static_cast<std::size_t>(contact.a)];
+  const PlainVec arm_W = p_W - PlainVec(state_a.p_W);
+  const double rate = 1.0 / h;
+  known.last = {rate * point.row.toWorld(point.steady), {}, n_W, h, 1};
+  if (point.row.resistsTurning()) known.last.t_W = rate * point.row.toWorld(point.steady_twist);
   if (point.row.is_swept) limit(known.last, expectedForceOf(point));
-  if (point.known < 0) return known;
-  const Known& old = trial_[static_cast<std::size_t>(point.known)];
-  const Vec3 arm_W = contact.p_W - after[static_cast<std::size_t>(contact.a)].p_W;
-  known.v_W = followPoint((contact.p_W - old.p_W) / h, of_a, of_b, arm_W);
-  const Vec3 spin_W = contact.n_W * contact.n_W.dot(of_b.w_W);
-  known.turn_W = followNormal(old.n_W.cross(contact.n_W) / h + spin_W, of_a, of_b, arm_W);
-  return known;
+  Velocity of_b;
+  if (contact.b != kStanding) {
+    const RigidState& state_b = after[static_cast<std::size_t>(contact.b)];
+    of_b = velocityAt(state_b, p_W - PlainVec(state_b.p_W));
+  }
+  if (point.known < 0) {
+    // The arm of a new point stays.
+    known.v_W = PlainVec(state_a.v_W);
+    known.turn_W = of_b.w_W;
+    return;
+  }
+  const Known& old = knownOf(point);
+  const Velocity of_a = velocityAt(state_a, arm_W);
+  known.v_W = followPoint(rate * (p_W - old.p_W), of_a, of_b, arm_W);
+  const PlainVec spin_W = dot(n_W, of_b.w_W) * n_W;
+  known.turn_W = followNormal(rate * cross(old.n_W, n_W) + spin_W, of_a, of_b, arm_W);
 }
 
 void ContactMemory::learn(const std::vector<ContactPoint>& points, const States& after,
                           double h) noexcept {
-  learned_.clear();
+  next_known_.clear();
   for (const ContactPoint& point : points) {
     if (point.is_impact || !(point.steady.n > 0.0)) continue;
-    Known known = describe(point, after, h);
+    Known& known = next_known_.emplace_back();
+    describe(point, after, h, known);
     known.is_learned = true;
     known.t_learned_W = known.last.t_W;
     known.f_learned_W = turn(known.last.f_W, -h * known.turn_W);
-    known.p_W -= h * known.v_W;
-    known.n_W = turn(known.n_W, -h * known.turn_W).normalized();
+    known.p_W = known.p_W - h * known.v_W;
+    known.n_W = normalize(turn(known.n_W, -h * known.turn_W));
     known.last = {};
-    if (point.known >= 0) {
-      const Known& old = trial_[static_cast<std::size_t>(point.known)];
-      known.last = old.last;
-      known.slope_W = old.slope_W;
-      known.base = old.base;
-    }
-    learned_.push_back(known);
+    if (point.known < 0) continue;
+    const Known& old = knownOf(point);
+    known.last = old.last;
+    known.slope_W = old.slope_W;
+    known.base = old.base;
   }
-  trial_.swap(learned_);
+  learned_.swap(next_known_);
+  tries_learned_ = true;
 }
 
 void ContactMemory::keep(const std::vector<ContactPoint>& points, const States& after, double h,
                          double least) noexcept {
-  known_.clear();
+  next_known_.clear();
   for (const ContactPoint& point : points) {
     const bool pushes = !point.is_impact && point.steady.n > 0.0;
     const bool has_closed = point.is_impact && point.row.mode != RigidRow::Mode::kOpen;
     if (!pushes && !has_closed) continue;
-    known_.push_back(describe(point, after, h));
-    Known& known = known_.back();
+    Known& known = next_known_.emplace_back();
+    describe(point, after, h, known);
     const bool is_telling = !has_closed && h >= least;
-    const int age = point.known < 0 ? 0 : trial_[static_cast<std::size_t>(point.known)].last.age;
+    const int age = point.known < 0 ? 0 : knownOf(point).last.age;
     if (!is_telling && age == 0) known.last = {};
     if (has_closed || age == 0) continue;
-    const Known& old = trial_[static_cast<std::size_t>(point.known)];
-    const Vec3 old_f_W = turnAlong(old.last.f_W, old.last.n_W, point.contact.n_W);
+    const Known& old = knownOf(point);
+    const PlainVec old_f_W = turnAlong(old.last.f_W, old.last.n_W, known.n_W);
     if (!is_telling) {
-      known.last = {old_f_W, old.last.t_W, point.contact.n_W, old.last.h, age};
-      known.slope_W = turnAlong(old.slope_W, old.last.n_W, point.contact.n_W);
+      known.last = {old_f_W, old.last.t_W, known.n_W, old.last.h, age};
+      known.slope_W = turnAlong(old.slope_W, old.last.n_W, known.n_W);
       known.base = old.base;
       continue;
     }
     known.base = 0.5 * (h + old.last.h);
-    known.slope_W = (known.last.f_W - old_f_W) / known.base;
+    known.slope_W = (1.0 / known.base) * (known.last.f_W - old_f_W);
     known.last.age = age + 1;
   }
-  trial_ = known_;
+  known_.swap(next_known_);
+  tries_learned_ = false;
 }
 
 }  // namespace tandem

@@ -41,7 +41,7 @@ class ContactMemory {
   void forget() noexcept;
   void shiftOrigin(const Vec3& offset_W) noexcept;
   /// True if nothing is known, and nothing was held in the present try.
-  [[nodiscard]] bool isEmpty() const noexcept { return known_.empty() && trial_.empty(); }
+  [[nodiscard]] bool isEmpty() const noexcept { return known_.empty() && trial().empty(); }
 
   /// Adds the forces expected in a step of `h` [s] from `before` to `held`, by body.
   void hold(const States& before, double h, std::vector<HeldWrench>& held) noexcept;
@@ -53,30 +53,32 @@ class ContactMemory {
   /// True if a point had a force in the last step, or has learned one.
   [[nodiscard]] bool hasForce(const ContactPoint& point) const noexcept {
     if (point.known < 0) return false;
-    const Known& known = trial_[static_cast<std::size_t>(point.known)];
+    const Known& known = knownOf(point);
     return known.is_learned || known.last.age > 0;
   }
   /// True if a held force's point has gone.
   [[nodiscard]] bool hasGone() const noexcept {
-    return std::any_of(trial_.begin(), trial_.end(),
-                       [](const Known& known) { return !known.is_taken; });
+    return std::any_of(held_.begin(), held_.end(), [](const Held& held) { return !held.is_taken; });
   }
   /// Place of a known point at the start of the step.
-  [[nodiscard]] const Vec3& startOf(const ContactPoint& point) const noexcept {
-    return trial_[static_cast<std::size_t>(point.known)].p_W;
+  [[nodiscard]] const PlainVec& startOf(const ContactPoint& point) const noexcept {
+    return knownOf(point).p_W;
   }
   /// Finds each point among the known ones, and starts its row from what they had.
   void match(std::vector<ContactPoint>& points, double h) noexcept;
   /// Calls `visit(a, b, p_W, f_W, t_W)` for each held force whose point has gone.
   template <typename Visit>
   void visitGone(Visit visit) const {
-    for (const Known& known : trial_)
-      if (!known.is_taken) visit(known.a, known.b, known.p_held_W, known.f_held_W, known.t_held_W);
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      const Known& known = trial()[i];
+      const Held& held = held_[i];
+      if (!held.is_taken) visit(known.a, known.b, held.p_W, held.f_W, held.t_W);
+    }
   }
   /// The step is repeated with the forces of `points`, which ended at `after`.
   void learn(const std::vector<ContactPoint>& points, const States& after, double h) noexcept;
   /// The step is repeated with another length.
-  void startAgain() noexcept { trial_ = known_; }
+  void startAgain() noexcept { tries_learned_ = false; }
   /// The step is done: its points are known now.
   /// A step shorter than `least` [s] tells nothing new of their forces.
   void keep(const std::vector<ContactPoint>& points, const States& after, double h,
@@ -85,38 +87,51 @@ class ContactMemory {
  private:
   /// Force of a point in a step.
   struct Force {
-    Vec3 f_W = Vec3::Zero();  ///< mean over the step [N]
-    Vec3 t_W = Vec3::Zero();  ///< against rolling and spinning [N m]
-    Vec3 n_W = Vec3::Zero();  ///< normal at its end
-    double h = 0.0;           ///< length of the step [s]
-    int age = 0;              ///< steps in which it had one; 0: not yet
+    PlainVec f_W;    ///< mean over the step [N]
+    PlainVec t_W;    ///< against rolling and spinning [N m]
+    PlainVec n_W;    ///< normal at its end
+    double h = 0.0;  ///< length of the step [s]
+    int age = 0;     ///< steps in which it had one; 0: not yet
   };
   struct Known {
-    BodyIndex a, b;
-    const void* surface;  ///< RigidContact
-    RigidRow::Mode mode;
-    Vec3 p_W, n_W;     ///< at the start of the coming step
-    Vec3 v_W, turn_W;  ///< velocity of the point [m/s], turning rate of the normal [rad/s]
-    Vec3 slide_W;      ///< velocity at which it slides [m/s]
-    Vec3 slope_W;      ///< rate of change of the force [N/s]
-    double base;       ///< time over which it was measured [s]
+    BodyIndex a = 0, b = kStanding;
+    const void* surface = nullptr;  ///< RigidContact
+    RigidRow::Mode mode = RigidRow::Mode::kUnknown;
+    bool is_learned = false;            ///< `f_learned_W` is the force of the step itself
+    double base = 0.0;                  ///< time over which `slope_W` was measured [s]
+    PlainVec p_W, n_W;                  ///< at the start of the coming step
+    PlainVec v_W, turn_W;               ///< velocity of the point, turning rate of the normal
+    PlainVec slide_W;                   ///< velocity at which it slides [m/s]
+    PlainVec slope_W;                   ///< rate of change of the force [N/s]
+    PlainVec f_learned_W, t_learned_W;  ///< [N, N m]
     Force last;
-    bool is_learned;                    ///< `f_learned_W` is the force of the step itself
-    Vec3 f_learned_W, t_learned_W;      ///< [N, N m]
-    Vec3 f_held_W, t_held_W, p_held_W;  ///< as held, at the middle of the step
-    bool is_taken;
+  };
+  /// What is held of a known point, at the middle of the step.
+  struct Held {
+    PlainVec f_W, t_W, p_W, n_W;
+    bool is_taken = false;  ///< the point is there at the end of the step
   };
 
+  /// The points of the present try: in the order of held_.
+  [[nodiscard]] const std::vector<Known>& trial() const noexcept {
+    return tries_learned_ ? learned_ : known_;
+  }
+  [[nodiscard]] std::vector<Known>& trial() noexcept { return tries_learned_ ? learned_ : known_; }
+  [[nodiscard]] const Known& knownOf(const ContactPoint& point) const noexcept {
+    return trial()[static_cast<std::size_t>(point.known)];
+  }
   [[nodiscard]] double expectedForceOf(const ContactPoint& point) const noexcept;
   static void limit(Force& force, double most) noexcept;
-  [[nodiscard]] Known describe(const ContactPoint& point, const States& after,
-                               double h) const noexcept;
-  [[nodiscard]] Known* findNearest(const ContactPoint& point, double h) noexcept;
+  void describe(const ContactPoint& point, const States& after, double h,
+                Known& known) const noexcept;
+  [[nodiscard]] int findNearest(const ContactPoint& point, double h) noexcept;
 
-  std::vector<Known> known_;  ///< after the last step
-  std::vector<Known> trial_;  ///< in the present try of the next one
-  std::vector<Known> learned_;
-  std::size_t next_ = 0;  ///< place after the last match
+  std::vector<Known> known_;    ///< after the last step
+  std::vector<Known> learned_;  ///< in a try of the next one itself
+  std::vector<Known> next_known_;
+  bool tries_learned_ = false;
+  std::vector<Held> held_;  ///< in the present try
+  std::size_t next_ = 0;    ///< place after the last match
 };
 
 }  // namespace tandem

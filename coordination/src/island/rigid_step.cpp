@@ -229,7 +229,7 @@ void RigidStep::anchor(ContactPoint& point, const States& after, double h) noexc
   row.slip = row.toLocal(way_a - way_b - h * PlainVec(contact.v_W));
   row.is_anchored = true;
   if (!is_known) return;
-  const PlainVec seen(Vec3(contact.p_W - memory_.startOf(point)));
+  const PlainVec seen = PlainVec(contact.p_W) - memory_.startOf(point);
   const PlainVec off_a = seen - way_a, off_b = seen - way_b;
   row.is_anchored = std::min(dot(off_a, off_a), dot(off_b, off_b)) < kSamePlace * kSamePlace;
 }
@@ -294,22 +294,21 @@ void RigidStep::aim(double h) noexcept {
 
 /// Takes back the held force of each contact that has gone.
 void RigidStep::takeBackGone(const States& after, double h) noexcept {
-  const auto push = [&](BodyIndex body, const Vec3& p_W, const Vec3& impulse_W,
-                        const Vec3& twist_W) {
+  const auto push = [&](BodyIndex body, const PlainVec& p_W, const PlainVec& impulse_W,
+                        const PlainVec& twist_W) {
     RigidMover& moved = mover(body);
-    const PlainVec dv = multiplyEach(moved.inverse_mass_W, PlainVec(impulse_W));
-    const Vec3 angular_W = (p_W - after[body].p_W).cross(impulse_W) + twist_W;
-    const PlainVec dw = moved.turnBy(PlainVec(angular_W));
+    const PlainVec dv = multiplyEach(moved.inverse_mass_W, impulse_W);
+    const PlainVec dw = moved.turnBy(cross(p_W - PlainVec(after[body].p_W), impulse_W) + twist_W);
     moved.v = moved.v + dv;
     moved.w = moved.w + dw;
     moved.shift = moved.shift + (0.5 * h) * dv;
     moved.turn = moved.turn + (0.5 * h) * dw;
   };
-  memory_.visitGone(
-      [&](BodyIndex a, BodyIndex b, const Vec3& p_W, const Vec3& f_W, const Vec3& t_W) {
-        push(a, p_W, -h * f_W, -h * t_W);
-        if (b != kStanding) push(b, p_W, h * f_W, h * t_W);
-      });
+  memory_.visitGone([&](BodyIndex a, BodyIndex b, const PlainVec& p_W, const PlainVec& f_W,
+                        const PlainVec& t_W) {
+    push(a, p_W, -h * f_W, -h * t_W);
+    if (b != kStanding) push(b, p_W, h * f_W, h * t_W);
+  });
 }
 
 /// Solves for forces over the step, without impacts.
