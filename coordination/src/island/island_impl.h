@@ -112,8 +112,9 @@ struct Island::Impl {
     return sum;
   }
 
-  /// Contact wrenches of a free island at this instant, written to `wrenches`.
-  void computeContactWrenches() noexcept {
+  /// Contact wrenches of a free island at this instant, written to `wrenches`: all, or those of one
+  /// body.
+  void computeContactWrenches(BodyIndex only = kStanding) noexcept {
     if (model.has_jumps) letJumpsIn();
     if (!model.is_listed) model.listPresent();
     for (const BodyIndex b : model.present) {
@@ -121,6 +122,7 @@ struct Island::Impl {
       wrenches[b] = {};
     }
     const auto addAll = [&](Touch touch) {
+      if (only != kStanding && touch.sphere != only && touch.other != only) return;
       if (!couldMeet(model, touch, states, 0.0)) return;
       recall(model, touch, 0.5 * model.settings.haptic_period);
       const auto add = [&](const Touch& one) {
@@ -167,7 +169,7 @@ struct Island::Impl {
     if (slot && model.has_jumps) letJumpsIn();
     if (slot) return {*model.settings.guide * slot->computeContactForce(model, body), Vec3::Zero()};
     wrenches[body] = {};
-    computeContactWrenches();
+    computeContactWrenches(body);
     return wrenches[body];
   }
 };
