@@ -46,18 +46,14 @@ bool isNear(const ContactStiffness& a, const ContactStiffness& b) noexcept {
 
 ContactFactor::ContactFactor(std::size_t max_bodies, std::size_t most_kept)
     : matrix_(max_bodies, kBlocksPerBody * max_bodies) {
-  J_.reserve(most_kept);
   D_.reserve(most_kept);
-  first_.reserve(max_bodies);
 }
 
-bool ContactFactor::isNear(const std::vector<ContactJacobian>& J,
-                           const std::vector<ContactStiffness>& D,
-                           const std::vector<int>& first) const noexcept {
-  if (!is_made_ || J.size() != J_.size() || first != first_) return false;
-  for (std::size_t i = 0; i < J.size(); ++i)
-    if (!tandem::isNear(D[i], D_[i]) || !tandem::isNear(J[i], J_[i])) return false;
-  return true;
+bool ContactFactor::isNear(const std::vector<ContactStiffness>& D) const noexcept {
+  const auto near = [](const ContactStiffness& a, const ContactStiffness& b) {
+    return tandem::isNear(a, b);
+  };
+  return is_made_ && std::equal(D.begin(), D.end(), D_.begin(), D_.end(), near);
 }
 
 bool ContactFactor::make(const std::vector<ContactJacobian>& J,
@@ -69,10 +65,8 @@ bool ContactFactor::make(const std::vector<ContactJacobian>& J,
   for (std::size_t i = 0; i < J.size(); ++i)
     if (!(D[i] == ContactStiffness())) add(J[i], D[i]);
   if (!matrix_.factorise()) return false;
-  if (J.size() > J_.capacity()) return true;
-  J_.assign(J.begin(), J.end());
+  if (D.size() > D_.capacity()) return true;
   D_.assign(D.begin(), D.end());
-  first_.assign(first.begin(), first.end());
   return is_made_ = true;
 }
 
@@ -100,6 +94,26 @@ void ContactFactor::add(const ContactJacobian& J, const ContactStiffness& D) noe
     addTo(matrix_.lower(J.b, J.a), J.of_b, D_a);
     addTo(matrix_.upper(J.a, J.b), J.of_a, D_b);
   }
+}
+
+GroupShape::GroupShape(std::size_t max_bodies, std::size_t most_kept) {
+  J_.reserve(most_kept);
+  first_.reserve(max_bodies);
+}
+
+bool GroupShape::isNear(const std::vector<ContactJacobian>& J,
+                        const std::vector<int>& first) const noexcept {
+  const auto near = [](const ContactJacobian& a, const ContactJacobian& b) {
+    return tandem::isNear(a, b);
+  };
+  return first == first_ && std::equal(J.begin(), J.end(), J_.begin(), J_.end(), near);
+}
+
+void GroupShape::keep(const std::vector<ContactJacobian>& J,
+                      const std::vector<int>& first) noexcept {
+  const bool has_room = J.size() <= J_.capacity();
+  J_.assign(J.begin(), has_room ? J.end() : J.begin());
+  first_.assign(first.begin(), first.end());
 }
 
 }  // namespace tandem

@@ -17,11 +17,12 @@ class ContactFactor {
   /// Allocates. Factors of more than `most_kept` laws are used once.
   ContactFactor(std::size_t max_bodies, std::size_t most_kept);
 
-  /// True if the factors are of nearly this matrix, of the same size. `first`: BlockMatrix.
-  [[nodiscard]] bool isNear(const std::vector<ContactJacobian>& J,
-                            const std::vector<ContactStiffness>& D,
-                            const std::vector<int>& first) const noexcept;
-  /// Factorises. False: the matrix is singular, or there are too many bodies.
+  /// Not near anything any more.
+  void forget() noexcept { is_made_ = false; }
+  /// True if the factors are of nearly this matrix. The Jacobians are those of make(), or near
+  /// (GroupShape).
+  [[nodiscard]] bool isNear(const std::vector<ContactStiffness>& D) const noexcept;
+  /// Factorises. False: the matrix is singular, or there are too many bodies. `first`: BlockMatrix.
   [[nodiscard]] bool make(const std::vector<ContactJacobian>& J,
                           const std::vector<ContactStiffness>& D,
                           const std::vector<int>& first) noexcept;
@@ -32,8 +33,21 @@ class ContactFactor {
 
   BlockMatrix matrix_;
   bool is_made_ = false;
-  std::vector<ContactJacobian> J_;
   std::vector<ContactStiffness> D_;
+};
+
+/// Bodies and Jacobians of a group, as its factors know them. Real-time safe after the constructor.
+class GroupShape {
+ public:
+  /// Allocates. Groups of more than `most_kept` laws are never near.
+  GroupShape(std::size_t max_bodies, std::size_t most_kept);
+
+  [[nodiscard]] bool isNear(const std::vector<ContactJacobian>& J,
+                            const std::vector<int>& first) const noexcept;
+  void keep(const std::vector<ContactJacobian>& J, const std::vector<int>& first) noexcept;
+
+ private:
+  std::vector<ContactJacobian> J_;
   std::vector<int> first_;
 };
 

@@ -10,10 +10,20 @@ ContactGroups::ContactGroups(std::size_t body_count, std::size_t contact_capacit
   chosen_.reserve(contact_capacity);
   rows_.reserve(contact_capacity);
   chosen_holds_.reserve(hold_capacity);
+  for (auto* ties : {&ties_, &ties_before_}) ties->reserve(contact_capacity + hold_capacity);
   holds_.reserve(hold_capacity);
   for (auto* places : {&first_row_, &first_mover_, &first_hold_}) places->reserve(body_count);
   movers_.reserve(body_count);
   groups_.reserve(body_count);
+}
+
+bool ContactGroups::areAsBefore() noexcept {
+  ties_.clear();
+  for (const ContactPoint* point : chosen_)
+    ties_.push_back({point, point->contact.a, point->contact.b});
+  for (const JointHold* hold : chosen_holds_) ties_.push_back({hold, hold->body_a, hold->body_b});
+  ties_.swap(ties_before_);
+  return ties_ == ties_before_;
 }
 
 /// The lowest body of the group of `body`.

@@ -35,17 +35,28 @@ class ContactGroups {
       if (counts(point)) chosen_.push_back(&point);
     chosen_holds_.clear();
     for (JointHold& hold : holds) chosen_holds_.push_back(&hold);
-    group(movers);
+    if (!areAsBefore()) group(movers);
   }
 
   [[nodiscard]] const std::vector<Group>& groups() const noexcept { return groups_; }
 
  private:
+  /// A row in its place between two bodies: what groups depend on.
+  struct Tie {
+    const void* row;
+    BodyIndex a, b;
+
+    bool operator==(const Tie&) const noexcept = default;
+  };
+
+  /// True if the rows have the places and the bodies of the last call, as while contact lasts.
+  [[nodiscard]] bool areAsBefore() noexcept;
   void group(std::vector<RigidMover>& movers) noexcept;
   [[nodiscard]] BodyIndex findRoot(BodyIndex body) noexcept;
 
   std::vector<ContactPoint*> chosen_;
   std::vector<JointHold*> chosen_holds_;
+  std::vector<Tie> ties_, ties_before_;
   std::vector<BodyIndex> parent_;  ///< by body: another body of its group, or itself
   std::vector<int> group_of_;      ///< by lowest body of a group: its index; -1: none yet
   std::vector<std::size_t> first_row_, first_mover_, first_hold_;  ///< by group

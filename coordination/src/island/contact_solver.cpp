@@ -57,7 +57,7 @@ ContactSolver::ContactSolver(std::size_t max_bodies, std::size_t max_points,
   dx_.reserve(max_bodies);
   for (std::size_t i = 0; i <= kMaxFactors; ++i) {
     const std::size_t kept = i == 0 ? max_laws : std::min(max_laws, kMostKept);
-    factors_.push_back({{max_bodies, kept}, {max_bodies, kept}});
+    factors_.push_back({{max_bodies, kept}, {max_bodies, kept}, {max_bodies, kept}});
   }
 }
 
@@ -97,6 +97,11 @@ void ContactSolver::setUp() noexcept {
   for (std::size_t i = 0; i < twists_.size(); ++i) setUpTwist(i);
   setUpHolds();
   shapeMatrix();
+  if (!factor_->shape.isNear(J_, first_)) {
+    factor_->shape.keep(J_, first_);
+    factor_->whole.forget();
+    factor_->positions.forget();
+  }
   x_.assign(x_.size(), Six());
   has_answer_ = false;
   (void)measureResidual();
@@ -107,7 +112,7 @@ bool ContactSolver::settle() noexcept {
   double slip_before = HUGE_VAL, hold_slip_before = HUGE_VAL, residual_before = HUGE_VAL;
   int factorisations = 0, slow = 0;
   gatherStiffness();
-  bool is_factored = factor_->whole.isNear(J_, D_, first_);
+  bool is_factored = factor_->whole.isNear(D_);
   for (int steps = 0; steps < kMaxSteps; ++steps) {
     if (!is_factored) {
       if (++factorisations > kMaxFactorisations || !factorise()) break;
@@ -488,7 +493,7 @@ void ContactSolver::repair(const std::vector<RigidRow::Local>& gaps,
   }
   gatherStiffness();
   ContactFactor& factor = slides ? factor_->positions : factor_->whole;
-  if (!factor.isNear(J_, D_, first_)) {
+  if (!factor.isNear(D_)) {
     ++factorisation_count_;
     work_left_ -= static_cast<int>(bodies_.size());
     if (!factor.make(J_, D_, first_)) return;

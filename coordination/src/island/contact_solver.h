@@ -54,6 +54,7 @@ class ContactSolver {
   static constexpr int kMaxWork = 2048;
   /// Factors for a group: of all its points, and of its normals and sticking tangents.
   struct Factors {
+    GroupShape shape;
     ContactFactor whole, positions;
   };
   struct Modes {
