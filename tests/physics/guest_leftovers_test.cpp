@@ -140,6 +140,18 @@ TEST(GuestLeftovers, AParkedBodyGetsTheGravityThatItMissed) {
   EXPECT_NEAR(scene.fall(), -5.0, test::byWidth(1e-12, 1e-5));
 }
 
+TEST(GuestLeftovers, ABodyThatComesBackPinnedKeepsItsGravity) {
+  Leftovers scene;
+  scene.rig.world.removeRigidBody(scene.cube);
+  scene.run(0.1);
+  scene.rig.world.setGravity(btVector3(0, 0, -5));
+  scene.run(0.1);
+  scene.cube->setMassProps(0, btVector3(0, 0, 0));
+  scene.rig.world.addRigidBody(scene.cube);
+  scene.site.reset();
+  EXPECT_NEAR(static_cast<double>(scene.cube->getGravity().z()), -kGravity, 1e-6);
+}
+
 TEST(GuestLeftovers, AFloorThatWasAwayHoldsBodiesAgain) {
   Leftovers scene;
   scene.rig.world.removeRigidBody(scene.floor);
@@ -149,6 +161,22 @@ TEST(GuestLeftovers, AFloorThatWasAwayHoldsBodiesAgain) {
   EXPECT_EQ(scene.floor->getNumObjectsWithoutCollision(), 0);
   scene.run(0.5);
   EXPECT_GT(NeighbourScene::positionOf(*scene.cube).z(), 0.9 * NeighbourScene::kHalf);
+}
+
+/// All of it between two steps.
+TEST(GuestLeftovers, AFloorThatWasAwayWhileABodyWasUnsharedIgnoresNothing) {
+  NeighbourScene scene(true);
+  btRigidBody& floor = scene.addFloor();
+  scene.addBox(Vec3(0.1, 0.0, NeighbourScene::kHalf));
+  scene.start(Vec3(0.0, 0.0, NeighbourScene::kHalf));
+  btRigidBody& other = scene.rig.addCube(0.4, NeighbourScene::kHalf, Vec3(-0.1, 0.0, 0.02));
+  scene.site->share(other);
+  scene.run(0.2);
+  scene.rig.world.removeRigidBody(&floor);
+  scene.site->unshare(0);
+  scene.rig.world.addRigidBody(&floor);
+  scene.site.reset();
+  EXPECT_EQ(floor.getNumObjectsWithoutCollision(), 0);
 }
 
 /// A joint's force ends where the host takes the body away from it.

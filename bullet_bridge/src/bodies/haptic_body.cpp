@@ -131,21 +131,21 @@ void HapticBody::restoreMassProps() {
   const bool has_own_share = inverse_mass_ != original_.inverse_mass;
   if (is_own_mass && (has_own_share || measureWeight(body_) == weight_)) {
     restoreMass(body_, original_.inverse_mass, inverse_inertia, original_.weight);
-    if (hasWeightOfItsWorld()) body_.setGravity(body_.getGravity());
+    // Bullet sets the weight of a body that is added, with another rounding.
+    if (wasAddedAnew() && hasWorldGravity()) body_.setGravity(body_.getGravity());
   } else if (is_own_inertia) {
     body_.setInvInertiaDiagLocal(inverse_inertia);
     body_.updateInertiaTensor();
   }
 }
 
-/// True if it was added to its world anew: Bullet then sets its weight, with another rounding. Its
-/// number in the broadphase changes also without that.
-bool HapticBody::hasWeightOfItsWorld() const noexcept {
+/// Its number in the broadphase changes also without that.
+bool HapticBody::wasAddedAnew() const noexcept {
   // A host may have deleted the shape by now: read nothing of it.
   const btBroadphaseProxy* proxy = body_.getBroadphaseHandle();
   const bool has_other_place = proxy && proxy->m_uniqueId != look_.collider.broadphase_id &&
                                world_index_ != original_.world_index;
-  return (was_away_ || has_other_place) && hasWorldGravity();
+  return was_away_ || has_other_place;
 }
 
 /// Reads a damping that the host set while ours is off, zero too: ours is minus zero.

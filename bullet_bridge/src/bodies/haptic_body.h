@@ -195,7 +195,7 @@ class HapticBody final : public HostBody {
   void scaleMass(double share) noexcept;
   void readShift(HostChange& change) const noexcept;
   void restoreMassProps();
-  [[nodiscard]] bool hasWeightOfItsWorld() const noexcept;
+  [[nodiscard]] bool wasAddedAnew() const noexcept;
   void takeDamping() noexcept;
   void replaceMissingWeight() noexcept;
   [[nodiscard]] bool hasLeftItsRest(const RigidState& state) const noexcept;

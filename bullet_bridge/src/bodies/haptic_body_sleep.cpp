@@ -127,8 +127,10 @@ bool HapticBody::isUndisturbed() const noexcept {
          isSame(body_.getWorldTransform(), known_pose_) && BodyLook::at(body_) == known_look_;
 }
 
+/// A body that is pinned when it is added gets no gravity from its world, then or later.
 bool HapticBody::hasMissedWorldGravity() const noexcept {
-  return !is_stopped_ && hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_);
+  return !is_stopped_ && hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_) &&
+         !(body_.isStaticObject() && wasAddedAnew());
 }
 
 bool HapticBody::hasWorldGravity() const noexcept {

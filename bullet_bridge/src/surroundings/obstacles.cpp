@@ -162,8 +162,7 @@ void Obstacles::addBody(BodyIndex index, btCollisionObject& body) {
       !(is_driven && shape.getShapeType() != STATIC_PLANE_PROXYTYPE))
     throw Error(std::string("obstacles cannot hold a body of shape ") + shape.getName() +
                 "; use a convex shape or a compound of them");
-  impl_->filters.removeLate();  // before the body gets new ones
-  impl_->remove(&body);         // as a standing object, until the host let it move
+  impl_->remove(&body);  // as a standing object, until the host let it move
   impl_->search.addBody(index, body, impl_->takeOver());
   impl_->search.prepare();
 }
@@ -339,6 +338,7 @@ btCollisionObject* Obstacles::Impl::findBody(BodyIndex index) const {
 
 void Obstacles::Impl::remove(btCollisionObject* original) {
   changed = true;
+  filters.removeLate();  // or a keeper that is back holds more than its copy knows of
   forgetRefused(original);
   search.remove(original, [&](PrivateCopy& removed, PrivateCopy& partner) {
     const bool it_keeps = isKeeper(removed, partner);
