@@ -15,8 +15,9 @@ constexpr int kMaxRounds = 4;
 constexpr double kOverload = 100.0;
 /// Error of an acceleration that is none, beside the largest.
 constexpr double kSettled = 1e-9;
-/// Acceleration that no joint gives: that of a whip's end at 300 m/s and 0.1 m [m/s^2].
-constexpr double kMostAcceleration = 1e6;
+/// Speed at which joints give no force, and acceleration that none gives: those of a whip's end
+/// [m/s, m/s^2].
+constexpr double kMostSpeed = 300.0, kMostAcceleration = 1e6;
 /// Angular speed that stands for a linear one of 1 m/s [rad/s].
 constexpr double kTurnOfWay = 10.0;
 
@@ -339,10 +340,15 @@ void JointForces::fillBlock(const Panel& panel, const Panel& other,
   if (isShared(rows.block_b, columns.block_b)) add(panel.of_b, other.of_b);
 }
 
-/// False if rows that contradict each other ask for what no joint does. Then impulses at the end of
-/// the step do what can be done.
+/// False if rows that contradict each other ask for what no joint does, or have asked for it: a
+/// body that cannot yield gives its partner any energy. Then impulses at the end of the step do
+/// what can be done.
 bool JointForces::isBelievable() const noexcept {
   for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const RigidState& state = stateOf(bodies_[i]);
+    const double speed =
+        std::max(state.v_W.squaredNorm(), movers_[i].radius_squared * state.w_W.squaredNorm());
+    if (!(speed < kMostSpeed * kMostSpeed)) return false;
     Six held = x_[i];
     held.addScaled(-1.0, pushed_[i]);
     const PlainVec a = movers_[i].roots.linear(held), alpha = movers_[i].roots.angular(held);
