@@ -100,7 +100,8 @@ void ContactMemory::shiftOrigin(const Vec3& offset_W) noexcept {
 
 /// A force that changes evenly moves a body by h^3 / 12 of its rate less than its mean does, and
 /// what the body leans on by as much.
-void ContactMemory::hold(const States& before, double h, std::vector<HeldWrench>& wrenches) noexcept {
+void ContactMemory::hold(const States& before, double h,
+                         std::vector<HeldWrench>& wrenches) noexcept {
   const double half = 0.5 * h;
   const std::vector<Known>& all = trial();
   held_.resize(all.size());

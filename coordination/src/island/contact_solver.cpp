@@ -22,8 +22,8 @@ constexpr double kSmallResidual = 1e-10;
 /// Change of a velocity with which iteration is lost [m/s]. Should it come back, speeds would be
 /// off by its rounding.
 constexpr double kLost = 1e4;
-/// Bodies that were slower than v, and points too, are thrown if they get faster than
-/// `kMostFromRest` + `kMostGain` v. [m/s]
+/// Bodies that would be slower than v without contact, and points too, are thrown if they get
+/// faster than `kMostFromRest` + `kMostGain` v. [m/s]
 constexpr double kMostFromRest = 1.0, kMostGain = 3.0;
 /// A new point that opens slower is taken as closed at first [m/s].
 constexpr double kTogether = 1e-3;
@@ -85,7 +85,6 @@ bool ContactSolver::solve(RigidRow* const* rows, std::size_t row_count, RigidMov
 /// Begins with the impulses and modes of the rows, and their velocities.
 void ContactSolver::setUp() noexcept {
   points_.assign(rows_.size(), PointLaw());
-  fastest_slip_ = 0.0;
   J_.resize(rows_.size());
   point_of_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -234,8 +233,6 @@ void ContactSolver::setUpPoint(std::size_t index) noexcept {
   law.setStiffness(J, kStiffness);
   law.friction = row.friction;
   law.u = {row.velocityAlong(0), row.velocityAlong(1), row.velocityAlong(2)};
-  fastest_slip_ =
-      std::max({fastest_slip_, std::abs(law.u.n), std::abs(law.u.s), std::abs(law.u.t)});
   law.u.n -= row.wanted;
   law.held = row.held;
   law.P0 = row.impulse;
@@ -428,20 +425,38 @@ double ContactSolver::measureHoldSlip() const noexcept {
   return most;
 }
 
-/// True if bodies get much faster than anything was. A jam that gives way by a small angle has such
-/// an answer, with forces of any size: it is exact, and no body is that rigid.
-bool ContactSolver::isThrow() const noexcept {
-  const auto squareOf = [](const RigidMover& mover, const PlainVec& v, const PlainVec& w) {
+/// True if bodies get much faster than anything would be without contact. A jam that gives way by a
+/// small angle has such an answer, with forces of any size: it is exact, and no body is that rigid.
+bool ContactSolver::isThrow() noexcept {
+  const auto squareOf = [&](std::size_t body, const Six& change) {
+    const RigidMover& mover = *bodies_[body];
+    const PlainVec v = mover.v + mover.roots.linear(change);
+    const PlainVec w = mover.w + mover.roots.angular(change);
     return std::max(dot(v, v), mover.radius_squared * dot(w, w));
   };
-  double before = fastest_slip_ * fastest_slip_, after = 0.0;
+  double after = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) after = std::max(after, squareOf(i, x_[i]));
+  if (after <= kMostFromRest * kMostFromRest) return false;
+
+  // From the answer back to no impulse at all.
+  for (std::size_t i = 0; i < bodies_.size(); ++i) dx_[i] = x_[i].scaled(-1.0);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    addPush(J_[i], RigidRow::Local() - points_[i].held);
+  for (std::size_t i = 0; i < hold_laws_.size(); ++i)
+    addPush(J_[firstHold() + i], RigidRow::Local() - hold_laws_[i].held());
+  double before = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const RigidMover& mover = *bodies_[i];
-    before = std::max(before, squareOf(mover, mover.v, mover.w));
-    after = std::max(after, squareOf(mover, mover.v + mover.roots.linear(x_[i]),
-                                     mover.w + mover.roots.angular(x_[i])));
+    Six change = x_[i];
+    change.add(dx_[i]);
+    before = std::max(before, squareOf(i, change));
   }
-  const double most = kMostFromRest + kMostGain * std::sqrt(before);
+  double slip = 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    RigidRow::Local u = points_[i].u;
+    addMotion(J_[i], u);
+    slip = std::max({slip, std::abs(u.n + rows_[i]->wanted), std::abs(u.s), std::abs(u.t)});
+  }
+  const double most = kMostFromRest + kMostGain * std::max(slip, std::sqrt(before));
   return after > most * most;
 }
 

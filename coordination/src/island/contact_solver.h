@@ -84,7 +84,7 @@ class ContactSolver {
   [[nodiscard]] double measureSlip() const noexcept;
   [[nodiscard]] double measureHoldSlip() const noexcept;
   void addMotions() noexcept;
-  [[nodiscard]] bool isThrow() const noexcept;
+  [[nodiscard]] bool isThrow() noexcept;
   void keepAnswer() noexcept;
   void takeAnswer() noexcept;
   void finish() noexcept;
@@ -97,7 +97,6 @@ class ContactSolver {
   std::vector<TwistLaw> twists_;       ///< by twist
   std::vector<JointHold*> holds_;
   std::vector<HoldLaw> hold_laws_;
-  double fastest_slip_ = 0.0;  ///< of a point before the solution [m/s]
   bool has_answer_ = false;
   std::vector<PointLaw> answer_;  ///< nearly settled
   std::vector<TwistLaw> twist_answer_;

@@ -47,6 +47,12 @@ bool HoldLaw::leaveMotorsOut() noexcept {
   return has_changed;
 }
 
+RigidRow::Local HoldLaw::held() const noexcept {
+  double held[3] = {};
+  for (int i = 0; i < count; ++i) held[i] = hold[i]->held;
+  return {held[0], held[1], held[2]};
+}
+
 RigidRow::Local HoldLaw::missing() const noexcept {
   double change[3] = {};
   for (int i = 0; i < count; ++i) change[i] = P[i] - hold[i]->held;

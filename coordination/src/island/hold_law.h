@@ -36,7 +36,8 @@ struct HoldLaw {
   }
   /// For positions, of which motors are no matter. True if D has changed.
   bool leaveMotorsOut() noexcept;
-  /// Impulses that the velocities lack.
+  /// Impulses that the velocities had before, and those that they lack.
+  [[nodiscard]] RigidRow::Local held() const noexcept;
   [[nodiscard]] RigidRow::Local missing() const noexcept;
   /// Largest speed along a row that keeps its speed [m/s].
   [[nodiscard]] double slip() const noexcept;

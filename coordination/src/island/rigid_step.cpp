@@ -304,11 +304,11 @@ void RigidStep::takeBackGone(const States& after, double h) noexcept {
     moved.shift = moved.shift + (0.5 * h) * dv;
     moved.turn = moved.turn + (0.5 * h) * dw;
   };
-  memory_.visitGone([&](BodyIndex a, BodyIndex b, const PlainVec& p_W, const PlainVec& f_W,
-                        const PlainVec& t_W) {
-    push(a, p_W, -h * f_W, -h * t_W);
-    if (b != kStanding) push(b, p_W, h * f_W, h * t_W);
-  });
+  memory_.visitGone(
+      [&](BodyIndex a, BodyIndex b, const PlainVec& p_W, const PlainVec& f_W, const PlainVec& t_W) {
+        push(a, p_W, -h * f_W, -h * t_W);
+        if (b != kStanding) push(b, p_W, h * f_W, h * t_W);
+      });
 }
 
 /// Solves for forces over the step, without impacts.
