@@ -41,15 +41,16 @@ TEST(GuestBench, HardlyAnythingBreaks) {
 
 TEST(GuestBench, WorldsThatBrokeAreGood) {
   constexpr std::uint64_t kBroke[][2] = {
-      {31337, 1177},     // a pinned body got a velocity, and pulled its peer's copy
-      {777001, 13360},   // the same
-      {8001, 134},       // a body moves along locked axes, and is the motor of a joint
-      {6000, 1948},      // the same
-      {777001, 15235},   // the same
-      {7771, 6734},      // Bullet lets a box through triangles, or not, by the phase of its steps
-      {20261129, 3103},  // Bullet pushes a capsule out of a wedge in any direction
-      {20261130, 6383},  // a joint between bodies that must go apart gave them any energy
-      {20261130, 15050}  // a floor came back with our filters between two steps
+      {31337, 1177},      // a pinned body got a velocity, and pulled its peer's copy
+      {777001, 13360},    // the same
+      {8001, 134},        // a body moves along locked axes, and is the motor of a joint
+      {6000, 1948},       // the same
+      {777001, 15235},    // the same
+      {7771, 6734},       // Bullet lets a box through triangles, or not, by the phase of its steps
+      {20261129, 3103},   // Bullet pushes a capsule out of a wedge in any direction
+      {20261130, 6383},   // a joint between bodies that must go apart gave them any energy
+      {20261130, 15050},  // a floor came back with our filters between two steps
+      {31337, 3020}       // a body that the island took anew had lost its joint
   };
   for (const auto& [seed, index] : kBroke) {
     const GuestOutcome outcome = runGuestCase(drawGuestCase(seed, index));

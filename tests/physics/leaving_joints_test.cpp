@@ -71,6 +71,24 @@ struct ThreeLinks : FloatingHost {
   }
 };
 
+// The island gives a body back whose shape changes, and takes it anew with its joints.
+TEST(HostJoints, ABodyThatIsTakenAnewStaysInItsJoint) {
+  FloatingHost host;
+  for (int i = 0; i < 2; ++i) host.addLink(Vec3(i * kLength, 0.0, 0.0));
+  btRigidBody &first = *host.links[0], &second = *host.links[1];
+  host.join<btPoint2PointConstraint>(first, second, toBullet(kRight), toBullet(kLeft));
+  host.share(first);
+  host.site->share(second);
+  host.run(10);
+  second.getCollisionShape()->setMargin(btScalar(0.002));
+  host.run(2);
+  second.setLinearVelocity(btVector3(btScalar(0.5), 0, btScalar(0.5)));
+  for (int i = 0; i < 30; ++i) {
+    host.run(1);
+    ASSERT_LT(host.gap(first, kRight, second, kLeft), byWidth(1e-6, 1e-4)) << i;
+  }
+}
+
 class LeavingLink : public ::testing::TestWithParam<std::size_t> {};
 // The first is shared, the second a neighbour.
 INSTANTIATE_TEST_SUITE_P(HostJoints, LeavingLink, ::testing::Values(0u, 1u));
