@@ -122,7 +122,6 @@ struct Island::Impl {
       wrenches[b] = {};
     }
     const auto addAll = [&](Touch touch) {
-      if (only != kStanding && touch.sphere != only && touch.other != only) return;
       if (!couldMeet(model, touch, states, 0.0)) return;
       recall(model, touch, 0.5 * model.settings.haptic_period);
       const auto add = [&](const Touch& one) {
@@ -135,8 +134,9 @@ struct Island::Impl {
       else
         add(touch);
     };
-    forEachTouch(model, addAll,
-                 [&](const Touch& whole) { return couldMeetAnyPart(model, whole, states, 0.0); });
+    forEachTouch(
+        model, addAll,
+        [&](const Touch& whole) { return couldMeetAnyPart(model, whole, states, 0.0); }, only);
     for (const int g : model.present_grips) addPull(model.grips[g]);
   }
 

@@ -57,9 +57,10 @@ JointForces::JointForces(std::size_t body_count, std::size_t max_joints)
 void JointForces::choose(const IslandModel& model, const std::vector<char>& moved) noexcept {
   joints_.clear();
   ends_.clear();
+  bodies_.clear();
   source_ = model.joints;
   model_ = &model;
-  if (!source_ || at_.empty()) return;
+  if (!source_ || at_.empty() || source_->joints().empty()) return;
   std::fill(is_end_.begin(), is_end_.end(), char{0});
   std::copy(moved.begin(), moved.end(), moved_.begin());
   const auto isMoved = [&](BodyIndex body) {

@@ -60,6 +60,8 @@ RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity, std::
 }
 
 void RigidStep::forget() noexcept {
+  if (!knows_) return;
+  knows_ = false;
   memory_.forget();
   allowance_.forget();
   for (HeldWrench& held : held_) held = {};
@@ -74,6 +76,7 @@ void RigidStep::begin() noexcept {
 }
 
 void RigidStep::holdForces(const States& before, double h, bool may_repeat) noexcept {
+  knows_ = true;
   for (HeldWrench& held : held_) held = {};
   if (is_let_go_) memory_.forgetForces();
   if (is_let_go_ || !may_repeat) return memory_.letGo();

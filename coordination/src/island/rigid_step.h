@@ -131,6 +131,7 @@ class RigidStep {
   ContactMemory memory_;
   ContactSolver solver_;
   OverlapAllowance allowance_, allowance_before_;
+  bool knows_ = false;  ///< something of a last step
   bool is_done_ = true;
   bool is_let_go_ = false;  ///< what was held threw a body: this step holds nothing
   int times_learned_ = 0;   ///< tries of this step with forces of its own

@@ -152,8 +152,13 @@ inline constexpr auto kAllCompounds = [](const Touch&) { return true; };
 
 /// Calls `visit` with every possible touch of present bodies: pairs of bodies, and spheres with
 /// slots and obstacles. Meshes stay whole. `takes(whole)` tells whether a compound's parts matter.
+/// With `only` just the touches of that body.
 template <typename Visit, typename Takes = decltype(kAllCompounds)>
-void forEachTouch(const IslandModel& model, Visit visit, Takes takes = kAllCompounds) {
+void forEachTouch(const IslandModel& model, Visit visit, Takes takes = kAllCompounds,
+                  BodyIndex only = kStanding) {
+  const auto isMeant = [&](BodyIndex a, BodyIndex b) {
+    return only == kStanding || a == only || b == only;
+  };
   const auto show = [&](Touch&& touch) {
     if (hasParts(model, touch)) [[unlikely]] {
       if (takes(touch)) forEachPart(model, touch, visit);
@@ -163,17 +168,18 @@ void forEachTouch(const IslandModel& model, Visit visit, Takes takes = kAllCompo
     visit(touch);
   };
   for (const IslandContact& pair : model.present_contacts)
-    show({pair.sphere, pair.other, nullptr,
-          computeShare(pair.gains, model.contactShare(pair.sphere, pair.other))});
+    if (isMeant(pair.sphere, pair.other))
+      show({pair.sphere, pair.other, nullptr,
+            computeShare(pair.gains, model.contactShare(pair.sphere, pair.other))});
   for (const BodyIndex b : model.present) {
     if (!model.bodies[b].settings.feels_obstacles || !model.bodies[b].isTouchable()) continue;
     const CouplerGains gains =
         computeShare(model.settings.obstacle_contact, model.bodies[b].contact_share);
     for (BodyIndex slot : model.slots)
-      if (model.bodies[slot].is_active && model.bodies[slot].settings.touches_spheres &&
-          model.letsMeet(b, slot))
+      if (isMeant(b, slot) && model.bodies[slot].is_active &&
+          model.bodies[slot].settings.touches_spheres && model.letsMeet(b, slot))
         show({b, slot, nullptr, gains});
-    if (!model.obstacles) continue;
+    if (!model.obstacles || !isMeant(b, b)) continue;
     const CollisionFilter& filter = model.bodies[b].settings.filter;
     for (const Obstacle& obstacle : *model.obstacles)
       if (filter.meets(obstacle.filter)) show({b, b, &obstacle, gains});
