@@ -57,6 +57,24 @@ TEST(HardContact, APainleveRodStaysFiniteAndGainsNoEnergy) {
       }
 }
 
+// One corner alone would turn it out of its plane, though the other is nanometres away.
+TEST(HardContact, AnEdgeThatRoundingTiltsLandsWhole) {
+  const Vec3 half(0.02, 0.02, 0.02);
+  for (const double tilt : {0.0, 1e-9, 1e-8, 1e-7, 1e-6}) {
+    BoxScene scene;
+    const Quat edge(Eigen::AngleAxisd(0.5, Vec3::UnitY()));
+    const Quat roll(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
+    scene.add(half, 0.2, placeAbove(half, roll * edge, 1e-3));
+    scene.prepare();
+    for (int i = 0; i < 30; ++i) {
+      scene.advance();
+      const Vec3& w_W = scene.island.state(0).w_W;
+      ASSERT_LT(std::hypot(w_W.x(), w_W.z()), 1e-4 + 100.0 * tilt) << tilt << " tick " << i;
+    }
+    EXPECT_GT(std::abs(scene.island.state(0).w_W.y()), 1.0);
+  }
+}
+
 // Each impact of a rocking block takes the same share of its energy (Housner 1963):
 // w+ / w- = 1 - 3/2 sin^2 a, tan a = width / height.
 TEST(HardContact, ARockingBlockLosesHousnersShare) {

@@ -13,7 +13,8 @@ constexpr double kSlop = 1e-9;
 /// Gap of a known point that is closed without a velocity, and gap that need not be closed [m].
 /// Corners differ by rounding: to close each by a velocity would need several at once.
 constexpr double kSmallGap = 2e-6, kClosed = 1e-12;
-/// Gap of a new point that stands, by rounding of the finder: it is closed as a known one [m].
+/// Gap of a new point that stands, or strikes with another, by rounding: it is closed as a known
+/// one [m].
 constexpr double kRounding = 1e-7;
 /// Speed below which bodies stand on each other [m/s].
 constexpr double kStandSpeed = 1e-6;
@@ -241,19 +242,26 @@ void RigidStep::anchor(ContactPoint& point, const States& after, double h) noexc
 /// length at which the first of them does, by Newton's method.
 double RigidStep::findImpacts(double h) noexcept {
   double earliest = HUGE_VAL;
-  bool is_late = false;
+  bool is_late = false, has_struck = false;
+  const auto strikes = [](const ContactPoint& point) {
+    if (point.known >= 0 || point.row.normalVelocity() > -kImpactSpeed) return false;
+    // Else it stood there, and nothing was known of its force.
+    return point.at_start >= kImpactOverlap || point.opening <= -kImpactSpeed;
+  };
   for (ContactPoint& point : points_) {
-    const double u = point.row.normalVelocity();
-    if (point.known >= 0 || u > -kImpactSpeed) continue;
-    // It stood there, and nothing was known of its force.
-    if (point.at_start < kImpactOverlap && point.opening > -kImpactSpeed) continue;
-    const double time = (point.row.distance + kImpactOverlap) / -u;
+    if (!strikes(point)) continue;
+    const double time = (point.row.distance + kImpactOverlap) / -point.row.normalVelocity();
     point.is_impact = point.row.distance <= kSlop;
+    has_struck |= point.is_impact;
     // Overlap that was there before is no matter of this step.
     if (point.at_start < -2.0 * kImpactOverlap) continue;
     earliest = std::min(earliest, time);
     is_late |= point.row.distance < -2.0 * kImpactOverlap;
   }
+  // Corners of an edge that differ by rounding strike together: one alone would turn the body.
+  if (has_struck)
+    for (ContactPoint& point : points_)
+      point.is_impact |= strikes(point) && point.row.distance < kRounding;
   for (JointHold& hold : holds_) {
     const double u = hold.reach * hold.speed(), way = hold.reach * hold.row.way;
     const double at_start = hold.reach * hold.at_start;
