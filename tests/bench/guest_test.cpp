@@ -49,8 +49,10 @@ TEST(GuestBench, WorldsThatBrokeAreGood) {
       {7771, 6734},       // Bullet lets a box through triangles, or not, by the phase of its steps
       {20261129, 3103},   // Bullet pushes a capsule out of a wedge in any direction
       {20261130, 6383},   // a joint between bodies that must go apart gave them any energy
+      {20261130, 13059},  // a jam threw a body by what it had held before
       {20261130, 15050},  // a floor came back with our filters between two steps
-      {31337, 3020}       // a body that the island took anew had lost its joint
+      {31337, 3020},      // a body that the island took anew had lost its joint
+      {31337, 15442}      // a body that came back pinned got a gravity
   };
   for (const auto& [seed, index] : kBroke) {
     const GuestOutcome outcome = runGuestCase(drawGuestCase(seed, index));
