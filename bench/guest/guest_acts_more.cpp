@@ -69,6 +69,11 @@ void moveFrames(GuestWorld& world, Draw& draw) {
       setFrames(free, free.getFrameOffsetA(), free.getFrameOffsetB());
       break;
     }
+    case D6_SPRING_2_CONSTRAINT_TYPE: {
+      auto& free = static_cast<btGeneric6DofSpring2Constraint&>(joint);
+      setFrames(free, free.getFrameOffsetA(), free.getFrameOffsetB());
+      break;
+    }
     default:
       break;
   }
