@@ -140,6 +140,15 @@ TEST(GuestLeftovers, AParkedBodyGetsTheGravityThatItMissed) {
   EXPECT_NEAR(scene.fall(), -5.0, test::byWidth(1e-12, 1e-5));
 }
 
+TEST(GuestLeftovers, AParkedBodyKeepsAGravityOfItsOwn) {
+  Leftovers scene;
+  scene.rig.world.setGravity(btVector3(0, 0, -5));
+  scene.cube->setGravity(btVector3(0, 0, -3));
+  scene.run(0.1);
+  scene.site.reset();
+  EXPECT_NEAR(scene.fall(), -3.0, test::byWidth(1e-12, 1e-5));
+}
+
 TEST(GuestLeftovers, ABodyThatComesBackPinnedKeepsItsGravity) {
   Leftovers scene;
   scene.rig.world.removeRigidBody(scene.cube);

@@ -127,10 +127,11 @@ bool HapticBody::isUndisturbed() const noexcept {
          isSame(body_.getWorldTransform(), known_pose_) && BodyLook::at(body_) == known_look_;
 }
 
-/// A body that is pinned when it is added gets no gravity from its world, then or later.
+/// A body that is pinned when it is added gets no gravity from its world, then or later. One that
+/// the host gave a gravity meanwhile keeps it.
 bool HapticBody::hasMissedWorldGravity() const noexcept {
   return !is_stopped_ && hasWorldGravity() && !isSame(world_.getGravity(), known_world_gravity_) &&
-         !(body_.isStaticObject() && wasAddedAnew());
+         isSame(body_.getGravity(), known_gravity_) && !(body_.isStaticObject() && wasAddedAnew());
 }
 
 bool HapticBody::hasWorldGravity() const noexcept {
