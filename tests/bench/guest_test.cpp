@@ -52,7 +52,8 @@ TEST(GuestBench, WorldsThatBrokeAreGood) {
       {20261130, 13059},  // a jam threw a body by what it had held before
       {20261130, 15050},  // a floor came back with our filters between two steps
       {31337, 3020},      // a body that the island took anew had lost its joint
-      {31337, 15442}      // a body that came back pinned got a gravity
+      {31337, 15442},     // a body that came back pinned got a gravity
+      {424243, 3155}      // a body at rest lost a gravity of its own
   };
   for (const auto& [seed, index] : kBroke) {
     const GuestOutcome outcome = runGuestCase(drawGuestCase(seed, index));
