@@ -41,6 +41,10 @@ struct RigidMover {
   [[nodiscard]] PlainVec velocityAt(const PlainVec& arm) const noexcept {
     return v + cross(w, arm);
   }
+  /// Of its centre, or of its surface around that [m/s].
+  [[nodiscard]] double speed() const noexcept {
+    return std::sqrt(std::max(dot(v, v), radius_squared * dot(w, w)));
+  }
 };
 
 /// Normal and two tangents of a contact point, with the effect of an impulse along each on both
