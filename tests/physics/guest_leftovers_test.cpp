@@ -172,7 +172,7 @@ TEST(GuestLeftovers, AFloorThatWasAwayHoldsBodiesAgain) {
   EXPECT_GT(NeighbourScene::positionOf(*scene.cube).z(), 0.9 * NeighbourScene::kHalf);
 }
 
-/// All of it between two steps.
+/// All of this happens between two steps.
 TEST(GuestLeftovers, AFloorThatWasAwayWhileABodyWasUnsharedIgnoresNothing) {
   NeighbourScene scene(true);
   btRigidBody& floor = scene.addFloor();

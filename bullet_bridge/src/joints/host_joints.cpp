@@ -62,7 +62,7 @@ void HostJoints::findGone() noexcept {
     // Compares addresses first: it may have been deleted. The order hardly ever changes.
     int looked = 0;
     while (looked < count && host_.getConstraint(place % count) != joint.host) ++place, ++looked;
-    // One that has gone with a body stays so: look() takes it anew.
+    // A joint that went with a body stays gone: look() takes it anew.
     joint.is_gone |= looked == count || !joint.host->isEnabled() ||
                      &joint.host->getRigidBodyA() != joint.a ||
                      &joint.host->getRigidBodyB() != joint.b || moved_.isMoving(*joint.host);

@@ -17,7 +17,7 @@ class ContactFactor {
   /// Allocates. Factors of more than `most_kept` laws are used once.
   ContactFactor(std::size_t max_bodies, std::size_t most_kept);
 
-  /// Not near anything any more.
+  /// The factors are near nothing any more.
   void forget() noexcept { is_made_ = false; }
   /// True if the factors are of nearly this matrix. The Jacobians are those of make(), or near
   /// (GroupShape).

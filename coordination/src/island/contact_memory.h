@@ -106,7 +106,7 @@ class ContactMemory {
     PlainVec f_learned_W, t_learned_W;  ///< [N, N m]
     Force last;
   };
-  /// What is held of a known point, at the middle of the step.
+  /// A known point is held so, at the middle of the step.
   struct Held {
     PlainVec f_W, t_W, p_W, n_W;
     bool is_taken = false;  ///< the point is there at the end of the step

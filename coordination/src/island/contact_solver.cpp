@@ -392,7 +392,7 @@ double ContactSolver::measureLargest(const std::vector<Six>& changes) const noex
     const RigidMover& mover = *bodies_[i];
     const PlainVec dv = mover.roots.linear(changes[i]);
     const PlainVec dw = mover.roots.angular(changes[i]);
-    const double square = std::max(dot(dv, dv), mover.radius_squared * dot(dw, dw));
+    const double square = mover.squareOf(dv, dw);
     if (!(square <= most)) most = square;
   }
   return std::sqrt(most);
@@ -428,28 +428,29 @@ double ContactSolver::measureHoldSlip() const noexcept {
 /// True if bodies get much faster than anything would be without contact. A jam that gives way by a
 /// small angle has such an answer, with forces of any size: it is exact, and no body is that rigid.
 bool ContactSolver::isThrow() noexcept {
-  const auto squareOf = [&](std::size_t body, const Six& change) {
-    const RigidMover& mover = *bodies_[body];
-    const PlainVec v = mover.v + mover.roots.linear(change);
-    const PlainVec w = mover.w + mover.roots.angular(change);
-    return std::max(dot(v, v), mover.radius_squared * dot(w, w));
+  const auto measureFastest = [&](const std::vector<Six>& changes) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const RigidMover& mover = *bodies_[i];
+      most = std::max(most, mover.squareOf(mover.v + mover.roots.linear(changes[i]),
+                                           mover.w + mover.roots.angular(changes[i])));
+    }
+    return most;
   };
-  double after = 0.0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) after = std::max(after, squareOf(i, x_[i]));
+  const double after = measureFastest(x_);
   if (after <= kMostFromRest * kMostFromRest) return false;
 
-  // From the answer back to no impulse at all.
-  for (std::size_t i = 0; i < bodies_.size(); ++i) dx_[i] = x_[i].scaled(-1.0);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    addPush(J_[i], RigidRow::Local() - points_[i].held);
+  // What is held goes, too.
+  const RigidRow::Local none;
+  for (Six& dx : dx_) dx.setZero();
+  for (std::size_t i = 0; i < points_.size(); ++i) addPush(J_[i], none - points_[i].held);
+  for (std::size_t i = 0; i < twists_.size(); ++i)
+    addPush(J_[points_.size() + i], none - twists_[i].held);
   for (std::size_t i = 0; i < hold_laws_.size(); ++i)
-    addPush(J_[firstHold() + i], RigidRow::Local() - hold_laws_[i].held());
-  double before = 0.0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Six change = x_[i];
-    change.add(dx_[i]);
-    before = std::max(before, squareOf(i, change));
-  }
+    addPush(J_[firstHold() + i], none - hold_laws_[i].held());
+  const double before = measureFastest(dx_);
+  // Points have the speeds of the answer.
+  for (std::size_t i = 0; i < dx_.size(); ++i) dx_[i].addScaled(-1.0, x_[i]);
   double slip = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     RigidRow::Local u = points_[i].u;

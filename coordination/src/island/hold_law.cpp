@@ -54,9 +54,7 @@ RigidRow::Local HoldLaw::held() const noexcept {
 }
 
 RigidRow::Local HoldLaw::missing() const noexcept {
-  double change[3] = {};
-  for (int i = 0; i < count; ++i) change[i] = P[i] - hold[i]->held;
-  return {change[0], change[1], change[2]};
+  return RigidRow::Local{P[0], P[1], P[2]} - held();
 }
 
 double HoldLaw::slip() const noexcept {

@@ -89,7 +89,6 @@ void JointForces::choose(const IslandModel& model, const std::vector<char>& move
 /// Bodies that are joined are near each other: each chain from one of its ends on.
 void JointForces::orderBodies() noexcept {
   std::fill(block_of_.begin(), block_of_.end(), -1);
-  bodies_.clear();
   const auto isFree = [&](BodyIndex body) {
     return body != kStanding && moved_[static_cast<std::size_t>(body)] &&
            block_of_[static_cast<std::size_t>(body)] < 0;

@@ -16,6 +16,7 @@ struct RigidMover {
   PlainVec v, w;            ///< [m/s], [rad/s], in W
   PlainVec shift, turn;     ///< change of pose by this step's impulses [m], [rad]
   PlainVec v_last, w_last;  ///< velocities at the last measurement
+  PlainVec v_held, w_held;  ///< velocities before sweeps
   double inverse_mass = 0.0, radius_squared = 0.0;
   PlainVec inverse_mass_W;                   ///< along the axes of W: with linear factors
   bool is_free = true;                       ///< no linear factors
@@ -41,9 +42,10 @@ struct RigidMover {
   [[nodiscard]] PlainVec velocityAt(const PlainVec& arm) const noexcept {
     return v + cross(w, arm);
   }
-  /// Of its centre, or of its surface around that [m/s].
-  [[nodiscard]] double speed() const noexcept {
-    return std::sqrt(std::max(dot(v, v), radius_squared * dot(w, w)));
+  /// Square of the greater speed that velocities give it: of its centre, and of its surface around
+  /// that [m^2/s^2].
+  [[nodiscard]] double squareOf(const PlainVec& linear, const PlainVec& angular) const noexcept {
+    return std::max(dot(linear, linear), radius_squared * dot(angular, angular));
   }
 };
 

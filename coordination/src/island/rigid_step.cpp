@@ -37,9 +37,6 @@ constexpr double kAllowedError = 3e-8;
 /// Change of velocity by held forces, and of contacts against it, that is no error of foresight
 /// [m/s].
 constexpr double kThrown = 5.0;
-/// Speed that sweeps may give, or this multiple of what bodies had [m/s]. Rows that are nearly
-/// singular, as of a joint between bodies that must go apart, ask for any impulse.
-constexpr double kMostBySweeps = 100.0, kMostGainBySweeps = 3.0;
 /// Rows of a joint, on average.
 constexpr std::size_t kMostHolds = 8;
 
@@ -59,7 +56,6 @@ RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity, std::
   points_.reserve(contact_capacity);
   gaps_.reserve(contact_capacity);
   ways_.reserve(max_joints * kMostHolds);
-  before_sweeps_.reserve(body_count);
   holds_.reserve(max_joints * kMostHolds);
   if (max_joints > 0) joint_rows_.reserve(static_cast<std::size_t>(kMostJointRows));
 }
@@ -360,7 +356,7 @@ double RigidStep::measureChange(const States& after) const noexcept {
     const RigidMover& moved = movers_[b];
     if (!moved.ready) continue;
     const PlainVec dv = moved.v - PlainVec(after[b].v_W), dw = moved.w - PlainVec(after[b].w_W);
-    most = std::max({most, dot(dv, dv), moved.radius_squared * dot(dw, dw)});
+    most = std::max(most, moved.squareOf(dv, dw));
   }
   return std::sqrt(most);
 }
@@ -484,31 +480,8 @@ bool RigidStep::solve(const ContactGroups::Group& group) noexcept {
   if (solver_.solve(group.rows, group.row_count, group.movers, group.mover_count, group.holds,
                     group.hold_count))
     return true;
-  double most = kMostBySweeps / kMostGainBySweeps;
-  before_sweeps_.clear();
-  for (std::size_t i = 0; i < group.mover_count; ++i) {
-    before_sweeps_.push_back({group.movers[i]->v, group.movers[i]->w});
-    most = std::max(most, group.movers[i]->speed());
-  }
   relaxation_count_ += sweepImpulses(group);
-  const bool is_bounded = std::all_of(
-      group.movers, group.movers + group.mover_count,
-      [&](const RigidMover* mover) { return mover->speed() <= kMostGainBySweeps * most; });
-  if (!is_bounded) takeBackSweeps(group);
   return false;
-}
-
-/// Leaves the group what it held.
-void RigidStep::takeBackSweeps(const ContactGroups::Group& group) noexcept {
-  for (std::size_t i = 0; i < group.mover_count; ++i) {
-    group.movers[i]->v = before_sweeps_[i].first;
-    group.movers[i]->w = before_sweeps_[i].second;
-  }
-  for (std::size_t i = 0; i < group.row_count; ++i) {
-    group.rows[i]->impulse = group.rows[i]->held;
-    group.rows[i]->twist = group.rows[i]->twist_held;
-  }
-  for (std::size_t i = 0; i < group.hold_count; ++i) group.holds[i]->impulse = group.holds[i]->held;
 }
 
 void RigidStep::moveOutOfOverlap(double h) noexcept {

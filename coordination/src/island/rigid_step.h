@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "island/contact_finder.h"
@@ -115,7 +114,6 @@ class RigidStep {
   void closeGaps(const ContactGroups::Group& group, double h) noexcept;
   void solveImpacts() noexcept;
   [[nodiscard]] bool solve(const ContactGroups::Group& group) noexcept;
-  void takeBackSweeps(const ContactGroups::Group& group) noexcept;
   void moveOutOfOverlap(double h) noexcept;
   void writeBack(States& after) noexcept;
 
@@ -123,10 +121,9 @@ class RigidStep {
   RigidMover standing_;
   std::vector<RigidContact> contacts_;
   std::vector<ContactPoint> points_;
-  std::vector<HeldWrench> held_;                              ///< by body
-  std::vector<RigidRow::Local> gaps_;                         ///< working memory of closeGaps()
-  std::vector<double> ways_;                                  ///< the same
-  std::vector<std::pair<PlainVec, PlainVec>> before_sweeps_;  ///< velocities of solve()
+  std::vector<HeldWrench> held_;       ///< by body
+  std::vector<RigidRow::Local> gaps_;  ///< working memory of closeGaps()
+  std::vector<double> ways_;           ///< the same
   JointForces* joints_;
   std::vector<JointHold> holds_;
   std::vector<JointRow> joint_rows_;  ///< working memory of setUpJoints()

@@ -152,7 +152,7 @@ inline constexpr auto kAllCompounds = [](const Touch&) { return true; };
 
 /// Calls `visit` with every possible touch of present bodies: pairs of bodies, and spheres with
 /// slots and obstacles. Meshes stay whole. `takes(whole)` tells whether a compound's parts matter.
-/// With `only` just the touches of that body.
+/// With `only` it visits the touches of that body alone.
 template <typename Visit, typename Takes = decltype(kAllCompounds)>
 void forEachTouch(const IslandModel& model, Visit visit, Takes takes = kAllCompounds,
                   BodyIndex only = kStanding) {
