@@ -53,7 +53,10 @@ TEST(GuestBench, WorldsThatBrokeAreGood) {
       {20261130, 15050},  // a floor came back with our filters between two steps
       {31337, 3020},      // a body that the island took anew had lost its joint
       {31337, 15442},     // a body that came back pinned got a gravity
-      {424243, 3155}      // a body at rest lost a gravity of its own
+      {424243, 3155},     // a body at rest lost a gravity of its own
+      {20261130, 2029},   // a torque turned a joined body for a host step as no joint allows
+      {31337, 16955},     // the same
+      {424243, 18084}     // the same
   };
   for (const auto& [seed, index] : kBroke) {
     const GuestOutcome outcome = runGuestCase(drawGuestCase(seed, index));

@@ -85,6 +85,36 @@ TEST_P(JointsAtRates, ALoadedJointDoesNotSag) {
   EXPECT_LT(JointHost::gap(link, kRight, Vec3(kLength, 0.0, 0.0)), byWidth(1e-9, 1e-6));
 }
 
+// Ticks of the host's step have run when its torque comes: its way since is that of the joint.
+TEST_P(JointsAtRates, WhereTheCallerTicksAPinAnswersAHostsBlowAtOnce) {
+  JointHost host;
+  btRigidBody& first = host.addLink(Vec3(0.5 * kLength, 0.0, 0.0));
+  btRigidBody& last = host.addLink(Vec3(1.5 * kLength, 0.0, 0.0), 0.1 * kMass);
+  const btVector3 axis(0, 1, 0);
+  host.join<btHingeConstraint>(first, toBullet(kLeft), axis);
+  host.join<btHingeConstraint>(last, first, toBullet(kLeft), toBullet(kRight), axis, axis);
+  SiteSettings settings;
+  settings.tick_source = TickSource::kCaller;
+  settings.host_step = 1.0 / GetParam();
+  host.share(first, settings);
+  double fastest = 0.0, off = 0.0;
+  int ticks = 0;
+  for (int i = 0; i < static_cast<int>(0.5 * GetParam()); ++i) {
+    for (; ticks * 1e-3 < (i + 1) / GetParam() - 1e-9; ++ticks) host.site->tick(ticks * 1e-3);
+    // The pins take all of it. One that changes acts as a blow.
+    last.applyTorque(btVector3(btScalar(0.3), 0, btScalar(i % 2 == 0 ? 1 : -1)));
+    host.rig.step(1.0 / GetParam());
+    for (const btRigidBody* link : host.links) {
+      const btVector3& w = link->getAngularVelocity();
+      fastest = std::max(fastest, static_cast<double>(std::hypot(w.x(), w.z())));
+    }
+    off = std::max({off, JointHost::gap(first, kLeft, Vec3::Zero()),
+                    JointHost::gap(last, kLeft, first, kRight)});
+  }
+  EXPECT_LT(fastest, byWidth(1e-6, 1e-3));
+  EXPECT_LT(off, byWidth(1e-6, 1e-5));
+}
+
 TEST_P(JointsAtRates, ADoorRestsAtItsStop) {
   JointHost host;
   btRigidBody& link = host.addLink(Vec3(0.5 * kLength, 0.0, 0.0));

@@ -69,6 +69,18 @@ void Island::applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& ang
   b.state.w_W += q * inverse_inertia_B.cwiseProduct(q.conjugate() * angular_W);
 }
 
+void Island::answerJoints() noexcept {
+  IslandModel& model = impl_->model;
+  if (!impl_->prepared || !model.joints) return;
+  impl_->spatial->answerJoints(model, impl_->states);
+  for (std::size_t b = 0; b < impl_->states.size(); ++b) {
+    RigidState& state = model.bodies[b].state;
+    if (isSame(state, impl_->states[b])) continue;
+    state = impl_->states[b];
+    impl_->disturb(static_cast<BodyIndex>(b));
+  }
+}
+
 void Island::setCouplerShare(CouplerIndex coupler, double share) noexcept {
   TANDEM_ASSERT(impl_->prepared && share >= 0.0 && share <= 1.0);
   ModelCoupler& c = impl_->model.couplers[coupler];

@@ -205,6 +205,9 @@ class Island {
   /// Adds linear and angular momentum at once, whatever the factors: v += J / m, w += I^-1 L
   /// [N s, N m s].
   void applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& angular_W) noexcept;
+  /// Joints answer the impulses since the last advance now; else they do in the next one.
+  /// Velocities change, poses do not.
+  void answerJoints() noexcept;
   /// Scales a coupler's original gains, linear and angular, by a share in 0 to 1, until set again.
   /// A share of 1 changes nothing, to the bit.
   void setCouplerShare(CouplerIndex coupler, double share) noexcept;

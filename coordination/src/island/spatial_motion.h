@@ -41,6 +41,10 @@ class SpatialMotion {
   /// Moves the bodies by `dt` [s]. Returns true if all seem at rest now. Real-time safe.
   bool advance(IslandModel& model, double dt, IslandCounters& counters) noexcept;
 
+  /// Joints answer what something outside did to velocities since the last advance. `states`: of
+  /// all bodies, then. Real-time safe.
+  void answerJoints(const IslandModel& model, States& states) noexcept;
+
   /// The model's positions were shifted. Real-time safe.
   void shiftOrigin(const Vec3& offset_W) noexcept {
     rigid_step_.shiftOrigin(offset_W);

@@ -32,6 +32,16 @@ void SpatialMotion::findJoined(const IslandModel& model) noexcept {
   }
 }
 
+void SpatialMotion::answerJoints(const IslandModel& model, States& states) noexcept {
+  for (std::size_t b = 0; b < states.size(); ++b) states[b] = model.bodies[b].state;
+  findJoined(model);
+  if (!were_joined_pushed_) return;
+  for (std::size_t b = 0; b < states.size(); ++b) together_[b] = model.bodies[b].isDynamic();
+  joints_.choose(model, together_);
+  rigid_step_.startAdvance();
+  rigid_step_.answerBlows(model, states);
+}
+
 /// Finds the bodies that may touch something rigid. Wakes those at rest that an awake one may
 /// touch.
 void SpatialMotion::lookAround(IslandModel& model) noexcept {

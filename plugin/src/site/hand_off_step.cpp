@@ -198,7 +198,11 @@ void HandOffStep::goOut(double dt) noexcept {
   site_.clock.endStep(dt);
   if (site_.surroundings.joints().tell(dt)) site_.island.wake();
   site_.surroundings.takeContacts();
-  site_.bodies.forEach([&](SiteBody& body) { receive(body, dt); });
+  site_.bodies.forEach([&](SiteBody& body) {
+    if (!body.step.was_parked) site_.forces.forgetLate(body);
+  });
+  site_.forces.takeReactions(dt);
+  site_.bodies.forEach([](SiteBody& body) { body.seen = body.step.end; });
   takePuts();
   site_.timeline.announceAfterNow(site_.clock.time() + dt, dt);
   if (!site_.ticksInHostStep()) site_.surroundings.steerDriven(false);
@@ -219,12 +223,6 @@ void HandOffStep::takePuts() noexcept {
     site_.timeline.put(object.body.index, object.body.step.put);
     site_.peers.finishPut(object);
   }
-}
-
-void HandOffStep::receive(SiteBody& body, double dt) noexcept {
-  if (!body.step.was_parked) site_.forces.forgetLate(body);
-  site_.forces.takeReaction(body, dt);
-  body.seen = body.step.end;
 }
 
 }  // namespace tandem

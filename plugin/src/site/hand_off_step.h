@@ -60,7 +60,6 @@ class HandOffStep final : public IslandStep {
   void findShares() noexcept;
   void takeMasses() noexcept;
   void goOut(double dt) noexcept;
-  void receive(SiteBody& body, double dt) noexcept;
   void takePuts() noexcept;
 
   double step_end_ = 0.0;  ///< of the host's present step [s]

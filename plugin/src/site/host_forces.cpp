@@ -75,27 +75,51 @@ PayWindow HostForces::findWindow(double dt, bool is_behind) const noexcept {
 void HostForces::pass(double dt, bool is_behind) noexcept {
   settle();
   const PayWindow window = findWindow(dt, is_behind);
-  const double rest = window.rest, pay_over = window.pay_over;
+  giveImpulses(dt);
   bodies_.forEach([&](SiteBody& body) {
-    if (!body.step.is_told) return;
-    const HostChange& change = body.step.change;
-    give(body, {change.impulse_W - dt * change.f_W, change.angular_impulse_W - dt * change.t_W});
-
-    HostLoad& load = body.load;
-    const Wrench even = takeEvenPart(body, dt);
-    load.told = {change.f_W, change.t_W};
-    giveAtStart(body, {dt * (change.f_W - even.f_W), dt * (change.t_W - even.t_W)});
-
-    load.owed.linear_W = dropRounding(load.owed.linear_W + dt * even.f_W);
-    load.owed.angular_W = dropRounding(load.owed.angular_W + dt * even.t_W);
-    load.f_host_W = even.f_W + (load.owed.linear_W - rest * even.f_W) / pay_over;
-    load.t_host_W = even.t_W + (load.owed.angular_W - rest * even.t_W) / pay_over;
-    load.f_gravity_W = body.step.f_gravity_W;
-    renew(body);
-    body.step.is_told = false;
+    body.step.gift = {};
+    if (body.step.is_told) takeForces(body, window);
+  });
+  giveGifts();
+  const HostChange none;
+  bodies_.forEach([&](SiteBody& body) {
+    if (!island_.body(body.index).is_rigid) return noteLate(body, body.step.gift);
+    if (hasChanged(body)) moveOn(body, none);
   });
   end_ = window.end + dt;
   are_on_ = true;
+}
+
+/// Impulses act now.
+void HostForces::giveImpulses(double dt) noexcept {
+  bodies_.forEach([&](SiteBody& body) {
+    const HostChange& change = body.step.change;
+    body.step.gift = {};
+    if (!body.step.is_told) return;
+    body.step.gift = {change.impulse_W - dt * change.f_W,
+                      change.angular_impulse_W - dt * change.t_W};
+  });
+  giveGifts();
+  bodies_.forEach([&](SiteBody& body) { noteLate(body, body.step.gift); });
+}
+
+/// Spreads what is even of the host's wrench over its present step. The rest is a gift at its
+/// start.
+void HostForces::takeForces(SiteBody& body, const PayWindow& window) noexcept {
+  const HostChange& change = body.step.change;
+  const double dt = window.dt;
+  HostLoad& load = body.load;
+  const Wrench even = takeEvenPart(body, dt);
+  load.told = {change.f_W, change.t_W};
+  body.step.gift = {dt * (change.f_W - even.f_W), dt * (change.t_W - even.t_W)};
+
+  load.owed.linear_W = dropRounding(load.owed.linear_W + dt * even.f_W);
+  load.owed.angular_W = dropRounding(load.owed.angular_W + dt * even.t_W);
+  load.f_host_W = even.f_W + (load.owed.linear_W - window.rest * even.f_W) / window.pay_over;
+  load.t_host_W = even.t_W + (load.owed.angular_W - window.rest * even.t_W) / window.pay_over;
+  load.f_gravity_W = body.step.f_gravity_W;
+  renew(body);
+  body.step.is_told = false;
 }
 
 /// Returns the part of the host's wrench that is spread over its present step of `dt` [s].
@@ -124,17 +148,43 @@ void HostForces::push(const SiteBody& body, const Momentum& momentum) noexcept {
 }
 
 void HostForces::give(SiteBody& body, const Momentum& momentum) noexcept {
-  if (momentum.isZero()) return;
   push(body, momentum);
-  if (timeline_.time() > clock_.time()) body.load.note({timeline_.time(), momentum});
+  noteLate(body, momentum);
 }
 
-/// Gives momentum, and `shift`, at the host's time. Ticks that have run since missed them.
-void HostForces::giveAtHostTime(SiteBody& body, const Momentum& momentum,
-                                const HostChange& shift) noexcept {
-  const RigidState before = island_.state(body.index);
-  push(body, momentum);
-  const RigidState after = island_.state(body.index);
+/// Gives all bodies their gifts. Joints answer at once, or the host would see for a step, and in
+/// the way since its time, what they do not allow.
+void HostForces::giveGifts() noexcept {
+  bool is_any = false;
+  bodies_.forEach([&](SiteBody& body) {
+    const Momentum& gift = body.step.gift;
+    body.step.before = island_.state(body.index);
+    is_any |= !gift.isZero();
+    island_.applyImpulse(body.index, gift.linear_W, gift.angular_W);
+  });
+  if (!is_any) return;
+  island_.answerJoints();
+  bodies_.forEach([&](SiteBody& body) {
+    if (body.step.gift.isZero()) return;
+    energy_.countImpulse(body.step.before, island_.state(body.index),
+                         undoFactors(island_.body(body.index), body.step.gift));
+  });
+}
+
+/// True if gifts, its own or another's through joints, changed the body's velocity.
+bool HostForces::hasChanged(const SiteBody& body) const noexcept {
+  const RigidState& after = island_.state(body.index);
+  return after.v_W != body.step.before.v_W || after.w_W != body.step.before.w_W;
+}
+
+void HostForces::noteLate(SiteBody& body, const Momentum& momentum) noexcept {
+  if (momentum.isZero() || timeline_.time() <= clock_.time()) return;
+  body.load.note({timeline_.time(), momentum});
+}
+
+/// Gifts, and `shift`, were given at the host's time: ticks that have run since missed them.
+void HostForces::moveOn(SiteBody& body, const HostChange& shift) noexcept {
+  const RigidState before = body.step.before, after = island_.state(body.index);
   const Vec3 dv_W = after.v_W - before.v_W, dw_W = after.w_W - before.w_W;
   const double since = std::max(0.0, timeline_.time() - clock_.time());
   island_.shift(body.index, shift.offset_W + since * dv_W,
@@ -160,26 +210,28 @@ void HostForces::giveAtHostTime(SiteBody& body, const Momentum& momentum,
   body.step.end = change(body.step.end, clock_.time());
 }
 
-/// Gives momentum at the start of the host's present step.
-void HostForces::giveAtStart(SiteBody& body, const Momentum& momentum) noexcept {
-  if (momentum.isZero()) return;
-  if (!island_.body(body.index).is_rigid) return give(body, momentum);
-  HostChange none;
-  giveAtHostTime(body, momentum, none);
+void HostForces::takeReactions(double dt) noexcept {
+  bodies_.forEach([](SiteBody& body) { body.step.gift = body.step.hit; });
+  giveGifts();
+  bodies_.forEach([&](SiteBody& body) {
+    HandOver& step = body.step;
+    if (!island_.body(body.index).is_rigid) {
+      // A proxy is led by springs, which a move would stretch.
+      step.shift = {};
+      return noteLate(body, step.gift);
+    }
+    // Bullet's solver acted when the host step ended.
+    step.shift.moved |= hasChanged(body);
+    if (step.shift.moved) moveOn(body, step.shift);
+  });
+  bodies_.forEach([&](SiteBody& body) {
+    if (island_.body(body.index).is_rigid) expect(body, dt);
+  });
 }
 
-/// Bullet's solver acted when the host step ended.
-void HostForces::takeReaction(SiteBody& body, double dt) noexcept {
+/// Goes on with what acted on a rigid body in the host step of `dt` that has ended.
+void HostForces::expect(SiteBody& body, double dt) noexcept {
   HandOver& step = body.step;
-  if (!island_.body(body.index).is_rigid) {
-    // A proxy is led by springs, which a move would stretch.
-    step.shift = {};
-    return give(body, step.hit);
-  }
-  if (!step.hit.isZero() || step.shift.moved) {
-    giveAtHostTime(body, step.hit, step.shift);
-    step.shift.moved = true;
-  }
   const bool was_none = body.load.foresight.isNone() && body.load.press.isNone();
   body.load.press.expect(dt, step.lasting_support);
   const Momentum kick = body.load.foresight.expect(timeline_.time(), dt, step.reaction);

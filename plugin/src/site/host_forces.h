@@ -38,9 +38,9 @@ class HostForces {
   void pass(double dt, bool is_behind) noexcept;
   /// Time over which forces of that step act from now on, and the ticks in which they are paid [s].
   [[nodiscard]] PayWindow findWindow(double dt, bool is_behind) const noexcept;
-  /// Takes what Bullet's solver did to a body in the host step of `dt` that has ended: momentum
-  /// that was not foreseen, the pose that it led to, and the force that goes on.
-  void takeReaction(SiteBody& body, double dt) noexcept;
+  /// Takes what Bullet's solver did to the bodies in the host step of `dt` that has ended: momentum
+  /// that was not foreseen, the poses that it led to, and the forces that go on.
+  void takeReactions(double dt) noexcept;
   /// Ends the force that goes on.
   void forgetForesight(SiteBody& body) noexcept;
   /// Momentum that was given for Bullet's solver in the host step up to `end` [s].
@@ -77,8 +77,13 @@ class HostForces {
   void end() noexcept;
   [[nodiscard]] Wrench takeEvenPart(SiteBody& body, double dt) const noexcept;
   void push(const SiteBody& body, const Momentum& momentum) noexcept;
-  void giveAtHostTime(SiteBody& body, const Momentum& momentum, const HostChange& shift) noexcept;
-  void giveAtStart(SiteBody& body, const Momentum& momentum) noexcept;
+  void giveImpulses(double dt) noexcept;
+  void takeForces(SiteBody& body, const PayWindow& window) noexcept;
+  void giveGifts() noexcept;
+  [[nodiscard]] bool hasChanged(const SiteBody& body) const noexcept;
+  void noteLate(SiteBody& body, const Momentum& momentum) noexcept;
+  void moveOn(SiteBody& body, const HostChange& shift) noexcept;
+  void expect(SiteBody& body, double dt) noexcept;
   void setWrench(BodyIndex body, const Vec3& f_W, const Vec3& t_W) noexcept;
 
   Island& island_;

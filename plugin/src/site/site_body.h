@@ -50,6 +50,9 @@ struct HandOver {
   HostChange change;
   Vec3 f_gravity_W = Vec3::Zero();
   bool is_stopped = false;  ///< the host has put it to sleep, at `end` from now on
+  // Given to the island.
+  Momentum gift;      ///< momentum at once
+  RigidState before;  ///< the body without it
   // Answered by the island.
   RigidState end;             ///< at the end of the step
   Foresight::Given foreseen;  ///< in the step, for Bullet's contacts and joints
