@@ -158,60 +158,111 @@ void ContactMemory::forgetForces() noexcept {
   }
 }
 
-/// Place of the nearest point of the same two bodies or surfaces that is free; -1: there is none.
-/// Points come pair by pair, and in much the same order as before.
-int ContactMemory::findNearest(const ContactPoint& point, double h) noexcept {
-  const RigidContact& contact = point.contact;
+/// Points of the last step of the two bodies or surfaces of `contact`. Points come pair by pair,
+/// and in much the same order as before.
+ContactMemory::Range ContactMemory::findPair(const RigidContact& contact) const noexcept {
   const std::vector<Known>& all = trial();
   const std::size_t count = all.size();
-  if (next_ >= count) next_ = 0;
-  const PlainVec p_W(contact.p_W), n_W(contact.n_W);
-  const auto isFree = [&](std::size_t i) {
-    return !held_[i].is_taken && dot(all[i].n_W, n_W) >= kSameNormal;
-  };
-  const auto expected = [&](const Known& known) {
-    return squareOf(known.p_W + h * known.v_W - p_W);
-  };
   const auto isOfPair = [&](std::size_t i) { return areOfOnePair(all[i], contact); };
-  // Where it is expected no other can be as near.
-  if (count > 0 && isOfPair(next_) && isFree(next_) && expected(all[next_]) < kCertain * kCertain)
-    return static_cast<int>(next_++);
-  std::size_t looked = 0, first = next_;
+  std::size_t first = next_ < count ? next_ : 0, looked = 0;
   if (first > 0 && isOfPair(first - 1)) --first;
   while (looked < count && !isOfPair(first)) first = (first + 1) % count, ++looked;
-  if (looked == count) return -1;
+  if (looked == count) return {};
+  std::size_t last = first + 1;
   while (first > 0 && isOfPair(first - 1)) --first;
-  int nearest = -1;
-  double least = kSamePoint * kSamePoint;
-  for (std::size_t i = first; i < count && isOfPair(i); ++i) {
-    if (!isFree(i)) continue;
-    const double way = std::min(expected(all[i]), squareOf(all[i].p_W - p_W));
-    if (way >= least) continue;
-    least = way;
-    nearest = static_cast<int>(i);
-  }
-  if (nearest >= 0) next_ = static_cast<std::size_t>(nearest) + 1;
-  return nearest;
+  while (last < count && isOfPair(last)) ++last;
+  return {first, last};
 }
 
+/// Square of the distance of a point to where that of the last step was expected [m^2].
+double ContactMemory::squareOff(const ContactPoint& point, std::size_t place,
+                                double h) const noexcept {
+  const Known& known = trial()[place];
+  return squareOf(known.p_W + h * known.v_W - PlainVec(point.contact.p_W));
+}
+
+bool ContactMemory::isFree(std::size_t place, const ContactPoint& point) const noexcept {
+  return !held_[place].is_taken &&
+         dot(trial()[place].n_W, PlainVec(point.contact.n_W)) >= kSameNormal;
+}
+
+/// Matches a point with the one of the last step that was expected here. False if there is none.
+bool ContactMemory::matchExpected(ContactPoint& point, double h) noexcept {
+  const auto isExpected = [&](std::size_t i) {
+    return isFree(i, point) && squareOff(point, i, h) < kCertain * kCertain;
+  };
+  const std::vector<Known>& all = trial();
+  const bool is_next =
+      next_ < all.size() && areOfOnePair(all[next_], point.contact) && isExpected(next_);
+  const Range pair = is_next ? Range{next_, next_ + 1} : findPair(point.contact);
+  for (std::size_t i = pair.first; i < pair.last; ++i) {
+    if (!is_next && !isExpected(i)) continue;
+    next_ = i + 1;
+    take(point, i, h);
+    return true;
+  }
+  return false;
+}
+
+/// Matches what is left of the points of a pair: those nearest to each other first.
+void ContactMemory::matchNearest(ContactPoint* first, ContactPoint* last, double h) noexcept {
+  const Range pair = findPair(first->contact);
+  for (;;) {
+    ContactPoint* nearest = nullptr;
+    double least = kSamePoint * kSamePoint;
+    std::size_t place = 0;
+    for (ContactPoint* point = first; point != last; ++point) {
+      if (point->known >= 0) continue;
+      for (std::size_t i = pair.first; i < pair.last; ++i) {
+        if (!isFree(i, *point)) continue;
+        const double stayed = squareOf(trial()[i].p_W - PlainVec(point->contact.p_W));
+        const double off = std::min(squareOff(*point, i, h), stayed);
+        if (off >= least) continue;
+        least = off;
+        nearest = point;
+        place = i;
+      }
+    }
+    if (!nearest) return;
+    take(*nearest, place, h);
+  }
+}
+
+/// A corner that is about to touch must not be taken for one that does, a step before.
 void ContactMemory::match(std::vector<ContactPoint>& points, double h) noexcept {
   next_ = 0;
+  bool are_all_known = true;
   for (ContactPoint& point : points) {
-    point.known = findNearest(point, h);
-    if (point.known < 0) continue;
-    const Known& known = knownOf(point);
-    Held& held = held_[static_cast<std::size_t>(point.known)];
-    held.is_taken = true;
-    const PlainVec n_W(point.contact.n_W);
-    const PlainVec& f_W = known.is_learned ? known.f_learned_W : known.last.f_W;
-    RigidRow& row = point.row;
-    row.held = row.toLocal(h * turnAlong(held.f_W, held.n_W, n_W));
-    row.impulse = row.toLocal(h * turnAlong(f_W, known.n_W, n_W));
-    row.impulse.n = std::max(0.0, row.impulse.n);
-    row.mode = point.mode_before = known.mode;
-    row.slide = row.toLocal(known.slide_W);
-    row.twist_held = row.twist = row.toLocal(h * held.t_W);
+    point.known = -1;
+    are_all_known &= matchExpected(point, h);
   }
+  if (are_all_known) return;
+  next_ = 0;
+  ContactPoint* const end = points.data() + points.size();
+  for (ContactPoint* first = points.data(); first != end;) {
+    ContactPoint* const last = std::find_if(first, end, [&](const ContactPoint& point) {
+      return !areOfOnePair(point.contact, first->contact);
+    });
+    matchNearest(first, last, h);
+    first = last;
+  }
+}
+
+/// Matches a point with one of the last step.
+void ContactMemory::take(ContactPoint& point, std::size_t place, double h) noexcept {
+  point.known = static_cast<int>(place);
+  const Known& known = knownOf(point);
+  Held& held = held_[place];
+  held.is_taken = true;
+  const PlainVec n_W(point.contact.n_W);
+  const PlainVec& f_W = known.is_learned ? known.f_learned_W : known.last.f_W;
+  RigidRow& row = point.row;
+  row.held = row.toLocal(h * turnAlong(held.f_W, held.n_W, n_W));
+  row.impulse = row.toLocal(h * turnAlong(f_W, known.n_W, n_W));
+  row.impulse.n = std::max(0.0, row.impulse.n);
+  row.mode = point.mode_before = known.mode;
+  row.slide = row.toLocal(known.slide_W);
+  row.twist_held = row.twist = row.toLocal(h * held.t_W);
 }
 
 /// Force that a known point was expected to have [N].

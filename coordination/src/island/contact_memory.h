@@ -112,6 +112,11 @@ class ContactMemory {
     bool is_taken = false;  ///< the point is there at the end of the step
   };
 
+  /// Places of known points, without `last`.
+  struct Range {
+    std::size_t first = 0, last = 0;
+  };
+
   /// The points of the present try: in the order of held_.
   [[nodiscard]] const std::vector<Known>& trial() const noexcept {
     return tries_learned_ ? learned_ : known_;
@@ -124,7 +129,13 @@ class ContactMemory {
   static void limit(Force& force, double most) noexcept;
   void describe(const ContactPoint& point, const States& after, double h,
                 Known& known) const noexcept;
-  [[nodiscard]] int findNearest(const ContactPoint& point, double h) noexcept;
+  [[nodiscard]] Range findPair(const RigidContact& contact) const noexcept;
+  [[nodiscard]] double squareOff(const ContactPoint& point, std::size_t place,
+                                 double h) const noexcept;
+  [[nodiscard]] bool isFree(std::size_t place, const ContactPoint& point) const noexcept;
+  [[nodiscard]] bool matchExpected(ContactPoint& point, double h) noexcept;
+  void matchNearest(ContactPoint* first, ContactPoint* last, double h) noexcept;
+  void take(ContactPoint& point, std::size_t place, double h) noexcept;
 
   std::vector<Known> known_;    ///< after the last step
   std::vector<Known> learned_;  ///< in a try of the next one itself
