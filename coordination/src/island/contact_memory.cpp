@@ -83,12 +83,19 @@ PlainVec followNormal(const PlainVec& seen_W, const Velocity& of_a, const Veloci
 }  // namespace
 
 ContactMemory::ContactMemory(std::size_t capacity) {
-  for (std::vector<Known>* list : {&known_, &learned_, &next_known_}) list->reserve(capacity);
+  for (std::vector<Known>* list : {&known_, &learned_, &next_known_, &marked_})
+    list->reserve(capacity);
   held_.reserve(capacity);
 }
 
 void ContactMemory::forget() noexcept {
   known_.clear();
+  tries_learned_ = false;
+  held_.clear();
+}
+
+void ContactMemory::goBack() noexcept {
+  known_ = marked_;
   tries_learned_ = false;
   held_.clear();
 }

@@ -39,6 +39,9 @@ class ContactMemory {
   explicit ContactMemory(std::size_t capacity);
 
   void forget() noexcept;
+  /// Notes what is known before an advance, which may have to begin anew.
+  void mark() noexcept { marked_ = known_; }
+  void goBack() noexcept;
   void shiftOrigin(const Vec3& offset_W) noexcept;
   /// True if nothing is known, and nothing was held in the present try.
   [[nodiscard]] bool isEmpty() const noexcept { return known_.empty() && trial().empty(); }
@@ -140,6 +143,7 @@ class ContactMemory {
   std::vector<Known> known_;    ///< after the last step
   std::vector<Known> learned_;  ///< in a try of the next one itself
   std::vector<Known> next_known_;
+  std::vector<Known> marked_;  ///< before the present advance
   bool tries_learned_ = false;
   std::vector<Held> held_;  ///< in the present try
   std::size_t next_ = 0;    ///< place after the last match

@@ -23,6 +23,7 @@ class JointMemory {
   explicit JointMemory(std::size_t max_joints) {
     known_.reserve(max_joints);
     trial_.reserve(max_joints);
+    marked_.reserve(max_joints);
   }
 
   void forget() noexcept {
@@ -37,8 +38,10 @@ class JointMemory {
       known_[i] = {};
       known_[i].id = joints[i].id;
     }
-    trial_ = known_;
+    trial_ = marked_ = known_;
   }
+  /// The advance begins anew: what it has seen has not been.
+  void goBack() noexcept { trial_ = known_ = marked_; }
 
   /// Mode of a row in the present try.
   [[nodiscard]] JointMode mode(std::size_t joint, const JointRow& row) const noexcept {
@@ -69,6 +72,7 @@ class JointMemory {
     std::array<bool, kMostJointRows> is_known = {};
   };
   std::vector<Modes> known_, trial_;
+  std::vector<Modes> marked_;  ///< before the present advance
 };
 
 }  // namespace tandem

@@ -51,7 +51,8 @@ RigidStep::RigidStep(std::size_t body_count, std::size_t contact_capacity, std::
       memory_(contact_capacity),
       solver_(body_count, contact_capacity, max_joints * kMostHolds),
       allowance_(contact_capacity),
-      allowance_before_(contact_capacity) {
+      allowance_before_(contact_capacity),
+      allowance_marked_(contact_capacity) {
   contacts_.reserve(contact_capacity);
   points_.reserve(contact_capacity);
   gaps_.reserve(contact_capacity);

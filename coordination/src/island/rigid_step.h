@@ -39,6 +39,16 @@ class RigidStep {
   RigidStep(std::size_t body_count, std::size_t contact_capacity, std::size_t max_joints,
             JointForces& joints);
 
+  /// Notes what is known before an advance.
+  void mark() noexcept {
+    memory_.mark();
+    allowance_marked_ = allowance_;
+  }
+  /// The advance begins anew: what it has seen has not been.
+  void goBack() noexcept {
+    memory_.goBack();
+    allowance_ = allowance_marked_;
+  }
   /// Begins an advance of one step or several: its work is bounded.
   void startAdvance() noexcept { solver_.startAdvance(); }
   /// False once that work is done: steps are taken as they are.
@@ -130,7 +140,7 @@ class RigidStep {
   ContactGroups groups_;
   ContactMemory memory_;
   ContactSolver solver_;
-  OverlapAllowance allowance_, allowance_before_;
+  OverlapAllowance allowance_, allowance_before_, allowance_marked_;
   bool knows_ = false;  ///< something of a last step
   bool is_done_ = true;
   bool is_let_go_ = false;  ///< what was held threw a body: this step holds nothing

@@ -136,6 +136,7 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
   for (const BodyIndex b : model.present) states_[b] = model.bodies[b].state;
   findLoners(model, dt, counters);
   if (!is_aside_) tally_.startAdvance();
+  rigid_step_.mark();
 
   if (any(together_)) {
     joints_.choose(model, together_);
@@ -146,6 +147,8 @@ bool SpatialMotion::advance(IslandModel& model, double dt, IslandCounters& count
   if (mustRepeat(model, dt)) {
     ++counters.repeated;
     if (!is_aside_) tally_.startAdvance();
+    rigid_step_.goBack();
+    joints_.memory().goBack();
     double way = 0.0;
     for (const BodyIndex b : model.present)
       way = std::max(way, (states_[b].p_W - model.bodies[b].state.p_W).norm());
