@@ -108,6 +108,26 @@ TEST(HardContact, ATinyCubeTumblesAndGainsNoEnergy) {
   }
 }
 
+// As a body that stands in a float's host, or that Bullet left in its own tolerance, and that gets
+// a velocity: the step of its impact was not shortened, and it sank by all of its way.
+TEST(HardContact, AFastBodyThatOverlapsALittleSinksNoFarther) {
+  const Vec3 half = Vec3::Constant(0.02);
+  for (const double overlap : {0.0, 5e-9, 3e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3})
+    for (const double speed : {0.01, 1.0, 10.0}) {
+      BoxScene scene;
+      RigidState start = placeAbove(half, Quat::Identity(), -overlap);
+      start.v_W = Vec3(0.3, 0.0, -speed);
+      scene.add(half, 0.2, start);
+      scene.prepare();
+      for (int i = 0; i < 20; ++i) {
+        scene.advance();
+        const double depth = half.z() - scene.island.state(0).p_W.z();
+        ASSERT_LT(depth, overlap + 2e-8) << overlap << " m, " << speed << " m/s, tick " << i;
+      }
+      EXPECT_LE(scene.most_steps, 16U) << overlap << " m, " << speed << " m/s";
+    }
+}
+
 // Each impact of a rocking block takes the same share of its energy (Housner 1963):
 // w+ / w- = 1 - 3/2 sin^2 a, tan a = width / height.
 TEST(HardContact, ARockingBlockLosesHousnersShare) {

@@ -17,6 +17,7 @@ struct ContactPoint {
   double at_start = 0.0;   ///< its distance at the start of the step, about [m]
   double opening = 0.0;    ///< speed at which it opens at the start of the step [m/s]
   bool stood = false;      ///< its bodies did not move beside each other at that time
+  bool have_met = false;   ///< its bodies touched in the last step
   bool is_impact = false;  ///< it closes at the end of the step: its impulse takes no time
   RigidRow::Mode mode_before = RigidRow::Mode::kUnknown;  ///< in the last step
   int known = -1;                ///< index in ContactMemory of the point of the last step; -1: new

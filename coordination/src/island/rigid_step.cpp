@@ -159,6 +159,9 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
   const auto velocityBefore = [&](BodyIndex body, const Vec3& arm) {
     return body == kStanding ? Vec3::Zero() : Vec3(before[body].v_W + before[body].w_W.cross(arm));
   };
+  const auto wayOf = [&](BodyIndex body, const Vec3& arm) {
+    return body == kStanding ? PlainVec() : mover(body).wayOf(PlainVec(arm));
+  };
   points_.clear();
   allowance_.begin();
   for (const RigidContact& contact : contacts_) {
@@ -181,7 +184,8 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
         velocityBefore(contact.a, arm_a) - velocityBefore(contact.b, arm_b) - contact.v_W;
     point.opening = contact.n_W.dot(before_W);
     point.stood = before_W.squaredNorm() < kStandSpeed * kStandSpeed;
-    point.at_start = contact.distance - 0.5 * h * (point.opening + point.row.normalVelocity());
+    const PlainVec way = wayOf(contact.a, arm_a) - wayOf(contact.b, arm_b);
+    point.at_start = contact.distance - dot(PlainVec(contact.n_W), way - h * PlainVec(contact.v_W));
     allowance_.look(contact, point.at_start);
   }
   allowance_.end();
@@ -205,12 +209,11 @@ void RigidStep::guessOpenPoints() noexcept {
     const auto end = std::find_if(first, points_.end(), [&](const ContactPoint& point) {
       return !areOfOnePair(point.contact, first->contact);
     });
-    if (std::any_of(first, end, isKnown)) {
-      for (auto point = first; point != end; ++point) {
-        const bool touched =
-            std::abs(point->at_start) < kSmallGap && point->opening > -kImpactSpeed;
-        if (!isKnown(*point) && touched) point->row.mode = RigidRow::Mode::kOpen;
-      }
+    const bool have_met = std::any_of(first, end, isKnown);
+    for (auto point = first; point != end; ++point) {
+      point->have_met = have_met;
+      const bool touched = std::abs(point->at_start) < kSmallGap && point->opening > -kImpactSpeed;
+      if (have_met && !isKnown(*point) && touched) point->row.mode = RigidRow::Mode::kOpen;
     }
     first = end;
   }
@@ -251,13 +254,14 @@ double RigidStep::findImpacts(double h) noexcept {
   };
   for (ContactPoint& point : points_) {
     if (!strikes(point)) continue;
-    const double time = (point.row.distance + kImpactOverlap) / -point.row.normalVelocity();
     point.is_impact = point.row.distance <= kSlop;
     has_struck |= point.is_impact;
-    // Overlap that was there before is no matter of this step.
-    if (point.at_start < -2.0 * kImpactOverlap) continue;
-    earliest = std::min(earliest, time);
-    is_late |= point.row.distance < -2.0 * kImpactOverlap;
+    // Overlap that was there before is no matter of this step. Of two that had not met it gets no
+    // deeper; inner edges of a mesh that is known would stop what slides over it.
+    if (point.have_met && point.at_start < -kRounding) continue;
+    const double depth = point.row.distance - std::min(0.0, point.at_start);
+    earliest = std::min(earliest, (depth + kImpactOverlap) / -point.row.normalVelocity());
+    is_late |= depth < -2.0 * kImpactOverlap;
   }
   // Corners of an edge that differ by rounding strike together: one alone would turn the body.
   if (has_struck)
