@@ -18,6 +18,8 @@ constexpr double kSettled = 1e-9;
 /// Speed at which joints give no force, and acceleration that none gives: those of a whip's end
 /// [m/s, m/s^2].
 constexpr double kMostSpeed = 300.0, kMostAcceleration = 1e6;
+/// Joints take motion away, and so answer a load by no more of it: this share of its square.
+constexpr double kMostOfLoad = 1.5;
 /// Angular speed that stands for a linear one of 1 m/s [rad/s].
 constexpr double kTurnOfWay = 10.0;
 
@@ -344,18 +346,25 @@ void JointForces::fillBlock(const Panel& panel, const Panel& other,
 /// body that cannot yield gives its partner any energy. Then impulses at the end of the step do
 /// what can be done.
 bool JointForces::isBelievable() const noexcept {
+  double load = 0.0, answer = 0.0, fastest = 0.0;
   for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const Mover& mover = movers_[i];
     const RigidState& state = stateOf(bodies_[i]);
     const double speed =
-        std::max(state.v_W.squaredNorm(), movers_[i].radius_squared * state.w_W.squaredNorm());
+        std::max(state.v_W.squaredNorm(), mover.radius_squared * state.w_W.squaredNorm());
     if (!(speed < kMostSpeed * kMostSpeed)) return false;
     Six held = x_[i];
     held.addScaled(-1.0, pushed_[i]);
-    const PlainVec a = movers_[i].roots.linear(held), alpha = movers_[i].roots.angular(held);
-    const double square = std::max(dot(a, a), movers_[i].radius_squared * dot(alpha, alpha));
-    if (!(square < kMostAcceleration * kMostAcceleration)) return false;
+    const PlainVec a = mover.roots.linear(held), alpha = mover.roots.angular(held);
+    const double way = dot(a, a), turn = mover.radius_squared * dot(alpha, alpha);
+    fastest = std::max({fastest, way, turn});
+    const End& end = at_[static_cast<std::size_t>(bodies_[i])];
+    const double mass = 1.0 / model_->bodies[static_cast<std::size_t>(bodies_[i])].inverse_mass;
+    answer += mass * (way + turn);
+    load += mass * (end.a_W.squaredNorm() + mover.radius_squared * end.alpha_W.squaredNorm());
   }
-  return true;
+  if (fastest < kMostAcceleration * kMostAcceleration) return true;
+  return trusts_load_ && answer < kMostOfLoad * load;
 }
 
 /// Writes the rates that are missing into part_; returns the largest.

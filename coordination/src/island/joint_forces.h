@@ -48,6 +48,10 @@ class JointForces {
   [[nodiscard]] End& end(BodyIndex body) noexcept { return at_[static_cast<std::size_t>(body)]; }
   void solve() noexcept;
 
+  /// Whether joints may answer any load. The forces of a jam are no load: joints and contacts would
+  /// answer each other.
+  void trustLoad(bool trusts) noexcept { trusts_load_ = trusts; }
+
   /// Force of a row in the last solve() [N, N m].
   [[nodiscard]] double force(std::size_t joint, const JointRow& row) const noexcept {
     return force_[place(joint, row)];
@@ -125,7 +129,8 @@ class JointForces {
   std::vector<char> is_end_, moved_;
   std::vector<End> at_;        ///< by body
   std::vector<Mover> movers_;  ///< by block row
-  double moment_ = 0.0;        ///< chooseMoment(), once it is needed; below 0: not yet [s]
+  bool trusts_load_ = true;
+  double moment_ = 0.0;  ///< chooseMoment(), once it is needed; below 0: not yet [s]
   std::vector<Panel> panels_;
   std::vector<std::size_t> first_panel_;  ///< by joint of joints_
   std::vector<JointRow> now_, later_;

@@ -62,6 +62,8 @@ class RigidStep {
   /// gets none: in a jam they may be wrong by any factor, and nothing would take that out. Nor does
   /// one in which they threw a body.
   void holdForces(const States& before, double h, bool may_repeat) noexcept;
+  /// True if something of a contact is known.
+  [[nodiscard]] bool knowsContacts() const noexcept { return !memory_.isEmpty(); }
   /// Forces held during this step, by body, in W.
   [[nodiscard]] const std::vector<HeldWrench>& heldForces() const noexcept { return held_; }
 

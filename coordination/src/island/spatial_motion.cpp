@@ -391,6 +391,7 @@ void SpatialMotion::advanceWithRigid(const IslandModel& model, double dt,
       for (const BodyIndex b : model.present) states_[b] = before_rigid_[b];
       const bool may_repeat = tries_left > 0 && rigid_step_.hasWorkLeft();
       rigid_step_.holdForces(states_, h, may_repeat);
+      joints_.trustLoad(!rigid_step_.knowsContacts());
       smooth_.hold(rigid_step_.heldForces());
       const std::uint64_t events_before = counters.events;
       smooth_.advance(states_, h, counters);
