@@ -171,7 +171,6 @@ void EnergyAccount::measureStock() {
         0.5 * body.mass * state.v_W.squaredNorm() + 0.5 * w_B.dot(body.inertia_B.cwiseProduct(w_B));
     if (body.is_rigid)
       stock_.weight -= body.mass * scene_.gravity_W.dot(state.p_W - scene_.origin_W);
-    if (body.is_rigid) fastest_spin_ = std::max(fastest_spin_, state.w_W.norm());
     if (body.is_rigid) force += body.mass * scene_.gravity_W.norm();
     grain = std::max(grain, state.p_W.cwiseAbs().maxCoeff());
   }
@@ -221,6 +220,7 @@ void EnergyAccount::addMotion() {
   flows_.target_motion += dragged;
   flows_.hand += pushed;
   flows_.push_out += shifted;
+  shifted_ += std::abs(shifted);
   lost_ += dragged + pushed + shifted - (stock_.sum() - last_stock_.sum());
   most_lost_ = std::max(most_lost_, lost_);
   if (most_lost_ - lost_ > unaccounted_) {

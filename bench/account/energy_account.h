@@ -93,8 +93,8 @@ class EnergyAccount {
   [[nodiscard]] double peak() const { return peak_; }
   /// Possible error of the hand's work, and of integrator steps across an edge [J].
   [[nodiscard]] double doubt() const { return doubt_; }
-  /// Largest angular velocity of a body in rigid contact [rad/s].
-  [[nodiscard]] double fastestSpin() const { return fastest_spin_; }
+  /// Work of all shifts out of overlap, each without its sign [J].
+  [[nodiscard]] double shifted() const { return shifted_; }
   /// Possible rounding by coordinates [J].
   [[nodiscard]] double rounding() const { return rounding_; }
   /// True while every number has been finite.
@@ -172,7 +172,7 @@ class EnergyAccount {
   double lost_ = 0.0, most_lost_ = 0.0;
   double unaccounted_ = 0.0, unaccounted_time_ = 0.0;
   double peak_ = 0.0, rounding_ = 0.0, doubt_ = 0.0;
-  double fastest_spin_ = 0.0;
+  double shifted_ = 0.0;
   double worst_jump_ = 0.0, worst_jump_time_ = 0.0;
   double host_contact_energy_ = 0.0;
   bool finite_ = true;

@@ -12,9 +12,6 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Largest energy of a closed loop over the energy input; beyond this it explodes.
-constexpr double kMostGrowth = 10.0;
-
 /// Limit of the deviation from the reference, over the largest displacement. A float host rounds
 /// its values.
 constexpr double kMostDeviation = sizeof(btScalar) == sizeof(double) ? 2e-5 : 2e-4;

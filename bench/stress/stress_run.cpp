@@ -13,13 +13,12 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Number of looks and integrator steps after which a case ends early.
-constexpr std::uint64_t kMostWork = 100000;
+/// Number of looks and integrator steps after which a case ends early: half a minute.
+constexpr std::uint64_t kMostWork = 10000000;
 
-/// Part of the energy that rigid contact may add, per angle of the fastest motion in an inner step.
-constexpr double kRigidPart = 0.25;
-/// The inner step is short enough that springs turn at most this far in it [rad].
-constexpr double kMostAngle = 0.18;
+/// Part of the work of shifts by which the account may be off. It cannot tell when in a step a
+/// velocity changed, and what of a way is no motion.
+constexpr double kShiftPart = 0.5;
 
 /// A case being run.
 class StressRun {
@@ -52,11 +51,12 @@ class StressRun {
         total += site->account().stock().sum() + site->deviceEnergy();
         brought += site->handWork();
       }
-      if (paper)
-        paper->compare(tick, displacementOf(0, sites_[0]->tickHandle()),
-                       displacementOf(1, sites_[1]->tickHandle()));
       if (!isScripted() && brought > 0.0)
         outcome.growth = std::max(outcome.growth, total / (brought * (1.0 + heaviestStandIn())));
+      // A loop that has exploded turns rounding into any way.
+      if (paper && outcome.growth <= kMostGrowth)
+        paper->compare(tick, displacementOf(0, sites_[0]->tickHandle()),
+                       displacementOf(1, sites_[1]->tickHandle()));
       outcome.simulated = static_cast<double>(tick + 1) / case_.haptic_rate;
       if (!outcome.finite) break;
       if ((outcome.was_cut = countWork() > kMostWork)) break;
@@ -121,19 +121,10 @@ class StressRun {
     allowed += account.doubt() / account.peak();
     if (case_.kind == StressKind::kJoined) return std::max(allowed, kJoinedTolerance);
     if (case_.kind != StressKind::kRigid && case_.kind != StressKind::kNeighbours) return allowed;
-    // Rigid contact is first order in the inner step.
     if (site.island().counters().rigid_points == 0) return allowed;
-    double fastest = account.fastestSpin();
-    const auto touching = static_cast<double>(case_.users.size() - 1);
-    for (const StressBody& body : case_.bodies) {
-      if (!(body.mass > 0.0)) continue;
-      const CouplerGains& contact = case_.contact;
-      const CouplerGains tie = body.is_shared ? case_.coordination : CouplerGains{};
-      const double stiffness = touching * (contact.stiffness + tie.stiffness);
-      const double damping = touching * (contact.damping + tie.damping);
-      fastest = std::max({fastest, std::sqrt(stiffness / body.mass), damping / body.mass});
-    }
-    allowed += kRigidPart * std::min(kMostAngle, fastest * SiteSettings{}.inner_step);
+    allowed = std::max(allowed, kRigidTolerance) + kShiftPart * account.shifted() / account.peak();
+    // Work in a tick is bounded: then steps are taken as they are.
+    if (site.island().counters().rigid_bounded > 0) allowed = std::max(allowed, kBoundedTolerance);
     return allowed;
   }
 

@@ -11,6 +11,12 @@ namespace tandem::demos::bench {
 inline constexpr double kEnergyTolerance = 1e-6;
 /// The same for bodies in joints.
 inline constexpr double kJoinedTolerance = 1e-4;
+/// The same for rigid contact, which is of second order in steps as long as a haptic period.
+inline constexpr double kRigidTolerance = 2e-4;
+/// The same where a tick had too much rigid contact to solve to the end.
+inline constexpr double kBoundedTolerance = 2e-2;
+/// A closed loop with so many times the energy input explodes.
+inline constexpr double kMostGrowth = 10.0;
 
 /// Outcome of a case. A plain value, so that a worker process can pass it as bytes.
 struct StressOutcome {

@@ -221,6 +221,8 @@ SiteSettings StressSite::makeSettings() const {
   settings.passivity.enabled = false;
   settings.max_slew = std::numeric_limits<double>::infinity();
   settings.max_peer_speed = std::numeric_limits<double>::infinity();
+  // The paper's packets come at their rate whatever moves.
+  settings.thins_when_idle = case_.kind != StressKind::kPaper;
   settings.guide = case_.guide;
   return settings;
 }
