@@ -41,11 +41,15 @@ class RigidStep {
 
   /// Notes what is known before an advance.
   void mark() noexcept {
+    knew_ = knows_;
+    if (!knew_) return;
     memory_.mark();
     allowance_marked_ = allowance_;
   }
   /// The advance begins anew: what it has seen has not been.
   void goBack() noexcept {
+    if (!knew_) return forget();
+    knows_ = true;
     memory_.goBack();
     allowance_ = allowance_marked_;
   }
@@ -144,6 +148,7 @@ class RigidStep {
   ContactSolver solver_;
   OverlapAllowance allowance_, allowance_before_, allowance_marked_;
   bool knows_ = false;  ///< something of a last step
+  bool knew_ = false;   ///< the same at mark()
   bool is_done_ = true;
   bool is_let_go_ = false;  ///< what was held threw a body: this step holds nothing
   int times_learned_ = 0;   ///< tries of this step with forces of its own
