@@ -116,7 +116,7 @@ class DrawnJams : public ::testing::TestWithParam<std::tuple<double, bool>> {};
 TEST_P(DrawnJams, ThrowNothingHarderThanBullet) {
   const auto [rate, is_planar] = GetParam();
   for (const std::uint64_t seed : {4, 13, 18, 48, 51, 54, 58, 136})
-    EXPECT_LT(DrawnJam(seed, is_planar).run(rate), 42.0) << "seed " << seed;
+    EXPECT_LT(DrawnJam(seed, is_planar).run(rate), 25.0) << "seed " << seed;
 }
 
 INSTANTIATE_TEST_SUITE_P(Hosts, DrawnJams,
