@@ -13,7 +13,7 @@
 namespace tandem::demos::bench {
 namespace {
 
-/// Number of looks and integrator steps after which a case ends early: half a minute.
+/// Number of looks and integrator steps after which a case ends early.
 constexpr std::uint64_t kMostWork = 10000000;
 
 /// Part of the work of shifts by which the account may be off. It cannot tell when in a step a
