@@ -212,13 +212,13 @@ bool ContactMemory::matchExpected(ContactPoint& point, double h) noexcept {
 }
 
 /// Matches what is left of the points of a pair: those nearest to each other first.
-void ContactMemory::matchNearest(ContactPoint* first, ContactPoint* last, double h) noexcept {
+void ContactMemory::matchNearest(PointIterator first, PointIterator last, double h) noexcept {
   const Range pair = findPair(first->contact);
   for (;;) {
     ContactPoint* nearest = nullptr;
     double least = kSamePoint * kSamePoint;
     std::size_t place = 0;
-    for (ContactPoint* point = first; point != last; ++point) {
+    for (PointIterator point = first; point != last; ++point) {
       if (point->known >= 0) continue;
       for (std::size_t i = pair.first; i < pair.last; ++i) {
         if (!isFree(i, *point)) continue;
@@ -226,7 +226,7 @@ void ContactMemory::matchNearest(ContactPoint* first, ContactPoint* last, double
         const double off = std::min(squareOff(*point, i, h), stayed);
         if (off >= least) continue;
         least = off;
-        nearest = point;
+        nearest = &*point;
         place = i;
       }
     }
@@ -245,14 +245,7 @@ void ContactMemory::match(std::vector<ContactPoint>& points, double h) noexcept 
   }
   if (are_all_known) return;
   next_ = 0;
-  ContactPoint* const end = points.data() + points.size();
-  for (ContactPoint* first = points.data(); first != end;) {
-    ContactPoint* const last = std::find_if(first, end, [&](const ContactPoint& point) {
-      return !areOfOnePair(point.contact, first->contact);
-    });
-    matchNearest(first, last, h);
-    first = last;
-  }
+  forEachPair(points, [&](auto first, auto last) { matchNearest(first, last, h); });
 }
 
 /// Matches a point with one of the last step.

@@ -28,6 +28,18 @@ struct ContactPoint {
   RigidRow::Local steady_twist;  ///< the same against turning [N m s]
 };
 
+/// Calls `visit(first, last)` for the points of each pair of bodies, or of a body and a surface.
+template <typename Visit>
+void forEachPair(std::vector<ContactPoint>& points, Visit visit) {
+  for (auto first = points.begin(); first != points.end();) {
+    const auto last = std::find_if(first, points.end(), [&](const ContactPoint& point) {
+      return !areOfOnePair(point.contact, first->contact);
+    });
+    visit(first, last);
+    first = last;
+  }
+}
+
 /// Contact points of the last step with their forces, and what they will be in the next.
 ///
 /// A force is expected to go on at its rate of change, and its point and normal to move with the
@@ -116,6 +128,7 @@ class ContactMemory {
     bool is_taken = false;  ///< the point is there at the end of the step
   };
 
+  using PointIterator = std::vector<ContactPoint>::iterator;
   /// Places of known points, without `last`.
   struct Range {
     std::size_t first = 0, last = 0;
@@ -138,7 +151,7 @@ class ContactMemory {
                                  double h) const noexcept;
   [[nodiscard]] bool isFree(std::size_t place, const ContactPoint& point) const noexcept;
   [[nodiscard]] bool matchExpected(ContactPoint& point, double h) noexcept;
-  void matchNearest(ContactPoint* first, ContactPoint* last, double h) noexcept;
+  void matchNearest(PointIterator first, PointIterator last, double h) noexcept;
   void take(ContactPoint& point, std::size_t place, double h) noexcept;
 
   std::vector<Known> known_;    ///< after the last step

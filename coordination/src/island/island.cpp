@@ -27,7 +27,7 @@ void Island::shift(BodyIndex body, const Vec3& offset_W, const Quat& rotation_W)
   RigidState next = model.bodies[body].state;
   Vec3 allowed_W = offset_W;
   if (model.finder && impl_->prepared && model.bodies[body].is_active) {
-    for (std::size_t b = 0; b < impl_->states.size(); ++b) impl_->states[b] = model.bodies[b].state;
+    impl_->readStates();
     allowed_W =
         limitShift(*model.finder, body, offset_W, rotation_W, impl_->states, impl_->touching);
   }
@@ -72,6 +72,7 @@ void Island::applyImpulse(BodyIndex body, const Vec3& impulse_W, const Vec3& ang
 void Island::answerJoints() noexcept {
   IslandModel& model = impl_->model;
   if (!impl_->prepared || !model.joints) return;
+  impl_->readStates();
   impl_->spatial->answerJoints(model, impl_->states);
   for (std::size_t b = 0; b < impl_->states.size(); ++b) {
     RigidState& state = model.bodies[b].state;
@@ -345,7 +346,7 @@ double Island::computeOverlap(BodyIndex body) const noexcept {
   TANDEM_ASSERT(impl_->prepared);
   Impl& impl = *impl_;
   if (impl.slot) return impl.slot->computeOverlap(impl.model, body);
-  for (std::size_t b = 0; b < impl.states.size(); ++b) impl.states[b] = impl.model.bodies[b].state;
+  impl.readStates();
   return tandem::computeOverlap(impl.model, impl.states, body);
 }
 

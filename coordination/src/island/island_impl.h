@@ -44,6 +44,11 @@ struct Island::Impl {
     if (slot) slot->recall(model);
   }
 
+  /// Reads the present states of all bodies into `states`.
+  void readStates() noexcept {
+    for (std::size_t b = 0; b < states.size(); ++b) states[b] = model.bodies[b].state;
+  }
+
   void disturb(BodyIndex body) noexcept {
     asleep = false;
     model.bodies[body].disturbed = true;

@@ -159,9 +159,6 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
   const auto velocityBefore = [&](BodyIndex body, const Vec3& arm) {
     return body == kStanding ? Vec3::Zero() : Vec3(before[body].v_W + before[body].w_W.cross(arm));
   };
-  const auto wayOf = [&](BodyIndex body, const Vec3& arm) {
-    return body == kStanding ? PlainVec() : mover(body).wayOf(PlainVec(arm));
-  };
   points_.clear();
   allowance_.begin();
   for (const RigidContact& contact : contacts_) {
@@ -184,7 +181,7 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
         velocityBefore(contact.a, arm_a) - velocityBefore(contact.b, arm_b) - contact.v_W;
     point.opening = contact.n_W.dot(before_W);
     point.stood = before_W.squaredNorm() < kStandSpeed * kStandSpeed;
-    const PlainVec way = wayOf(contact.a, arm_a) - wayOf(contact.b, arm_b);
+    const PlainVec way = wayOf(contact.a, contact, after) - wayOf(contact.b, contact, after);
     point.at_start = contact.distance - dot(PlainVec(contact.n_W), way - h * PlainVec(contact.v_W));
     allowance_.look(contact, point.at_start);
   }
@@ -202,21 +199,24 @@ void RigidStep::setUp(const IslandModel& model, const States& before, const Stat
   });
 }
 
+/// Way of the point of a body that is at the contact since the start of the step [m].
+PlainVec RigidStep::wayOf(BodyIndex body, const RigidContact& contact,
+                          const States& after) noexcept {
+  if (body == kStanding) return {};
+  return mover(body).wayOf(PlainVec(Vec3(contact.p_W - after[body].p_W)));
+}
+
 /// Points that touched beside others of their pair, and had no force, are likely to have none.
 void RigidStep::guessOpenPoints() noexcept {
   const auto isKnown = [](const ContactPoint& point) { return point.known >= 0; };
-  for (auto first = points_.begin(); first != points_.end();) {
-    const auto end = std::find_if(first, points_.end(), [&](const ContactPoint& point) {
-      return !areOfOnePair(point.contact, first->contact);
-    });
-    const bool have_met = std::any_of(first, end, isKnown);
-    for (auto point = first; point != end; ++point) {
+  forEachPair(points_, [&](auto first, auto last) {
+    const bool have_met = std::any_of(first, last, isKnown);
+    for (auto point = first; point != last; ++point) {
       point->have_met = have_met;
       const bool touched = std::abs(point->at_start) < kSmallGap && point->opening > -kImpactSpeed;
       if (have_met && !isKnown(*point) && touched) point->row.mode = RigidRow::Mode::kOpen;
     }
-    first = end;
-  }
+  });
 }
 
 /// A point that stuck, and belongs to one of its bodies, has slipped by the ways of both.
@@ -229,11 +229,7 @@ void RigidStep::anchor(ContactPoint& point, const States& after, double h) noexc
                               : point.stood && std::abs(point.at_start) < kRounding;
   if (!stuck) return;
   const RigidContact& contact = point.contact;
-  const auto wayOf = [&](BodyIndex body) {
-    if (body == kStanding) return PlainVec();
-    return mover(body).wayOf(PlainVec(Vec3(contact.p_W - after[body].p_W)));
-  };
-  const PlainVec way_a = wayOf(contact.a), way_b = wayOf(contact.b);
+  const PlainVec way_a = wayOf(contact.a, contact, after), way_b = wayOf(contact.b, contact, after);
   row.slip = row.toLocal(way_a - way_b - h * PlainVec(contact.v_W));
   row.is_anchored = true;
   if (!is_known) return;

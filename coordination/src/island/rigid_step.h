@@ -114,6 +114,8 @@ class RigidStep {
              double h) noexcept;
   [[nodiscard]] double distanceOf(const ContactPoint& point) const noexcept;
   [[nodiscard]] double findImpacts(double h) noexcept;
+  [[nodiscard]] PlainVec wayOf(BodyIndex body, const RigidContact& contact,
+                               const States& after) noexcept;
   void guessOpenPoints() noexcept;
   void anchor(ContactPoint& point, const States& after, double h) noexcept;
   void setUpJoints(const IslandModel& model, const States& before, const States& after,

@@ -41,8 +41,8 @@ class SpatialMotion {
   /// Moves the bodies by `dt` [s]. Returns true if all seem at rest now. Real-time safe.
   bool advance(IslandModel& model, double dt, IslandCounters& counters) noexcept;
 
-  /// Joints answer what something outside did to velocities since the last advance. `states`: of
-  /// all bodies, then. Real-time safe.
+  /// Joints answer what something outside did to velocities since the last advance: `states`, of
+  /// all bodies, get theirs. Real-time safe.
   void answerJoints(const IslandModel& model, States& states) noexcept;
 
   /// The model's positions were shifted. Real-time safe.

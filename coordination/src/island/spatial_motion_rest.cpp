@@ -33,7 +33,6 @@ void SpatialMotion::findJoined(const IslandModel& model) noexcept {
 }
 
 void SpatialMotion::answerJoints(const IslandModel& model, States& states) noexcept {
-  for (std::size_t b = 0; b < states.size(); ++b) states[b] = model.bodies[b].state;
   findJoined(model);
   if (!were_joined_pushed_) return;
   for (std::size_t b = 0; b < states.size(); ++b) together_[b] = model.bodies[b].isDynamic();
