@@ -66,6 +66,22 @@ TEST(OwnFilters, ABodyThatIsBackLosesThem) {
   EXPECT_EQ(pair.keeper.body().getNumObjectsWithoutCollision(), 0);
 }
 
+TEST(OwnFilters, AJointKeepsThePairThatItIgnores) {
+  for (const bool lets_touch_before : {false, true}) {
+    Pair pair;
+    btRigidBody& keeper = pair.keeper.body();
+    if (lets_touch_before) keeper.setIgnoreCollisionCheck(&pair.first, false);
+    btPoint2PointConstraint joint(pair.first, keeper, btVector3(0, 0, 0), btVector3(0, 0, 0));
+    pair.rig.world.addConstraint(&joint, true);
+    pair.obstacles.reset();
+    EXPECT_EQ(keeper.getNumObjectsWithoutCollision(), 1) << lets_touch_before;
+    EXPECT_FALSE(keeper.checkCollideWith(&pair.first)) << lets_touch_before;
+    pair.rig.world.removeConstraint(&joint);
+    EXPECT_EQ(keeper.getNumObjectsWithoutCollision(), 0) << lets_touch_before;
+    EXPECT_TRUE(keeper.checkCollideWith(&pair.first)) << lets_touch_before;
+  }
+}
+
 TEST(OwnFilters, AnotherBodyAtTheAddressKeepsThePairThatTheHostIgnores) {
   for (const bool is_noticed_late : {false, true}) {
     Pair pair;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
 #include "bodies/haptic_body.h"
@@ -21,6 +22,26 @@ constexpr std::size_t kMostAway = 64;
 const btCollisionObject& mark() {
   static const btCollisionObject object;
   return object;
+}
+
+/// Entries of the keeper for the other. Reads nothing of that.
+int countEntries(btCollisionObject& keeper, const btCollisionObject* other) {
+  int count = 0;
+  for (int i = 0; i < keeper.getNumObjectsWithoutCollision(); ++i)
+    count += keeper.getObjectWithoutCollision(i) == other ? 1 : 0;
+  return count;
+}
+
+/// Those of joints between the two, which the joints will take away.
+int countEntriesOfJoints(btCollisionObject& keeper, const btCollisionObject* other) {
+  btRigidBody* const body = btRigidBody::upcast(&keeper);
+  if (body == nullptr) return 0;
+  int count = 0;
+  for (int i = 0; i < body->getNumConstraintRefs(); ++i) {
+    const btTypedConstraint& joint = *body->getConstraintRef(i);
+    count += &joint.getRigidBodyA() == other || &joint.getRigidBodyB() == other ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace
@@ -59,6 +80,8 @@ void OwnFilters::remove(btCollisionObject* keeper, btCollisionObject* other) {
   if (findInWorld(host_, keeper) < 0) return noteLate(keeper, other);
   if (countIn(*keeper) == 0) return;  // the host made another object at the address
   keeper->setIgnoreCollisionCheck(&mark(), false);
+  // A host that let the pair touch, and then joined it, has taken ours away.
+  if (countEntries(*keeper, other) <= countEntriesOfJoints(*keeper, other)) return;
   if (findInWorld(host_, other) < 0) {
     keeper->setIgnoreCollisionCheck(other, false);
   } else {
@@ -83,12 +106,7 @@ void OwnFilters::removeLate() {
   });
 }
 
-int OwnFilters::countIn(btCollisionObject& keeper) {
-  int count = 0;
-  for (int i = 0; i < keeper.getNumObjectsWithoutCollision(); ++i)
-    count += keeper.getObjectWithoutCollision(i) == &mark() ? 1 : 0;
-  return count;
-}
+int OwnFilters::countIn(btCollisionObject& keeper) { return countEntries(keeper, &mark()); }
 
 int OwnFilters::countOfHost(btCollisionObject& keeper) {
   return keeper.getNumObjectsWithoutCollision() - 2 * countIn(keeper);
