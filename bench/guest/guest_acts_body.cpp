@@ -32,12 +32,14 @@ void scaleMass(GuestWorld& world, Draw& draw) {
 void pinByReadding(GuestWorld& world, Draw& draw) {
   GuestBody& body = world.drawDynamicBody(draw);
   world.remove(body);
+  world.noteGravityOf(body);
   world.setMass(body, body.rigid->getInvMass() > 0 ? 0.0 : body.mass);
   world.add(body);
 }
 
 void pinInPlace(GuestWorld& world, Draw& draw) {
   GuestBody& body = world.drawDynamicBody(draw);
+  world.noteGravityOf(body);
   world.setMass(body, body.rigid->getInvMass() > 0 ? 0.0 : body.mass);
 }
 

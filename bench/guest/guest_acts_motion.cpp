@@ -116,12 +116,15 @@ void saveKinematic(GuestWorld& world, Draw& draw) {
 }
 
 void setGravity(GuestWorld& world, Draw& draw) {
-  btRigidBody& rigid = pick(world, draw);
-  rigid.setGravity(btVector3(0, 0, static_cast<btScalar>(draw.even(-12.0, 2.0))));
+  GuestBody& body = world.drawDynamicBody(draw);
+  world.noteGravityOf(body);
+  body.rigid->setGravity(btVector3(0, 0, static_cast<btScalar>(draw.even(-12.0, 2.0))));
 }
 
 void flipGravity(GuestWorld& world, Draw& draw) {
-  btRigidBody& rigid = pick(world, draw);
+  GuestBody& body = world.drawDynamicBody(draw);
+  btRigidBody& rigid = *body.rigid;
+  world.noteGravityOf(body);
   rigid.setFlags(rigid.getFlags() ^ BT_DISABLE_WORLD_GRAVITY);
   if (draw.chance(0.5)) rigid.clearGravity();
 }

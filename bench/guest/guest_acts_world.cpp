@@ -11,9 +11,7 @@ namespace {
 void setWorldGravity(GuestWorld& world, Draw& draw) {
   // Never the gravity that it has: the bodies that miss it cannot be known by its value.
   const Vec3 g_W(draw.even(-2.0, 2.0), 0.0, draw.even(-12.0, 0.0));
-  world.world().setGravity(toBullet(g_W));
-  for (const auto& body : world.bodies())
-    body->missed_gravity = body->is_in_world && !body->rigid->isActive();
+  world.setGravity(toBullet(g_W));
 }
 
 void setSolver(GuestWorld& world, Draw& draw) {

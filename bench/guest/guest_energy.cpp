@@ -55,6 +55,15 @@ double energyOf(const GuestWorld& world) {
   return energy;
 }
 
+double energyOnRails(const GuestWorld& world) {
+  double energy = 0.0;
+  for (const auto& body : world.bodies()) {
+    const btVector3& factor = body->rigid->getLinearFactor();
+    if (factor.x() * factor.y() * factor.z() == 0) energy += energyOf(*body);
+  }
+  return energy;
+}
+
 std::size_t findLiveliest(const GuestWorld& world) {
   const auto& bodies = world.bodies();
   std::size_t most = 0;

@@ -13,6 +13,9 @@ namespace tandem::demos::bench {
 [[nodiscard]] bool isBelowAll(const GuestWorld& world, const GuestBody& body);
 /// Energy of motion and weight of all bodies in the arena and of all arms, as the host sees it [J].
 [[nodiscard]] double energyOf(const GuestWorld& world);
+/// The part of bodies that cannot move along some axes. A mover beside one is a wedge, and drives
+/// it at any speed [J].
+[[nodiscard]] double energyOnRails(const GuestWorld& world);
 /// Index of the body with the most energy.
 [[nodiscard]] std::size_t findLiveliest(const GuestWorld& world);
 

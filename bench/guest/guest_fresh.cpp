@@ -34,6 +34,9 @@ std::string compareFreshWorlds(GuestSite& site) {
     twin.bodies()[b]->motion_state.m_graphicsWorldTrans = body.getWorldTransform();
     other.forceActivationState(body.getActivationState());
     other.setDeactivationTime(body.getDeactivationTime());
+    if (!own.bodies()[b]->has_unclear_gravity) continue;
+    body.setGravity(body.getGravity());
+    other.setGravity(body.getGravity());
   }
   for (std::size_t a = 0; a < own.arms().size(); ++a) {
     own.arms()[a]->takeMotion(*own.arms()[a]);

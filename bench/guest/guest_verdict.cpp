@@ -115,12 +115,11 @@ GuestVerdict::GuestVerdict(const GuestCase& one, std::vector<std::unique_ptr<Gue
     : case_(one), sites_(sites), shaken_(one) {
   allowed_ = kLeastEnergy;
   double mass = 0.0;
-  bool has_mover = false;
   for (const GuestPlan& plan : one.bodies) {
     mass += plan.mass;
-    has_mover |= plan.role == GuestRole::kMover || plan.role == GuestRole::kCharacter;
+    has_mover_ |= plan.role == GuestRole::kMover || plan.role == GuestRole::kCharacter;
   }
-  if (has_mover) allowed_ += kMoverEnergy * mass * one.sites;
+  if (has_mover_) allowed_ += kMoverEnergy * mass * one.sites;
   for (const auto& site : sites) {
     allowed_ += energyOf(site->world());
     twins_ += energyOf(site->twin());
@@ -300,15 +299,17 @@ bool GuestVerdict::isArmNearHand(GuestSite& site, double near) const {
 }
 
 std::optional<GuestFinding> GuestVerdict::findEnergy() {
-  double own = 0.0, twins = 0.0, hands = 0.0;
+  double own = 0.0, twins = 0.0, hands = 0.0, rails = 0.0;
   for (const auto& site : sites_) {
     own += energyOf(site->world());
+    if (has_mover_ && !case_.is_planar) rails += energyOnRails(site->world());
     twins += energyOf(site->twin());
     hands += site->device().work();
   }
   allowTwins(twins);
   for (const auto& site : sites_) allowed_ += site->takeGiven();
-  double allowed = kMostGrowth * (allowed_ + hands);
+  rails_ = std::max(rails_, rails);
+  double allowed = kMostGrowth * (allowed_ + hands + rails_);
   if (own > allowed) allowed += kMostGrowth * std::max(0.0, askShaken().mostGained() - gained_);
   share_ = std::max(share_, own / allowed);
   if (own <= allowed) return std::nullopt;

@@ -58,6 +58,8 @@ class GuestVerdict {
   double fastest_ = 1.0;   ///< body or proxy so far [m/s]
   double motors_ = 0.0;    ///< they could do this at the speeds before the frame [J]
   double before_ = 0.0, twins_ = 0.0;
+  double rails_ = 0.0;  ///< the most that movers may have given to bodies on rails [J]
+  bool has_mover_ = false;
   double gained_ = 0.0;  ///< by the twins; part of `allowed_` [J]
   ShakenTwins shaken_;
   std::vector<char> has_felt_;             ///< by site: a hand that feels bodies had one near

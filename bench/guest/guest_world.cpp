@@ -81,6 +81,7 @@ void GuestWorld::make(GuestBody& body) {
 
 void GuestWorld::add(GuestBody& body) {
   if (body.is_in_world) return;
+  body.was_added_anew = steps_ > 0;
   if (body.has_filter) {
     world().addRigidBody(body.rigid, body.group, body.mask);
   } else {
@@ -127,6 +128,20 @@ void GuestWorld::renewPairs(GuestBody& body) {
   if (!body.is_in_world) return;
   world().getBroadphase()->getOverlappingPairCache()->cleanProxyFromPairs(
       body.rigid->getBroadphaseHandle(), world().getDispatcher());
+}
+
+void GuestWorld::setGravity(const btVector3& g_W) {
+  world().setGravity(g_W);
+  gravity_step_ = steps_;
+  for (const auto& body : bodies_) {
+    body->missed_gravity = body->is_in_world && !body->rigid->isActive();
+    body->has_unclear_gravity |= steps_ - body->gravity_step <= 1;
+  }
+}
+
+void GuestWorld::noteGravityOf(GuestBody& body) {
+  body.gravity_step = steps_;
+  body.has_unclear_gravity |= steps_ - gravity_step_ <= 1;
 }
 
 void GuestWorld::step(double time, const std::function<void()>& pending) {

@@ -28,9 +28,12 @@ struct GuestBody {
   bool has_filter = false;  ///< added with group and mask
   bool is_in_world = false;
   bool was_shared = false;
-  bool missed_gravity = false;    ///< it slept when the world's gravity changed last
+  bool missed_gravity = false;       ///< it slept when the world's gravity changed last
+  bool has_unclear_gravity = false;  ///< see GuestWorld::noteGravityOf()
+  bool was_added_anew = false;
   bool was_put_to_sleep = false;  ///< by its host, for ever or until something touches it
   bool may_fall = false;          ///< what was done to it may let it fall through what stands
+  int gravity_step = -10;         ///< in which the host chose a gravity for it
 };
 
 /// A host's world of a case, and what the host does to it. Its twin is another of the same case.
@@ -55,6 +58,12 @@ class GuestWorld {
   /// A body that acts are done to.
   [[nodiscard]] GuestBody& drawBody(Draw& draw);
   [[nodiscard]] GuestBody& drawDynamicBody(Draw& draw);
+
+  /// Sets the gravity of the world.
+  void setGravity(const btVector3& g_W);
+  /// To be called where the host chooses which gravity a body gets. A site that parks the body
+  /// sees both choices at once, if they come within a step: which came last it cannot know.
+  void noteGravityOf(GuestBody& body);
 
   /// Calls stepSimulation() once; movers move first. `pending` is done in the host's own callback
   /// of the first sub-step.
@@ -156,6 +165,7 @@ class GuestWorld {
   std::vector<Saved> saved_;
   const std::function<void()>* pending_ = nullptr;
   int steps_ = 0;
+  int gravity_step_ = -10;  ///< in which the gravity of the world was set
 };
 
 }  // namespace tandem::demos::bench

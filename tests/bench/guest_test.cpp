@@ -56,7 +56,12 @@ TEST(GuestBench, WorldsThatBrokeAreGood) {
       {424243, 3155},     // a body at rest lost a gravity of its own
       {20261130, 2029},   // a torque turned a joined body for a host step as no joint allows
       {31337, 16955},     // the same
-      {424243, 18084}     // the same
+      {424243, 18084},    // the same
+      {888004, 15022},    // a joint lost the pair that it ignores to the end of a site
+      {888004, 5277},     // which gravity came last to a body at rest is not to be known
+      {888004, 13488},    // the same
+      {888004, 7025},     // a body that was added anew has a weight of another rounding
+      {888004, 8777}      // a mover is a wedge to a body that may move along one axis
   };
   for (const auto& [seed, index] : kBroke) {
     const GuestOutcome outcome = runGuestCase(drawGuestCase(seed, index));
