@@ -47,6 +47,13 @@ void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {
   if (is_soft) low = high = least = most = held;
 }
 
+bool JointHold::isAnswered(double slip) const noexcept {
+  if (held < low || held > high) return false;
+  const double u = reach * (speed() - wanted);
+  // At a bound the other sense is allowed.
+  return (held == low || u < slip) && (held == high || u > -slip);
+}
+
 JointMode JointHold::findMode() const noexcept {
   if (is_soft) return JointMode::kIdle;
   switch (row.law) {

@@ -75,6 +75,8 @@ struct JointHold {
     apply(next - impulse);
     impulse = next;
   }
+  /// True if the impulse that the velocities have is the answer, but for `slip` [m/s].
+  [[nodiscard]] bool isAnswered(double slip) const noexcept;
   /// After the ends are set. `force` is that of the smooth motion at the end of the step.
   void setUp(JointMode mode_before, double force, double h) noexcept;
   /// The mode that its impulse tells.

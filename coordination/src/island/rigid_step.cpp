@@ -329,7 +329,9 @@ void RigidStep::solveSteady(double h) noexcept {
   solver_.begin();
   groups_.make(points_, holds_, movers_,
                [](const ContactPoint& point) { return !point.is_impact; });
+  for (JointHold& hold : holds_) hold.steady = hold.held;
   for (const ContactGroups::Group& group : groups_.groups()) {
+    if (isAnswered(group)) continue;
     const bool is_settled = solve(group);
     for (std::size_t i = 0; i < group.row_count; ++i) {
       RigidRow& row = *group.rows[i];

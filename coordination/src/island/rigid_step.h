@@ -125,6 +125,7 @@ class RigidStep {
   void aim(double h) noexcept;
   void takeBackGone(const States& after, double h) noexcept;
   void solveSteady(double h) noexcept;
+  [[nodiscard]] bool isAnswered(const ContactGroups::Group& group) const noexcept;
   [[nodiscard]] double measureChange(const States& after) const noexcept;
   [[nodiscard]] bool hasThrown(const States& after, double h) const noexcept;
   [[nodiscard]] bool hasUnknownForce() const noexcept;

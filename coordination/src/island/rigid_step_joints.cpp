@@ -12,6 +12,8 @@ namespace {
 constexpr double kReached = 1e-9;
 /// Speed along a row that locks, above which the body got a blow [m/s].
 constexpr double kBlow = 1e-6;
+/// Speed and way along a row that may stay [m/s], [m]: far below the errors of smooth motion.
+constexpr double kSlowest = 1e-8, kSamePlace = 1e-12;
 
 }  // namespace
 
@@ -77,6 +79,18 @@ void RigidStep::setUpJoints(const IslandModel& model, const States& before, cons
       hold.at_start = row.way - 0.5 * h * (hold.opening + hold.speed());
     }
   }
+}
+
+/// True if the smooth motion has answered all, as it mostly does where only joints act.
+bool RigidStep::isAnswered(const ContactGroups::Group& group) const noexcept {
+  const auto is_answered = [](const JointHold* hold) {
+    const bool is_at_stop = hold->isLimit() && hold->held > 0.0;
+    const bool has_place = hold->isLocked() || is_at_stop;
+    return hold->isAnswered(kSlowest) &&
+           !(has_place && hold->reach * std::abs(hold->row.way) > kSamePlace);
+  };
+  return group.row_count == 0 &&
+         std::all_of(group.holds, group.holds + group.hold_count, is_answered);
 }
 
 bool RigidStep::haveJointModesChanged() const noexcept {
