@@ -15,6 +15,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr FieldRange kNotNegative{};
 constexpr FieldRange kPositive{0.0, kLargest, true, "a finite number above 0"};
 constexpr FieldRange kPositiveOrInfinite{0.0, kInfinity, true, "above 0; inf: no limit"};
+constexpr FieldRange kRate{0.0, 1e5, true, "above 0 and at most 1e5 Hz"};
+constexpr FieldRange kInnerStep{1e-6, kLargest, false, "at least 1e-6 s"};
+constexpr FieldRange kStall{0.0, 100.0, false, "0 to 100 s"};
+constexpr FieldRange kGain{0.0, 1e9, false, "0 to 1e9"};
+constexpr FieldRange kMass{1e-9, 1e9, false, "1e-9 to 1e9 kg"};
 constexpr FieldRange kPeers{1.0, 64.0, false, "1 to 64"};
 constexpr FieldRange kNeighbours{0.0, 256.0, false, "0 to 256"};
 constexpr FieldRange kBits{-2147483648.0, 2147483647.0, false, "a whole number of 32 bits"};
@@ -49,8 +54,8 @@ std::vector<SiteField> makeFields() {
   return {
       field<&S::peers>("peers", "", "N: each of N copies of a shared object carries m/N", kPeers,
                        kShared),
-      field<&S::haptic_rate>("haptic_rate", "Hz", "device loop", kPositive, kShared),
-      field<&S::packet_rate>("packet_rate", "Hz", "packets per second", kPositive, kShared),
+      field<&S::haptic_rate>("haptic_rate", "Hz", "device loop", kRate, kShared),
+      field<&S::packet_rate>("packet_rate", "Hz", "packets per second", kRate, kShared),
       field<&S::packet_budget>("packet_budget", "bit/s", "sent to all peers together; 0: no limit",
                                kNotNegative, kOwn),
       field<&S::thins_when_idle>("thins_when_idle", "", "fewer packets while nothing moves", kFlag,
@@ -58,19 +63,16 @@ std::vector<SiteField> makeFields() {
       field<&S::host_step>("host_step", "s", "expected first step of the host; 0: learnt from it",
                            kNotNegative, kOwn),
       field<&S::contact, &Gains::stiffness>("contact.stiffness", "N/m",
-                                            "K_vc, of every contact of a device or proxy",
-                                            kNotNegative, kShared),
-      field<&S::contact, &Gains::damping>("contact.damping", "N s/m", "B_vc", kNotNegative,
-                                          kShared),
+                                            "K_vc, of every contact of a device or proxy", kGain,
+                                            kShared),
+      field<&S::contact, &Gains::damping>("contact.damping", "N s/m", "B_vc", kGain, kShared),
       field<&S::coordination, &Gains::stiffness>(
           "coordination.stiffness", "N/m", "K_t, proxies to users and object copies to each other",
-          kNotNegative, kShared),
-      field<&S::coordination, &Gains::damping>("coordination.damping", "N s/m", "B_t", kNotNegative,
+          kGain, kShared),
+      field<&S::coordination, &Gains::damping>("coordination.damping", "N s/m", "B_t", kGain,
                                                kShared),
-      field<&S::proxy, &ProxySettings::mass>("proxy.mass", "kg", "m_h of a proxy", kPositive,
-                                             kShared),
-      field<&S::proxy, &ProxySettings::damping>("proxy.damping", "N s/m", "b_h", kNotNegative,
-                                                kShared),
+      field<&S::proxy, &ProxySettings::mass>("proxy.mass", "kg", "m_h of a proxy", kMass, kShared),
+      field<&S::proxy, &ProxySettings::damping>("proxy.damping", "N s/m", "b_h", kGain, kShared),
       field<&S::proxy, &ProxySettings::radius>("proxy.radius", "m", "of proxies", kPositive,
                                                kShared),
       field<&S::grip, &GripSettings::stiffness>("grip.stiffness", "N/m",
@@ -113,12 +115,12 @@ std::vector<SiteField> makeFields() {
           "with nothing shared, too; 0: the host's simulation stays the same to the bit", kFlag,
           kOwn),
       field<&S::inner_step>("inner_step", "s", "step of the island where motion is not linear",
-                            kPositive, kOwn),
+                            kInnerStep, kOwn),
       field<&S::max_neighbours>("max_neighbours", "",
                                 "bodies of the host that the island may hold at a time",
                                 kNeighbours, kOwn),
-      field<&S::host_stall>("host_stall", "s", "time for which the host may be silent",
-                            kNotNegative, kOwn),
+      field<&S::host_stall>("host_stall", "s", "time for which the host may be silent", kStall,
+                            kOwn),
       field<&S::link_loss, &LinkLossSettings::enabled>(
           "link_loss.enabled", "",
           "a silent peer's gains fade; false: its last state pulls for ever", kFlag, kShared),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "site/peers.h"
 
@@ -10,6 +11,14 @@ namespace {
 
 /// A torque rises and fades between zero and the device's limit within this time [s].
 constexpr double kTorqueRise = 0.02;
+
+/// No hand is faster, nor its wrist [m/s], [rad/s]: a reading that says so is wrong.
+constexpr double kFastestHand = 10.0, kFastestWrist = 100.0;
+
+Vec3 limit(const Vec3& velocity, double most) noexcept {
+  const double square = velocity.squaredNorm();
+  return square > most * most ? Vec3(most / std::sqrt(square) * velocity) : velocity;
+}
 
 /// A device's orientation may have seven digits.
 bool isUsable(const WristState& wrist) noexcept {
@@ -45,11 +54,14 @@ LocalHand::LocalHand(HapticDevice& device, const SiteSettings& settings, Island&
 void LocalHand::read(double now) noexcept {
   sample_ = device_.read(now);
   is_there_ = sample_.valid && isFinite(sample_.hip);
+  if (is_there_) elapsed_ = now - std::exchange(read_at_, now);
+  sample_.hip.v_W = limit(sample_.hip.v_W, kFastestHand);
   hand_ = frame_.toWorld(sample_.hip);
   const bool is_turning = is_there_ && sample_.wrist && isUsable(*sample_.wrist);
   if (is_turning) {
     wrist_ = sample_.wrist;
     wrist_->q_WH.normalize();
+    wrist_->w_W = limit(wrist_->w_W, kFastestWrist);
   } else if (wrist_) {
     wrist_->w_W.setZero();
   }
@@ -91,8 +103,12 @@ void LocalHand::countWork() noexcept {
     *p_before_W_ += way_W;
     return;
   }
-  if (p_before_W_ && force_W_ != Vec3::Zero())
-    energy_.countHand(force_W_, hand_.p_W - *p_before_W_);
+  // A position that leaps is a wrong reading, or ends one: nobody has worked along that way.
+  const double longest = kFastestHand * std::max(period_, elapsed_);
+  if (p_before_W_ && force_W_ != Vec3::Zero()) {
+    const Vec3 way_W = hand_.p_W - *p_before_W_;
+    if (way_W.squaredNorm() <= longest * longest) energy_.countHand(force_W_, way_W);
+  }
   if (wrist_ && torque_W_ != Vec3::Zero()) energy_.countHand(torque_W_, period_ * wrist_->w_W);
   p_before_W_ = hand_.p_W;
   v_before_W_ = v_known_W_;

@@ -91,6 +91,8 @@ class LocalHand {
   Vec3 v_known_W_ = Vec3::Zero();   ///< of the latest usable sample
   Vec3 v_before_W_ = Vec3::Zero();  ///< of the usable sample before it
   std::optional<Vec3> p_before_W_;  ///< the hand one tick ago, if known
+  double read_at_ = 0.0;            ///< time of the latest usable sample [s]
+  double elapsed_ = 0.0;            ///< from the one before it [s]
   Vec3 contact_W_ = Vec3::Zero(), force_W_ = Vec3::Zero(), torque_W_ = Vec3::Zero();
   RestMark contact_rest_;  ///< when the contact force was computed
   bool fades_ = false;

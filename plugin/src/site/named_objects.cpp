@@ -12,7 +12,11 @@ namespace tandem {
 std::vector<ConfigurationItem> describeObjects(const std::vector<std::string>& names) {
   std::vector<ConfigurationItem> items;
   items.reserve(names.size());
-  for (const std::string& name : names) items.push_back({"object." + name, "shared"});
+  for (const std::string& name : names) {
+    if (name.empty())
+      throw std::invalid_argument("an object's name is empty; give it 1 to 57 characters");
+    items.push_back({"object." + name, "shared"});
+  }
   return makeConfiguration(std::move(items));
 }
 

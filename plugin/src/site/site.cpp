@@ -1,8 +1,16 @@
 #include "tandem/plugin/site.h"
 
+#include <cmath>
+
 #include "site/site_impl.h"
 
 namespace tandem {
+namespace {
+
+/// Later times have too few digits left for a period [s].
+constexpr double kLatest = 1e10;
+
+}  // namespace
 
 Site::Site(const SiteSettings& settings, btDiscreteDynamicsWorld& world, HapticDevice& device,
            BulletAbi host)
@@ -25,7 +33,10 @@ std::optional<Grip> Site::grip() const noexcept { return impl_->grips.grip(); }
 void Site::connect(PeerId remote, Link& link, const Vec3& start_W) {
   impl_->connect(remote, link, start_W);
 }
-std::uint32_t Site::tick(double now) noexcept { return impl_->tick(now, kMostMadeUp); }
+std::uint32_t Site::tick(double now) noexcept {
+  const bool is_time = std::abs(now) <= kLatest;
+  return impl_->tick(is_time ? now : impl_->timeline.nextTick(0.0), kMostMadeUp);
+}
 void Site::betweenTicks(const std::function<void()>& work) { impl_->desk.run(work); }
 void Site::record(Recording* recording) noexcept { impl_->log.recording = recording; }
 

@@ -215,7 +215,8 @@ class Site {
   void connect(PeerId remote, Link& link, const Vec3& start_W);
 
   /// Advances one haptic period from `now` [s]; the first call starts the clock. Returns TickStatus
-  /// bits. Real-time safe. Only with TickSource::kCaller.
+  /// bits. Real-time safe. Only with TickSource::kCaller. A time that is not finite, or beyond 1e10
+  /// s, counts as a period after the last tick.
   std::uint32_t tick(double now) noexcept;
 
   /// Runs `work` while no tick runs. It may make any call of this site except set-up. With a
