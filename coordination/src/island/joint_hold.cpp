@@ -42,7 +42,7 @@ void JointHold::setUp(JointMode mode_before, double force, double h) noexcept {
   const bool is_motor = row.law == JointLaw::kMotor;
   low = least = is_motor ? h * row.low : row.law == JointLaw::kLimit ? 0.0 : -HUGE_VAL;
   high = most = is_motor ? h * row.high : HUGE_VAL;
-  held = impulse = h * force;
+  held = impulse = steady = h * force;
   is_soft = isSoft(row, inverse);
   if (is_soft) low = high = least = most = held;
 }

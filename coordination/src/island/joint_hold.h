@@ -23,7 +23,7 @@ struct JointHold {
   bool is_impact = false;          ///< a limit that is reached at the end of the step
   double held = 0.0;               ///< impulse that the velocities have already
   double impulse = 0.0;            ///< total of this step
-  double steady = 0.0;             ///< total without impacts at its end
+  double steady = 0.0;             ///< total without impacts at its end; before: what is held
   double blow = 0.0;               ///< of those impacts
   double wanted = 0.0;             ///< speed; a limit's least
   double low = 0.0, high = 0.0;    ///< bounds of the impulse
@@ -81,6 +81,10 @@ struct JointHold {
   void setUp(JointMode mode_before, double force, double h) noexcept;
   /// The mode that its impulse tells.
   [[nodiscard]] JointMode findMode() const noexcept;
+  /// True if its way is to stay at 0.
+  [[nodiscard]] bool keepsPlace() const noexcept {
+    return row.law != JointLaw::kMotor && findMode() == JointMode::kHolds;
+  }
   /// Between the impulses of the step and those at its end: motors have no part in these.
   void startBlow() noexcept;
   void endBlow() noexcept;

@@ -10,9 +10,9 @@ namespace {
 
 /// Overlap that is tolerated, and gap that counts as contact [m].
 constexpr double kSlop = 1e-9;
-/// Gap of a known point that is closed without a velocity, and gap that need not be closed [m].
-/// Corners differ by rounding: to close each by a velocity would need several at once.
-constexpr double kSmallGap = 2e-6, kClosed = 1e-12;
+/// Gap of a known point that is closed without a velocity [m]. Corners differ by rounding: to close
+/// each by a velocity would need several at once.
+constexpr double kSmallGap = 2e-6;
 /// Gap of a new point that stands, or strikes with another, by rounding: it is closed as a known
 /// one [m].
 constexpr double kRounding = 1e-7;
@@ -329,7 +329,6 @@ void RigidStep::solveSteady(double h) noexcept {
   solver_.begin();
   groups_.make(points_, holds_, movers_,
                [](const ContactPoint& point) { return !point.is_impact; });
-  for (JointHold& hold : holds_) hold.steady = hold.held;
   for (const ContactGroups::Group& group : groups_.groups()) {
     if (isAnswered(group)) continue;
     const bool is_settled = solve(group);
@@ -434,8 +433,7 @@ void RigidStep::closeGaps(const ContactGroups::Group& group, double h) noexcept 
     const JointHold& hold = *group.holds[i];
     const double most = kMaxShiftSpeed * h / hold.reach;
     ways_.push_back(std::clamp(hold.row.way + hold.shifted(), -most, most));
-    if (hold.row.law != JointLaw::kMotor && hold.findMode() == JointMode::kHolds)
-      widest = std::max(widest, hold.reach * std::abs(ways_.back()));
+    if (hold.keepsPlace()) widest = std::max(widest, hold.reach * std::abs(ways_.back()));
   }
   if (widest > kClosed) solver_.repair(gaps_, ways_);
 }

@@ -35,6 +35,9 @@ inline constexpr std::size_t kMaxRigidContacts = 512;
 // clang-format on
 class RigidStep {
  public:
+  /// Gap of a point, or way of a joint's row, that need not be closed [m].
+  static constexpr double kClosed = 1e-12;
+
   /// Allocates.
   RigidStep(std::size_t body_count, std::size_t contact_capacity, std::size_t max_joints,
             JointForces& joints);

@@ -12,8 +12,8 @@ namespace {
 constexpr double kReached = 1e-9;
 /// Speed along a row that locks, above which the body got a blow [m/s].
 constexpr double kBlow = 1e-6;
-/// Speed and way along a row that may stay [m/s], [m]: far below the errors of smooth motion.
-constexpr double kSlowest = 1e-8, kSamePlace = 1e-12;
+/// Speed along a row that may stay [m/s]: far below the errors of smooth motion.
+constexpr double kSlowest = 1e-8;
 
 }  // namespace
 
@@ -84,10 +84,8 @@ void RigidStep::setUpJoints(const IslandModel& model, const States& before, cons
 /// True if the smooth motion has answered all, as it mostly does where only joints act.
 bool RigidStep::isAnswered(const ContactGroups::Group& group) const noexcept {
   const auto is_answered = [](const JointHold* hold) {
-    const bool is_at_stop = hold->isLimit() && hold->held > 0.0;
-    const bool has_place = hold->isLocked() || is_at_stop;
     return hold->isAnswered(kSlowest) &&
-           !(has_place && hold->reach * std::abs(hold->row.way) > kSamePlace);
+           !(hold->keepsPlace() && hold->reach * std::abs(hold->row.way) > kClosed);
   };
   return group.row_count == 0 &&
          std::all_of(group.holds, group.holds + group.hold_count, is_answered);
