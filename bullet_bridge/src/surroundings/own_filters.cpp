@@ -32,7 +32,7 @@ int countEntries(btCollisionObject& keeper, const btCollisionObject* other) {
   return count;
 }
 
-/// Those of joints between the two, which the joints will take away.
+/// Joints between the two have made these entries, and will take them away.
 int countEntriesOfJoints(btCollisionObject& keeper, const btCollisionObject* other) {
   btRigidBody* const body = btRigidBody::upcast(&keeper);
   if (body == nullptr) return 0;
