@@ -39,7 +39,6 @@ void pinByReadding(GuestWorld& world, Draw& draw) {
 
 void pinInPlace(GuestWorld& world, Draw& draw) {
   GuestBody& body = world.drawDynamicBody(draw);
-  world.noteGravityOf(body);
   world.setMass(body, body.rigid->getInvMass() > 0 ? 0.0 : body.mass);
 }
 
