@@ -88,6 +88,7 @@ TEST(NamedObjects, WhatCannotBeIsRefusedAndNothingIsShared) {
   EXPECT_NE(reason({{"a", &user.ball}, {"b", &user.ball}}).find("the same body"),
             std::string::npos);
   EXPECT_NE(reason({{"a", &user.ball}, {"b c", &user.cube}}).find("object.b c"), std::string::npos);
+  EXPECT_NE(reason({{"", &user.ball}}).find("1 to 57 characters"), std::string::npos);
   EXPECT_NE(reason({{"a", &user.ball}, {"b", nullptr}}).find("b has no body"), std::string::npos);
   EXPECT_NE(reason({{"a", &user.ball}, {"b", &fixed}}), "");
   EXPECT_EQ(user.site->objectCount(), 0);

@@ -16,9 +16,9 @@ using test::PartsRig;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-void readAt(PartsRig& rig, const Vec3& p_W, const Vec3& v_W = Vec3::Zero()) {
+void readAt(PartsRig& rig, const Vec3& p_W, const Vec3& v_W = Vec3::Zero(), double now = 0.0) {
   rig.device.sample = {{p_W, v_W}, true};
-  rig.hand.read(0.0);
+  rig.hand.read(now);
 }
 
 /// Renders a contact force, as one tick does.
@@ -82,6 +82,39 @@ TEST(LocalHand, CountsTheWorkOfTheForceAsItWasHeld) {
   EXPECT_NEAR(observer.own(), 5e-3, 1e-15);
 }
 
+// A wrong reading leaps there and back. A hand that was away for a while may be elsewhere.
+TEST(LocalHand, CountsNoWorkOfALeap) {
+  PartsRig rig;
+  const PassivityObserver& observer = rig.hand.energy().observer();
+  readAt(rig, Vec3::Zero());
+  rig.hand.countWork();
+  double now = 0.0;
+  for (const double x : {0.02, 0.0, -1.0, 0.0}) {
+    render(rig, Vec3(-1, 0, 0));
+    readAt(rig, Vec3(x, 0, 0), Vec3::Zero(), now += kPeriod);
+    rig.hand.countWork();
+    EXPECT_EQ(observer.own(), 0.0) << x;
+  }
+  render(rig, Vec3(-1, 0, 0));
+  readAt(rig, Vec3(0.02, 0, 0), Vec3::Zero(), now + 0.1);
+  rig.hand.countWork();
+  EXPECT_NEAR(observer.own(), 0.02, 1e-15);
+}
+
+TEST(LocalHand, IsNeverFasterThanAHand) {
+  for (const double speed : {11.0, 1e3, 1e30, 1e200}) {
+    PartsRig rig;
+    rig.device.limits.is_continuous = true;
+    readAt(rig, Vec3::Zero(), Vec3(0, speed, 0));
+    rig.hand.place();
+    EXPECT_LE(rig.island.state(rig.hand.hip()).v_W.norm(), 10.0 + 1e-12) << speed;
+    EXPECT_LE(rig.hand.pointAt(5e-4, 0.0).v_W.norm(), 10.0 + 1e-12) << speed;
+    rig.device.sample.wrist = WristState{Quat::Identity(), Vec3(0, 0, 10.0 * speed)};
+    rig.hand.read(kPeriod);
+    EXPECT_LE(rig.hand.wrist()->w_W.norm(), 100.0 + 1e-10) << speed;
+  }
+}
+
 // The fading force acts on while the device gives no sample, so its work must count.
 TEST(LocalHand, CountsTheWorkOverAGapAsIfTheHandMovedOn) {
   PartsRig rig;
@@ -108,7 +141,7 @@ TEST(LocalHand, GetsLessForceAsItsEnergyRunsOutWithPeersOrAlone) {
     readAt(rig, Vec3::Zero());
     rig.hand.countWork();
     render(rig, Vec3(1, 0, 0));
-    readAt(rig, Vec3(0.015, 0, 0), Vec3(0.1, 0, 0));
+    readAt(rig, Vec3(0.015, 0, 0), Vec3(0.1, 0, 0), 0.15);
     rig.hand.place();
     rig.hand.countWork();
     rig.hand.render(Vec3(2, 0, 0), Vec3::Zero(), rig.peers, false);

@@ -20,6 +20,9 @@ Vec3 limit(const Vec3& velocity, double most) noexcept {
   return square > most * most ? Vec3(most / std::sqrt(square) * velocity) : velocity;
 }
 
+/// The point with a velocity that a hand can have.
+PointState limit(const PointState& hip) noexcept { return {hip.p_W, limit(hip.v_W, kFastestHand)}; }
+
 /// A device's orientation may have seven digits.
 bool isUsable(const WristState& wrist) noexcept {
   return isFinite(wrist) && std::abs(wrist.q_WH.norm() - 1.0) < 1e-3;
@@ -55,7 +58,7 @@ void LocalHand::read(double now) noexcept {
   sample_ = device_.read(now);
   is_there_ = sample_.valid && isFinite(sample_.hip);
   if (is_there_) elapsed_ = now - std::exchange(read_at_, now);
-  sample_.hip.v_W = limit(sample_.hip.v_W, kFastestHand);
+  sample_.hip = limit(sample_.hip);
   hand_ = frame_.toWorld(sample_.hip);
   const bool is_turning = is_there_ && sample_.wrist && isUsable(*sample_.wrist);
   if (is_turning) {
@@ -103,10 +106,10 @@ void LocalHand::countWork() noexcept {
     *p_before_W_ += way_W;
     return;
   }
-  // A position that leaps is a wrong reading, or ends one: nobody has worked along that way.
-  const double longest = kFastestHand * std::max(period_, elapsed_);
   if (p_before_W_ && force_W_ != Vec3::Zero()) {
     const Vec3 way_W = hand_.p_W - *p_before_W_;
+    // A position that leaps is a wrong reading, or ends one: nobody has worked along that way.
+    const double longest = kFastestHand * std::max(period_, elapsed_);
     if (way_W.squaredNorm() <= longest * longest) energy_.countHand(force_W_, way_W);
   }
   if (wrist_ && torque_W_ != Vec3::Zero()) energy_.countHand(torque_W_, period_ * wrist_->w_W);
@@ -155,7 +158,7 @@ void LocalHand::letGo() noexcept {
 PointState LocalHand::pointAt(double time, double tick_start) noexcept {
   if (time > tick_start && device_.capabilities().is_continuous) {
     const DeviceSample between = device_.read(time);
-    if (between.valid && isFinite(between.hip)) return frame_.toWorld(between.hip);
+    if (between.valid && isFinite(between.hip)) return frame_.toWorld(limit(between.hip));
   }
   return island_.state(hip_).point();
 }
