@@ -35,9 +35,6 @@ inline constexpr std::size_t kMaxRigidContacts = 512;
 // clang-format on
 class RigidStep {
  public:
-  /// Gap of a point, or way of a joint's row, that need not be closed [m].
-  static constexpr double kClosed = 1e-12;
-
   /// Allocates.
   RigidStep(std::size_t body_count, std::size_t contact_capacity, std::size_t max_joints,
             JointForces& joints);
@@ -110,6 +107,14 @@ class RigidStep {
   [[nodiscard]] std::uint64_t factorisations() const noexcept { return solver_.factorisations(); }
 
  private:
+  /// Gap of a point, or way of a joint's row, that need not be closed [m].
+  static constexpr double kClosed = 1e-12;
+  /// Overlap that is tolerated, and gap that counts as contact [m].
+  static constexpr double kSlop = 1e-9;
+  /// Gap of a known point that is closed without a velocity [m]. Corners differ by rounding: to
+  /// close each by a velocity would need several at once.
+  static constexpr double kSmallGap = 2e-6;
+
   [[nodiscard]] RigidMover& mover(BodyIndex body) noexcept {
     return body == kStanding ? standing_ : movers_[static_cast<std::size_t>(body)];
   }
