@@ -18,8 +18,6 @@ constexpr FieldRange kPositiveOrInfinite{0.0, kInfinity, true, "above 0; inf: no
 constexpr FieldRange kRate{0.0, 1e5, true, "above 0 and at most 1e5 Hz"};
 constexpr FieldRange kInnerStep{1e-6, kLargest, false, "at least 1e-6 s"};
 constexpr FieldRange kStall{0.0, 100.0, false, "0 to 100 s"};
-constexpr FieldRange kGain{0.0, 1e9, false, "0 to 1e9"};
-constexpr FieldRange kMass{1e-9, 1e9, false, "1e-9 to 1e9 kg"};
 constexpr FieldRange kPeers{1.0, 64.0, false, "1 to 64"};
 constexpr FieldRange kNeighbours{0.0, 256.0, false, "0 to 256"};
 constexpr FieldRange kBits{-2147483648.0, 2147483647.0, false, "a whole number of 32 bits"};
@@ -63,16 +61,19 @@ std::vector<SiteField> makeFields() {
       field<&S::host_step>("host_step", "s", "expected first step of the host; 0: learnt from it",
                            kNotNegative, kOwn),
       field<&S::contact, &Gains::stiffness>("contact.stiffness", "N/m",
-                                            "K_vc, of every contact of a device or proxy", kGain,
-                                            kShared),
-      field<&S::contact, &Gains::damping>("contact.damping", "N s/m", "B_vc", kGain, kShared),
+                                            "K_vc, of every contact of a device or proxy",
+                                            kNotNegative, kShared),
+      field<&S::contact, &Gains::damping>("contact.damping", "N s/m", "B_vc", kNotNegative,
+                                          kShared),
       field<&S::coordination, &Gains::stiffness>(
           "coordination.stiffness", "N/m", "K_t, proxies to users and object copies to each other",
-          kGain, kShared),
-      field<&S::coordination, &Gains::damping>("coordination.damping", "N s/m", "B_t", kGain,
+          kNotNegative, kShared),
+      field<&S::coordination, &Gains::damping>("coordination.damping", "N s/m", "B_t", kNotNegative,
                                                kShared),
-      field<&S::proxy, &ProxySettings::mass>("proxy.mass", "kg", "m_h of a proxy", kMass, kShared),
-      field<&S::proxy, &ProxySettings::damping>("proxy.damping", "N s/m", "b_h", kGain, kShared),
+      field<&S::proxy, &ProxySettings::mass>("proxy.mass", "kg", "m_h of a proxy", kPositive,
+                                             kShared),
+      field<&S::proxy, &ProxySettings::damping>("proxy.damping", "N s/m", "b_h", kNotNegative,
+                                                kShared),
       field<&S::proxy, &ProxySettings::radius>("proxy.radius", "m", "of proxies", kPositive,
                                                kShared),
       field<&S::grip, &GripSettings::stiffness>("grip.stiffness", "N/m",
